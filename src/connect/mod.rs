@@ -1,0 +1,97 @@
+//! Connection: which pairs of milestones are given to the local planners.
+//!
+//! *Within* a node set and *among* sets are separate choices (TR05-007 §3.1: *"a (possibly
+//! different) user specified set of connection strategies"*). One file per method.
+
+mod component_pairs;
+mod nearest;
+
+methods! {
+    /// Connection within a node set, as a problem file names it.
+    pub enum WithinKind: dyn Within {
+        Nearest(nearest::Nearest),
+    }
+}
+
+methods! {
+    /// Connection among node sets, as a problem file names it.
+    pub enum AmongKind: dyn Among {
+        ComponentPairs(component_pairs::ComponentPairs),
+    }
+}
+
+pub use component_pairs::ComponentPairs;
+pub use nearest::Nearest;
+
+use crate::context::Context;
+use crate::local::Planner;
+use crate::methods::{Complaint, methods};
+use crate::roadmap::{Components, Configs, Edge, Increment, Roadmap};
+use crate::seed::Seed;
+use crate::validity::Scratch;
+use std::sync::Arc;
+
+/// Connection of a set's milestones with one another.
+pub trait Within {
+    /// The edges found among `configs`, in the order in which they were tried.
+    fn connect(
+        &self,
+        cx: &Context,
+        seed: &Seed,
+        configs: &Configs,
+        scratch: &mut Scratch,
+    ) -> Vec<Edge>;
+
+    /// What is wrong with the settings.
+    fn complaint(&self) -> Option<Complaint> {
+        None
+    }
+}
+
+/// Connection of a new increment with what came before it.
+pub trait Among {
+    /// The edges found between the last of the input's increments and everything before it, in
+    /// the order in which they were tried, numbered as in the roadmap after the round.
+    fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge>;
+
+    /// What is wrong with the settings.
+    fn complaint(&self) -> Option<Complaint> {
+        None
+    }
+}
+
+/// An increment with the connected components that its own edges make.
+#[derive(Debug)]
+pub struct Built {
+    /// The increment.
+    pub increment: Arc<Increment>,
+    /// Its components, numbered from 0 as the increment is.
+    pub components: Components,
+}
+
+impl Built {
+    /// Finds the components of an increment.
+    pub fn new(cx: &Context, increment: Arc<Increment>) -> Built {
+        let components = Components::of(&cx.space, &increment.configs, &increment.edges);
+        Built { increment, components }
+    }
+}
+
+/// What a join depends on, all of it frozen: the roadmap at the round's start, and the round's
+/// increments as built, up to and with the one to be joined.
+#[derive(Clone, Debug)]
+pub struct JoinInput {
+    /// The roadmap at the round's start.
+    pub roadmap: Arc<Roadmap>,
+    /// The round's increments; the last is the one to be joined.
+    pub increments: Vec<Arc<Built>>,
+}
+
+/// The planners of a connection that names none.
+fn default_planners() -> Vec<Planner> {
+    vec![Planner::StraightLine]
+}
+
+fn planners_complaint(planners: &[Planner]) -> Option<Complaint> {
+    planners.is_empty().then(|| ("planners", "[]".to_owned(), "at least one local planner"))
+}

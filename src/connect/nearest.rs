@@ -1,0 +1,70 @@
+use super::{Within, default_planners, planners_complaint};
+use crate::context::Context;
+use crate::local::{self, Planner};
+use crate::methods::Complaint;
+use crate::neighbor::k_nearest;
+use crate::roadmap::{Configs, Edge};
+use crate::seed::Seed;
+use crate::validity::Scratch;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// Each milestone with its `neighbors` nearest of the set: TR05-007 §4.1, *"we only attempt to
+/// connect the 10 nearest neighbors"*. The pairs are the union of the directed k-nearest
+/// relations, each once, in ascending order, tried from the lower to the higher id.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields)]
+pub struct Nearest {
+    /// How many neighbours of each milestone.
+    #[serde(default = "default_neighbors")]
+    pub neighbors: u32,
+    /// Local planners, tried in this order until one succeeds.
+    #[serde(default = "default_planners")]
+    pub planners: Vec<Planner>,
+}
+
+fn default_neighbors() -> u32 {
+    10
+}
+
+impl Default for Nearest {
+    fn default() -> Nearest {
+        Nearest { neighbors: default_neighbors(), planners: default_planners() }
+    }
+}
+
+impl Within for Nearest {
+    fn connect(
+        &self,
+        cx: &Context,
+        _seed: &Seed,
+        configs: &Configs,
+        scratch: &mut Scratch,
+    ) -> Vec<Edge> {
+        let count = configs.len() as u32;
+        let mut pairs = BTreeSet::new();
+        for node in 0..count {
+            let others = (0..count).filter(|other| *other != node);
+            let q = configs.get(node as usize);
+            for near in k_nearest(&cx.space, configs, others, q, self.neighbors as usize) {
+                pairs.insert((node.min(near.id), node.max(near.id)));
+            }
+        }
+        let mut edges = Vec::new();
+        for (low, high) in pairs {
+            let ends = (configs.get(low as usize), configs.get(high as usize));
+            if let Some((planner, weight)) = local::connect(cx, &self.planners, ends, 1, scratch) {
+                edges.push(Edge { low, high, planner: planner.tag(), weight });
+            }
+        }
+        edges
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        if self.neighbors == 0 {
+            return Some(("neighbors", "0".to_owned(), "at least 1"));
+        }
+        planners_complaint(&self.planners)
+    }
+}

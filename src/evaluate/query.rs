@@ -1,0 +1,89 @@
+use super::{Evaluator, Verdict};
+use crate::context::Context;
+use crate::local::Planner;
+use crate::methods::Complaint;
+use crate::query::{Attachment, solve};
+use crate::roadmap::Roadmap;
+use crate::seed::Seed;
+use crate::validity::Scratch;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+
+/// The problem's query is solved: TR05-007 §3.2, *"It attempts to connect the start and goal to
+/// the roadmap, and returns successful if they are connected to the same connected component."*
+///
+/// Stricter than the report in one point: the path found must also pass the finer check that
+/// every path passes before it is given out ([`crate::query`]), so that a build never ends with
+/// a query that it cannot answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields)]
+pub struct Query {
+    /// How many nearest nodes start and goal try to connect to.
+    #[serde(default = "default_neighbors")]
+    pub neighbors: u32,
+    /// Local planners, tried in this order until one succeeds.
+    #[serde(default = "default_planners")]
+    pub planners: Vec<Planner>,
+}
+
+fn default_neighbors() -> u32 {
+    10
+}
+
+fn default_planners() -> Vec<Planner> {
+    vec![Planner::StraightLine]
+}
+
+impl Default for Query {
+    fn default() -> Query {
+        Query { neighbors: default_neighbors(), planners: default_planners() }
+    }
+}
+
+impl Query {
+    /// How the two ends are attached to the roadmap.
+    pub fn attachment(&self) -> Attachment {
+        Attachment { neighbors: self.neighbors, planners: self.planners.clone() }
+    }
+}
+
+impl Evaluator for Query {
+    fn name(&self) -> &'static str {
+        "query"
+    }
+
+    fn evaluate(
+        &self,
+        cx: &Context,
+        _seed: &Seed,
+        roadmap: &Roadmap,
+        scratch: &mut Scratch,
+    ) -> Verdict {
+        scratch.take_asked();
+        let query = cx.query.as_ref().expect("a checked problem has the query");
+        let ends = (&query.start[..], &query.goal[..]);
+        let answer = solve(cx, roadmap, ends, &self.attachment(), scratch);
+        let satisfied = answer.path.is_some();
+        Verdict {
+            satisfied,
+            value: f64::from(u8::from(satisfied)),
+            threshold: 1.0,
+            answer: Some(answer),
+            asked: scratch.take_asked(),
+        }
+    }
+
+    fn needs_query(&self) -> bool {
+        true
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        if self.neighbors == 0 {
+            return Some(("neighbors", "0".to_owned(), "at least 1"));
+        }
+        if self.planners.is_empty() {
+            return Some(("planners", "[]".to_owned(), "at least one local planner"));
+        }
+        None
+    }
+}

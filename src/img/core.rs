@@ -1,0 +1,403 @@
+//! The build as a state machine without input or output: events in, commands out.
+
+use super::{Finished, Job, Joined, Outcome, Plan, Setup};
+use crate::evaluate::Verdict;
+use crate::problem::Limits;
+use crate::roadmap::{Digest, Increment};
+use crate::sampler::GaveUp;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A job that was lost this often is taken to be what kills its workers.
+pub const LOSSES_MAX: u32 = 3;
+
+/// What happened.
+#[derive(Clone, Debug)]
+pub enum Event {
+    /// A job was done, for the first time or again.
+    Done(Job, Finished),
+    /// A job was lost with the worker that had it.
+    Lost(Job),
+    /// The build is to end where it is.
+    Cut(Cut),
+}
+
+/// What is to be done, in this order.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// Make the increment at the next place known to the jobs that come.
+    Publish(Arc<Increment>),
+    /// Fold the published increments: the round is complete.
+    Fold(Round),
+    /// Do a job.
+    Submit(Job),
+    /// Note down what the evaluators said of the round folded last.
+    Judge(Judgement),
+    /// The build is over.
+    Stop(Stop),
+}
+
+/// A complete round.
+#[derive(Clone, Debug)]
+pub struct Round {
+    /// Its number, from 0.
+    pub index: u64,
+    /// Its sets in the order of their places.
+    pub sets: Vec<RoundSet>,
+}
+
+/// A set of a complete round.
+#[derive(Clone, Debug)]
+pub struct RoundSet {
+    /// Its place.
+    pub place: u64,
+    /// Index of its strategy.
+    pub strategy: u32,
+    /// Its ordinal within the strategy.
+    pub ordinal: u64,
+    /// What it adds.
+    pub increment: Arc<Increment>,
+    /// How it is joined to what came before.
+    pub joined: Joined,
+}
+
+/// What the evaluators said of the roadmap after a round.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judgement {
+    /// The round.
+    pub round: u64,
+    /// One verdict per evaluator of the problem.
+    pub verdicts: Vec<Verdict>,
+}
+
+impl Judgement {
+    /// Whether all criteria are met; without criteria there is nothing to meet.
+    pub fn satisfied(&self) -> bool {
+        !self.verdicts.is_empty() && self.verdicts.iter().all(|verdict| verdict.satisfied)
+    }
+}
+
+/// Why a build was ended from outside.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Cut {
+    /// The limit on seconds.
+    Time,
+    /// A signal.
+    Interrupted,
+    /// No worker is left and none can be started.
+    WorkersLost(String),
+}
+
+/// Why a build stopped.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// Every evaluator is satisfied.
+    Satisfied,
+    /// As many nodes as asked for.
+    NodeLimit,
+    /// As many sets as asked for.
+    SetLimit,
+    /// A sampler found no milestone.
+    GaveUp {
+        /// The strategy.
+        strategy: u32,
+        /// The set.
+        ordinal: u64,
+        /// How hard it tried.
+        gave_up: GaveUp,
+    },
+    /// A job that killed [`LOSSES_MAX`] workers.
+    Deadly(Job),
+    /// A job that gave two different outcomes: the machine or the program is broken.
+    Contradiction(Job),
+    /// An outcome that the job cannot have, or one that nobody asked for.
+    Nonsense(Job),
+    /// Ended from outside.
+    Cut(Cut),
+}
+
+/// How far a build is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Sets generated, folded or not.
+    pub sets_generated: u64,
+    /// Sets joined, folded or not.
+    pub sets_joined: u64,
+    /// Rounds folded.
+    pub rounds: u64,
+    /// Nodes folded.
+    pub nodes: u64,
+    /// The verdicts on the last judged round.
+    pub verdicts: Vec<Verdict>,
+}
+
+/// The state of a build.
+pub struct Core {
+    plan: Plan,
+    dofs: usize,
+    set_nodes: Vec<u64>,
+    limits: Limits,
+    evaluators: u32,
+    lookahead: u64,
+
+    /// The round to be folded next.
+    round: u64,
+    /// Increments that came before those of smaller places.
+    early: BTreeMap<u64, Result<Increment, GaveUp>>,
+    published: Vec<Arc<Increment>>,
+    joined: BTreeMap<u64, Joined>,
+    /// Verdicts on the round before `round`, while they are awaited.
+    awaited: Option<BTreeMap<u32, Verdict>>,
+    next_generate: u64,
+    /// Nodes of the roadmap after the round of the last place to be generated.
+    nodes_ahead: u64,
+    /// Jobs at work, with how often each was lost.
+    at_work: BTreeMap<Job, u32>,
+    done: BTreeMap<Job, Digest>,
+    progress: Progress,
+    stopped: bool,
+}
+
+impl Core {
+    /// The build of a problem, from the beginning. `lookahead` is how many sets beyond the
+    /// current round may be generated; it changes how well workers are kept busy, never a result.
+    pub fn new(setup: &Setup, lookahead: u64) -> Core {
+        let strategies = &setup.problem.strategies;
+        Core {
+            plan: setup.plan.clone(),
+            dofs: setup.cx.space.len(),
+            set_nodes: strategies.iter().map(|strategy| u64::from(strategy.nodes)).collect(),
+            limits: setup.problem.limits,
+            evaluators: setup.problem.evaluators.len() as u32,
+            lookahead,
+            round: 0,
+            early: BTreeMap::new(),
+            published: Vec::new(),
+            joined: BTreeMap::new(),
+            awaited: None,
+            next_generate: 0,
+            nodes_ahead: 0,
+            at_work: BTreeMap::new(),
+            done: BTreeMap::new(),
+            progress: Progress::default(),
+            stopped: false,
+        }
+    }
+
+    /// The first commands.
+    pub fn start(&mut self) -> Vec<Command> {
+        let mut commands = Vec::new();
+        self.advance(&mut commands);
+        commands
+    }
+
+    /// Takes an event in; the commands that follow from it.
+    pub fn on_event(&mut self, event: Event) -> Vec<Command> {
+        let mut commands = Vec::new();
+        if self.stopped {
+            return commands;
+        }
+        match event {
+            Event::Done(job, finished) => self.done(job, finished, &mut commands),
+            Event::Lost(job) => self.lost(job, &mut commands),
+            Event::Cut(cut) => self.stop(Stop::Cut(cut), &mut commands),
+        }
+        self.advance(&mut commands);
+        commands
+    }
+
+    /// How far the build is.
+    pub fn progress(&self) -> &Progress {
+        &self.progress
+    }
+
+    fn stop(&mut self, stop: Stop, commands: &mut Vec<Command>) {
+        if !self.stopped {
+            self.stopped = true;
+            commands.push(Command::Stop(stop));
+        }
+    }
+
+    fn lost(&mut self, job: Job, commands: &mut Vec<Command>) {
+        if let Some(losses) = self.at_work.get_mut(&job) {
+            *losses += 1;
+            if *losses >= LOSSES_MAX {
+                self.stop(Stop::Deadly(job), commands);
+            } else {
+                commands.push(Command::Submit(job));
+            }
+        }
+    }
+
+    fn done(&mut self, job: Job, finished: Finished, commands: &mut Vec<Command>) {
+        if let Some(digest) = self.done.get(&job) {
+            if *digest != finished.digest {
+                self.stop(Stop::Contradiction(job), commands);
+            }
+            return;
+        }
+        if self.at_work.remove(&job).is_none() || !self.fits(job, &finished.outcome) {
+            self.stop(Stop::Nonsense(job), commands);
+            return;
+        }
+        self.done.insert(job, finished.digest);
+        match (job, finished.outcome) {
+            (Job::Generate { place }, Outcome::Increment(increment)) => {
+                self.progress.sets_generated += 1;
+                self.early.insert(place, increment);
+            }
+            (Job::Join { place }, Outcome::Joined(joined)) => {
+                self.progress.sets_joined += 1;
+                self.joined.insert(place, joined);
+            }
+            (Job::Evaluate { evaluator, .. }, Outcome::Verdict(verdict)) => {
+                if let Some(awaited) = &mut self.awaited {
+                    awaited.insert(evaluator, verdict);
+                }
+            }
+            _ => unreachable!("the outcome fits the job"),
+        }
+    }
+
+    /// Whether an outcome is one that the job could have: workers are other processes.
+    fn fits(&self, job: Job, outcome: &Outcome) -> bool {
+        match (job, outcome) {
+            (Job::Generate { .. }, Outcome::Increment(Err(_))) => true,
+            (Job::Generate { place }, Outcome::Increment(Ok(increment))) => {
+                let nodes = self.set_nodes[self.plan.set_at(place).0 as usize];
+                increment.is_sound(self.dofs) && increment.configs.len() as u64 == nodes
+            }
+            (Job::Join { place }, Outcome::Joined(joined)) => {
+                let offset = (place - self.plan.places_of(self.round).start) as usize;
+                let before = &self.published[..offset.min(self.published.len())];
+                let first = self.progress.nodes
+                    + before.iter().map(|increment| increment.configs.len() as u64).sum::<u64>();
+                let own = self.published.get(offset).map_or(0, |own| own.configs.len() as u64);
+                joined.edges.iter().all(|edge| {
+                    u64::from(edge.low) < first
+                        && (first..first + own).contains(&u64::from(edge.high))
+                        && edge.weight.is_finite()
+                })
+            }
+            (Job::Evaluate { .. }, Outcome::Verdict(_)) => true,
+            _ => false,
+        }
+    }
+
+    /// Everything that can be done now.
+    fn advance(&mut self, commands: &mut Vec<Command>) {
+        while !self.stopped {
+            self.judge(commands);
+            self.publish(commands);
+            if self.stopped || !self.fold(commands) {
+                break;
+            }
+        }
+        if !self.stopped {
+            self.generate(commands);
+        }
+    }
+
+    /// Once all verdicts on the last round are there, decides whether to go on.
+    fn judge(&mut self, commands: &mut Vec<Command>) {
+        let complete = |awaited: &BTreeMap<_, _>| awaited.len() == self.evaluators as usize;
+        let Some(awaited) = self.awaited.take_if(|awaited| complete(awaited)) else { return };
+        let verdicts: Vec<Verdict> = awaited.into_values().collect();
+        let judgement = Judgement { round: self.round - 1, verdicts };
+        self.progress.verdicts = judgement.verdicts.clone();
+        let satisfied = judgement.satisfied();
+        commands.push(Command::Judge(judgement));
+        if satisfied {
+            self.stop(Stop::Satisfied, commands);
+        } else if self.progress.nodes >= self.limits.nodes {
+            self.stop(Stop::NodeLimit, commands);
+        } else if self.current().start >= self.limits.sets {
+            self.stop(Stop::SetLimit, commands);
+        }
+    }
+
+    /// Publishes increments of the current round in order and hands out their joins. This may run
+    /// before the last round is judged: a join depends on folded rounds only.
+    fn publish(&mut self, commands: &mut Vec<Command>) {
+        loop {
+            let place = self.current().start + self.published.len() as u64;
+            if self.stopped || place == self.current().end {
+                return;
+            }
+            match self.early.get(&place) {
+                None => return,
+                Some(Err(gave_up)) => {
+                    // Not before the judgement: it may say that the set was never needed.
+                    if self.awaited.is_none() {
+                        let (strategy, ordinal) = self.plan.set_at(place);
+                        let gave_up = gave_up.clone();
+                        self.stop(Stop::GaveUp { strategy, ordinal, gave_up }, commands);
+                    }
+                    return;
+                }
+                Some(Ok(_)) => {}
+            }
+            if let Some(Ok(increment)) = self.early.remove(&place) {
+                let increment = Arc::new(increment);
+                self.published.push(increment.clone());
+                commands.push(Command::Publish(increment));
+                self.submit(Job::Join { place }, commands);
+            }
+        }
+    }
+
+    /// Folds the current round if it is complete and the one before it judged.
+    fn fold(&mut self, commands: &mut Vec<Command>) -> bool {
+        let places = self.current();
+        let count = (places.end - places.start) as usize;
+        if self.awaited.is_some() || self.published.len() < count || self.joined.len() < count {
+            return false;
+        }
+        let joined = std::mem::take(&mut self.joined).into_values();
+        let mut sets = Vec::with_capacity(count);
+        for (increment, (place, joined)) in self.published.drain(..).zip(places.zip(joined)) {
+            self.progress.nodes += increment.configs.len() as u64;
+            let (strategy, ordinal) = self.plan.set_at(place);
+            sets.push(RoundSet { place, strategy, ordinal, increment, joined });
+        }
+        let round = self.round;
+        commands.push(Command::Fold(Round { index: round, sets }));
+        self.round += 1;
+        self.progress.rounds += 1;
+        self.awaited = Some(BTreeMap::new());
+        for evaluator in 0..self.evaluators {
+            self.submit(Job::Evaluate { round, evaluator }, commands);
+        }
+        true
+    }
+
+    /// Hands out sets up to the lookahead, but none past the round that reaches a limit.
+    fn generate(&mut self, commands: &mut Vec<Command>) {
+        let end = self.current().end + self.lookahead;
+        while self.next_generate < end {
+            let place = self.next_generate;
+            let round = self.plan.places_of(self.plan.round_of(place));
+            let enough = self.nodes_ahead >= self.limits.nodes || place >= self.limits.sets;
+            if place == round.start && enough {
+                return;
+            }
+            if place == round.start {
+                let nodes = |place| self.set_nodes[self.plan.set_at(place).0 as usize];
+                self.nodes_ahead += round.map(nodes).sum::<u64>();
+            }
+            self.next_generate += 1;
+            self.submit(Job::Generate { place }, commands);
+        }
+    }
+
+    fn submit(&mut self, job: Job, commands: &mut Vec<Command>) {
+        let before = self.at_work.insert(job, 0);
+        debug_assert!(before.is_none() && !self.done.contains_key(&job), "{job:?} twice");
+        commands.push(Command::Submit(job));
+    }
+
+    fn current(&self) -> Range<u64> {
+        self.plan.places_of(self.round)
+    }
+}

@@ -1,0 +1,88 @@
+//! Incremental Map Generation (D. Xie, S. Thomas, J.-M. Lien, N. M. Amato, TR05-007): a roadmap
+//! grown from independently seeded node sets until its evaluators are content.
+//!
+//! [`Core`] decides, without any input or output; an [`Executor`] works: [`Serial`], [`Threads`]
+//! (rayon), [`Simulated`] here, worker processes in the coordinator. [`drive`] brings the two
+//! together. Whatever the executor does (reorder, repeat, lose), the roadmap is the same.
+
+mod core;
+mod drive;
+mod job;
+mod plan;
+mod replica;
+mod serial;
+mod simulated;
+mod threads;
+
+pub use self::core::{Command, Core, Cut, Event, Judgement, Progress, Round, RoundSet, Stop};
+pub use drive::{Executor, Observer, drive};
+pub use job::{Finished, Job, Joined, Outcome, Task};
+pub use plan::Plan;
+pub use replica::Replica;
+pub use serial::Serial;
+pub use simulated::{Memo, Simulated};
+pub use threads::Threads;
+
+use crate::context::Context;
+use crate::problem::Problem;
+use crate::roadmap::Roadmap;
+use std::sync::Arc;
+
+/// A problem set up for building.
+pub struct Setup {
+    /// The problem.
+    pub problem: Problem,
+    /// The problem made ready for work.
+    pub cx: Context,
+    /// Which set comes where.
+    pub plan: Plan,
+}
+
+impl Setup {
+    /// Sets a problem up.
+    pub fn new(problem: Problem) -> Setup {
+        let cx = problem.context();
+        let plan = Plan::new(&problem);
+        Setup { problem, cx, plan }
+    }
+}
+
+/// A finished build.
+pub struct Build {
+    /// The roadmap.
+    pub roadmap: Roadmap,
+    /// Why the build stopped.
+    pub stop: Stop,
+    /// What the evaluators said last.
+    pub judgement: Option<Judgement>,
+}
+
+/// Builds a roadmap in this thread. The problem's limit on seconds is left to programs that have
+/// a clock.
+pub fn build(setup: &Arc<Setup>) -> Build {
+    build_with(setup, Serial::new(setup.clone()), 0)
+}
+
+/// Builds a roadmap in `threads` threads of this process: the same roadmap as [`build`].
+pub fn build_in_threads(setup: &Arc<Setup>, threads: usize) -> Build {
+    build_with(setup, Threads::new(setup.clone(), threads), 4 * threads as u64)
+}
+
+/// Builds a roadmap with any executor, up to `lookahead` sets beyond the current round at hand.
+pub fn build_with(setup: &Arc<Setup>, mut executor: impl Executor, lookahead: u64) -> Build {
+    struct Last(Option<Judgement>);
+    impl Observer for Last {
+        type Error = std::convert::Infallible;
+        fn judged(&mut self, judgement: &Judgement) -> Result<(), Self::Error> {
+            self.0 = Some(judgement.clone());
+            Ok(())
+        }
+    }
+    let mut core = Core::new(setup, lookahead);
+    let mut last = Last(None);
+    let stop = match drive(&mut core, &mut executor, &mut last) {
+        Ok(stop) => stop,
+        Err(never) => match never {},
+    };
+    Build { roadmap: executor.into_roadmap(), stop, judgement: last.0 }
+}

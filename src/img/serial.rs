@@ -1,0 +1,51 @@
+use super::{Event, Executor, Finished, Job, Replica, Round, Setup};
+use crate::roadmap::{Increment, Roadmap};
+use crate::validity::Scratch;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Does the jobs one after another in the calling thread, the most urgent first.
+pub struct Serial {
+    setup: Arc<Setup>,
+    replica: Replica,
+    jobs: BTreeSet<Job>,
+    scratch: Scratch,
+}
+
+impl Serial {
+    /// An executor for one build.
+    pub fn new(setup: Arc<Setup>) -> Serial {
+        let replica = Replica::new(&setup);
+        Serial { setup, replica, jobs: BTreeSet::new(), scratch: Scratch::new() }
+    }
+}
+
+impl Executor for Serial {
+    fn publish(&mut self, increment: &Arc<Increment>) {
+        self.replica.publish(&self.setup, increment.clone());
+    }
+
+    fn fold(&mut self, round: &Round) {
+        let joins = round.sets.iter().map(|set| &set.joined.edges[..]);
+        self.replica.fold(&self.setup, joins);
+    }
+
+    fn submit(&mut self, job: Job) {
+        self.jobs.insert(job);
+    }
+
+    fn next(&mut self, _wait: Duration) -> Option<Event> {
+        let job = self.jobs.pop_first()?;
+        let task = self.replica.task(&self.setup, job)?;
+        Some(Event::Done(job, Finished::new(task.run(&self.setup, &mut self.scratch))))
+    }
+
+    fn roadmap(&self) -> &Roadmap {
+        self.replica.roadmap()
+    }
+
+    fn into_roadmap(self) -> Roadmap {
+        Arc::unwrap_or_clone(self.replica.roadmap().clone())
+    }
+}

@@ -1,0 +1,11 @@
+use super::LocalPlanner;
+use crate::context::Context;
+use crate::roadmap::Configs;
+
+/// Straight in the configuration space: every degree of freedom changes at constant speed, angles
+/// and rotations by the shortest turn (Kavraki et al. 1996; TR05-007 §4.1).
+pub(super) struct StraightLine;
+
+impl LocalPlanner for StraightLine {
+    fn turns(&self, _: &Context, _: &[f64], _: &[f64], _: &mut Configs) {}
+}

@@ -1,0 +1,73 @@
+//! The one arithmetic: transcendental functions whose bits do not depend on the machine.
+//!
+//! Everything else in the library uses `+ - * /`, `sqrt`, `floor` and comparisons, which IEEE 754
+//! defines to the last bit. The platform's `sin`, `cos`, … differ between C libraries in the last
+//! bit of up to 14 % of values, so this module, over the `libm` crate, is their only door
+//! (`clippy.toml` forbids the others).
+
+use std::f64::consts::PI;
+
+/// One full turn, in radians.
+pub const TURN: f64 = 2.0 * PI;
+
+/// Sine of an angle in radians.
+pub fn sin(x: f64) -> f64 {
+    libm::sin(x)
+}
+
+/// Cosine of an angle in radians.
+pub fn cos(x: f64) -> f64 {
+    libm::cos(x)
+}
+
+/// Arc cosine in radians, in `[0, π]`; the argument is clamped to `[-1, 1]`.
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x.clamp(-1.0, 1.0))
+}
+
+/// Angle of the vector `(x, y)` in radians, in `[-π, π]`.
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
+/// The same angle in `[-π, π)`.
+pub fn wrap_angle(angle: f64) -> f64 {
+    if (-PI..PI).contains(&angle) {
+        return angle;
+    }
+    let wrapped = angle - TURN * ((angle + PI) / TURN).floor();
+    // The subtraction may round on to the open end.
+    if wrapped >= PI { -PI } else { wrapped }
+}
+
+/// Size of the shortest turn between two angles in `[-π, π)`; symmetric to the bit.
+pub fn angle_between(a: f64, b: f64) -> f64 {
+    let difference = (a - b).abs();
+    if difference > PI {
+        (TURN - difference).max(0.0)
+    } else {
+        difference
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn wrapped_angles_lie_in_range_and_name_the_same_direction(angle in -1e6f64..1e6) {
+            let wrapped = wrap_angle(angle);
+            prop_assert!((-PI..PI).contains(&wrapped));
+            prop_assert!((sin(wrapped) - sin(angle)).abs() < 1e-9);
+            prop_assert!((cos(wrapped) - cos(angle)).abs() < 1e-9);
+        }
+
+        #[test]
+        fn the_angle_between_is_symmetric_to_the_bit(a in -PI..PI, b in -PI..PI) {
+            prop_assert_eq!(angle_between(a, b).to_bits(), angle_between(b, a).to_bits());
+            prop_assert!(angle_between(a, b) <= PI);
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! The pattern by which a problem file chooses among methods.
+
+/// What is wrong with a method's setting: its key, what was found, what is expected.
+pub type Complaint = (&'static str, String, &'static str);
+
+/// An enum whose variants hold the settings of one method each, read straight from a problem file
+/// (`sampler = { uniform = { attempts = 100 } }`, so that a misspelt key is reported at its own
+/// line) and seen through a trait object.
+macro_rules! methods {
+    ($(#[$about:meta])* pub enum $name:ident: dyn $role:ident {
+        $($variant:ident($method:ty),)+
+    }) => {
+        $(#[$about])*
+        #[derive(Clone, Debug, PartialEq)]
+        #[derive(serde::Serialize, serde::Deserialize, bincode::Encode, bincode::Decode)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum $name {
+            $(#[allow(missing_docs)] $variant($method),)+
+        }
+
+        impl $name {
+            /// The method behind its role.
+            pub fn method(&self) -> &dyn $role {
+                match self {
+                    $($name::$variant(method) => method,)+
+                }
+            }
+        }
+    };
+}
+
+pub(crate) use methods;

@@ -1,0 +1,181 @@
+use crate::roadmap::Configs;
+use crate::space::Space;
+
+/// A neighbour of some configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Neighbor {
+    /// Its distance.
+    pub distance: f64,
+    /// Its id.
+    pub id: u32,
+}
+
+/// A pair of configurations near one another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearPair {
+    /// Their distance.
+    pub distance: f64,
+    /// Id of the one from the first set.
+    pub first: u32,
+    /// Id of the one from the second set.
+    pub second: u32,
+}
+
+/// The at most `k` configurations nearest to `q` among `ids`, nearest first, ties by id.
+pub fn k_nearest(
+    space: &Space,
+    configs: &Configs,
+    ids: impl Iterator<Item = u32>,
+    q: &[f64],
+    k: usize,
+) -> Vec<Neighbor> {
+    let mut best: Best<Neighbor> = Best::new(k);
+    for id in ids {
+        if let Some(distance) =
+            space.distance_unless_above(q, configs.get(id as usize), best.bound())
+        {
+            best.offer(Neighbor { distance, id });
+        }
+    }
+    best.items
+}
+
+/// The at most `count` closest pairs of a configuration of `first` and one of `second`, closest
+/// first, ties by the first id, then by the second.
+pub fn closest_pairs(
+    space: &Space,
+    first: (&Configs, &[u32]),
+    second: (&Configs, &[u32]),
+    count: usize,
+) -> Vec<NearPair> {
+    let mut best: Best<NearPair> = Best::new(count);
+    for a in first.1 {
+        let q = first.0.get(*a as usize);
+        for b in second.1 {
+            if let Some(distance) =
+                space.distance_unless_above(q, second.0.get(*b as usize), best.bound())
+            {
+                best.offer(NearPair { distance, first: *a, second: *b });
+            }
+        }
+    }
+    best.items
+}
+
+trait Ranked {
+    fn distance(&self) -> f64;
+    fn rank(&self) -> (u32, u32);
+}
+
+impl Ranked for Neighbor {
+    fn distance(&self) -> f64 {
+        self.distance
+    }
+    fn rank(&self) -> (u32, u32) {
+        (self.id, 0)
+    }
+}
+
+impl Ranked for NearPair {
+    fn distance(&self) -> f64 {
+        self.distance
+    }
+    fn rank(&self) -> (u32, u32) {
+        (self.first, self.second)
+    }
+}
+
+/// The few best of many, sorted.
+struct Best<T> {
+    most: usize,
+    items: Vec<T>,
+}
+
+impl<T: Ranked> Best<T> {
+    fn new(most: usize) -> Best<T> {
+        Best { most, items: Vec::new() }
+    }
+
+    /// Nothing farther than this can still get in.
+    fn bound(&self) -> f64 {
+        match self.items.last() {
+            Some(last) if self.items.len() >= self.most => last.distance(),
+            _ if self.most == 0 => 0.0,
+            _ => f64::INFINITY,
+        }
+    }
+
+    fn offer(&mut self, item: T) {
+        let before = |known: &T| {
+            known.distance().total_cmp(&item.distance()).then(known.rank().cmp(&item.rank())).is_lt()
+        };
+        let place = self.items.partition_point(before);
+        if place < self.most {
+            self.items.truncate(self.most - 1);
+            self.items.insert(place, item);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seed::{Purpose, Seed};
+    use crate::space::{Motion, rigid_space};
+    use proptest::prelude::*;
+
+    /// Random configurations, half of them on a coarse grid so that ties occur.
+    fn configs(motion: Motion, ordinal: u64) -> (Space, Configs) {
+        let space = rigid_space(motion, [0.0; 3], [3.0; 3], 0.5);
+        let mut stream = Seed::of_set(1, "neighbours", ordinal).stream(Purpose::Sampling);
+        let mut configs = Configs::new(space.len());
+        let mut q = vec![0.0; space.len()];
+        for i in 0..80 {
+            space.sample_uniform(&mut stream, &mut q);
+            if i % 2 == 0 {
+                q.iter_mut().for_each(|value| *value = value.round());
+                if space.canonicalize(&mut q).is_err() {
+                    q = configs.get(0).to_vec();
+                }
+            }
+            configs.push(&q);
+        }
+        (space, configs)
+    }
+
+    proptest! {
+        #[test]
+        fn neighbours_are_the_head_of_the_sorted_list(ordinal in any::<u64>(), k in 0usize..20) {
+            for motion in [Motion::Translation2d, Motion::Rigid2d, Motion::Rigid3d] {
+                let (space, configs) = configs(motion, ordinal);
+                let q = configs.get(7);
+                let mut all: Vec<_> = (0..80u32)
+                    .map(|id| Neighbor { distance: space.distance(q, configs.get(id as usize)), id })
+                    .collect();
+                all.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
+                all.truncate(k);
+                // The order in which candidates come must not matter.
+                prop_assert_eq!(&k_nearest(&space, &configs, 0..80, q, k), &all);
+                prop_assert_eq!(&k_nearest(&space, &configs, (0..80).rev(), q, k), &all);
+            }
+        }
+
+        #[test]
+        fn pairs_are_the_head_of_the_sorted_list(ordinal in any::<u64>(), count in 0usize..30) {
+            let (space, configs) = configs(Motion::Rigid3d, ordinal);
+            let (first, second): (Vec<u32>, Vec<u32>) = (0..80).partition(|id| id % 3 == 0);
+            let mut all = Vec::new();
+            for a in &first {
+                for b in &second {
+                    let distance = space.distance(configs.get(*a as usize), configs.get(*b as usize));
+                    all.push(NearPair { distance, first: *a, second: *b });
+                }
+            }
+            all.sort_by(|a, b| {
+                a.distance.total_cmp(&b.distance).then((a.first, a.second).cmp(&(b.first, b.second)))
+            });
+            all.truncate(count);
+            prop_assert_eq!(closest_pairs(&space, (&configs, &first), (&configs, &second), count), all);
+        }
+    }
+}

@@ -1,0 +1,32 @@
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// What is wrong with a problem: where, what was found, what is expected.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProblemError {
+    path: PathBuf,
+    line: Option<usize>,
+    message: String,
+}
+
+impl ProblemError {
+    pub(super) fn file(path: &Path, message: impl Into<String>) -> ProblemError {
+        ProblemError { path: path.to_owned(), line: None, message: message.into() }
+    }
+
+    pub(super) fn line(path: &Path, line: usize, message: impl Into<String>) -> ProblemError {
+        ProblemError { path: path.to_owned(), line: Some(line), message: message.into() }
+    }
+}
+
+impl fmt::Display for ProblemError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.path.display())?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        write!(f, ": {}", self.message)
+    }
+}
+
+impl std::error::Error for ProblemError {}

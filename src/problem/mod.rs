@@ -1,0 +1,140 @@
+//! Problems: what is to be planned and how, read from TOML and checked before any work starts.
+//!
+//! `docs/problems.md` describes the file format.
+
+mod configuration;
+mod describe;
+mod error;
+mod file;
+mod resolve;
+
+pub use configuration::parse_configuration;
+pub use error::ProblemError;
+
+use crate::context::{Context, Ends};
+use crate::evaluate::EvaluatorKind;
+use crate::roadmap::Digest;
+use crate::scene::Body;
+use crate::space::{Motion, Space, rigid_space};
+use crate::strategy::Strategy;
+use crate::validity::{Bounds, RigidValidity};
+use bincode::{Decode, Encode};
+use std::path::Path;
+
+/// The base seed of a problem that names none.
+pub const DEFAULT_SEED: u64 = 1;
+
+/// A checked problem: plain data, complete in itself (meshes included), so that every process that
+/// has its bytes computes the same.
+#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+pub struct Problem {
+    /// Its name: that of its file unless it says otherwise.
+    pub name: String,
+    /// The base seed.
+    pub seed: u64,
+    /// How the robot moves.
+    pub motion: Motion,
+    /// The box that holds it.
+    pub bounds: Bounds,
+    /// The farthest that any robot point moves between two checks of a motion; a length.
+    pub resolution: f64,
+    /// Length that one radian of rotation counts for in the metric.
+    pub rotation_length: f64,
+    /// The robot's bodies in its own frame.
+    pub robot: Vec<Body>,
+    /// The obstacles in the world's frame.
+    pub obstacles: Vec<Body>,
+    /// Start and goal.
+    pub query: Option<Ends>,
+    /// The strategies.
+    pub strategies: Vec<Strategy>,
+    /// Indices of strategies; set by set, over and over.
+    pub schedule: Vec<u32>,
+    /// Sets per round (TR05-007: *k*).
+    pub sets_per_round: u32,
+    /// The criteria that a finished roadmap meets, all of them.
+    pub evaluators: Vec<EvaluatorKind>,
+    /// Bounds on the build.
+    pub limits: Limits,
+    /// What was chosen where the file leaves a choice, for people to read.
+    pub notes: Vec<String>,
+}
+
+/// Bounds on a build. It stops at the end of the first round that reaches one.
+#[derive(Clone, Copy, Debug, PartialEq, Encode, Decode)]
+pub struct Limits {
+    /// Nodes of the roadmap.
+    pub nodes: u64,
+    /// Node sets.
+    pub sets: u64,
+    /// Wall-clock seconds. The only limit under which two runs may end at different rounds.
+    pub seconds: Option<f64>,
+}
+
+impl Problem {
+    /// Reads and checks a problem file. Relative mesh paths start from the file's folder.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place in the file.
+    pub fn load(path: &Path) -> Result<Problem, ProblemError> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| ProblemError::file(path, format!("cannot read the problem: {error}")))?;
+        Problem::parse(path, &text)
+    }
+
+    /// Reads and checks a problem's text as if it stood in the file `path`.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place in the file.
+    pub fn parse(path: &Path, text: &str) -> Result<Problem, ProblemError> {
+        resolve::resolve(path, text)
+    }
+
+    /// The digest of all that determines the entries of a ledger: two problems with the same
+    /// digest grow the same sets and join them in the same way. The name, the criteria and the
+    /// limits do not count.
+    pub fn digest(&self) -> Digest {
+        let determining = (
+            crate::BITS_VERSION,
+            (self.seed, self.motion, self.bounds),
+            (self.resolution, self.rotation_length),
+            (&self.robot, &self.obstacles),
+            (&self.strategies, &self.schedule, self.sets_per_round),
+        );
+        Digest::of(&crate::wire::encode(&determining))
+    }
+
+    /// The configuration space.
+    pub fn space(&self) -> Space {
+        let Bounds { min, max, .. } = self.bounds;
+        rigid_space(self.motion, min, max, self.rotation_length)
+    }
+
+    /// Makes the problem ready for work.
+    pub fn context(&self) -> Context {
+        let space = self.space();
+        let validity = RigidValidity::new(
+            space.clone(),
+            self.motion,
+            self.bounds,
+            self.resolution,
+            &self.robot,
+            &self.obstacles,
+        );
+        Context {
+            space,
+            validity: Box::new(validity),
+            base_seed: self.seed,
+            query: self.query.clone(),
+        }
+    }
+
+    /// What would be built, for people to read: grammar of configurations, scene, strategies,
+    /// criteria and limits, and every choice the program made itself.
+    pub fn describe(&self) -> String {
+        describe::describe(self)
+    }
+}
+
+#[cfg(test)]
+mod tests;

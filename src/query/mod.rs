@@ -1,0 +1,127 @@
+//! Queries: attaching two configurations to a roadmap and finding a path between them.
+
+mod path;
+
+pub use path::Path;
+
+use crate::context::Context;
+use crate::local::{self, Planner};
+use crate::neighbor::k_nearest;
+use crate::roadmap::{Edge, Graph, Roadmap};
+use crate::validity::Scratch;
+use bincode::{Decode, Encode};
+use std::collections::BTreeSet;
+
+/// A path's edges are checked this many times finer than the problem's resolution before it is
+/// given out.
+pub const PATH_REFINEMENT: u32 = 20;
+
+/// How a configuration is attached to a roadmap.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attachment {
+    /// How many nearest nodes are tried.
+    pub neighbors: u32,
+    /// Local planners, tried in this order until one succeeds.
+    pub planners: Vec<Planner>,
+}
+
+/// What a query came to.
+#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+pub struct Answer {
+    /// Nodes that start and goal could be connected to.
+    pub attached: [u32; 2],
+    /// Whether the two reach a common connected component.
+    pub connected: bool,
+    /// A path whose every edge passed the finer check.
+    pub path: Option<Path>,
+    /// Edges that failed the finer check and were left out.
+    pub dropped_edges: u64,
+}
+
+/// Attaches `start` and `goal`, both valid, to the roadmap and looks for a shortest path whose
+/// edges all pass a check at a [`PATH_REFINEMENT`]th of the resolution. Edges that fail it are
+/// left out and the search repeated; the roadmap itself stays as it is.
+pub fn solve(
+    cx: &Context,
+    roadmap: &Roadmap,
+    (start, goal): (&[f64], &[f64]),
+    attachment: &Attachment,
+    scratch: &mut Scratch,
+) -> Answer {
+    let nodes = roadmap.configs().len() as u32;
+    let from_start = attach(cx, roadmap, start, nodes, attachment, scratch);
+    let from_goal = attach(cx, roadmap, goal, nodes + 1, attachment, scratch);
+    let reached = |edges: &[Edge]| -> BTreeSet<u32> {
+        edges.iter().map(|edge| roadmap.components().of_node(edge.low).name).collect()
+    };
+    let mut answer = Answer {
+        attached: [from_start.len() as u32, from_goal.len() as u32],
+        connected: !reached(&from_start).is_disjoint(&reached(&from_goal)),
+        path: None,
+        dropped_edges: 0,
+    };
+    if !answer.connected {
+        return answer;
+    }
+
+    let mut edges = roadmap.edges().to_vec();
+    edges.extend(from_start);
+    edges.extend(from_goal);
+    let config = |node: u32| match node.checked_sub(nodes) {
+        None => roadmap.configs().get(node as usize),
+        Some(0) => start,
+        Some(_) => goal,
+    };
+    let graph = Graph::new(nodes as usize + 2, &edges);
+    let (mut passed, mut failed) = (BTreeSet::new(), BTreeSet::new());
+    while let Some(route) = graph.shortest(nodes, nodes + 1, &failed) {
+        let blocked = route.edges.iter().find(|index| {
+            let edge = &edges[**index as usize];
+            !passed.contains(*index) && {
+                let ends = (config(edge.low), config(edge.high));
+                let planner = Planner::from_tag(edge.planner).into_iter().collect::<Vec<_>>();
+                let free = local::connect(cx, &planner, ends, PATH_REFINEMENT, scratch).is_some();
+                if free {
+                    passed.insert(**index);
+                }
+                !free
+            }
+        });
+        match blocked {
+            Some(index) => {
+                failed.insert(*index);
+            }
+            None => {
+                answer.path = Some(Path::along(cx, &route, &edges, config));
+                break;
+            }
+        }
+    }
+    answer.dropped_edges = failed.len() as u64;
+    answer
+}
+
+/// The edges by which `q`, as node `id`, attaches to its nearest nodes, nearest first. Each is
+/// tried from the node, whose id is lower, to `q`.
+fn attach(
+    cx: &Context,
+    roadmap: &Roadmap,
+    q: &[f64],
+    id: u32,
+    attachment: &Attachment,
+    scratch: &mut Scratch,
+) -> Vec<Edge> {
+    let configs = roadmap.configs();
+    let all = 0..configs.len() as u32;
+    let near = k_nearest(&cx.space, configs, all, q, attachment.neighbors as usize);
+    let mut edges = Vec::new();
+    for neighbor in near {
+        let ends = (configs.get(neighbor.id as usize), q);
+        if let Some((planner, weight)) =
+            local::connect(cx, &attachment.planners, ends, 1, scratch)
+        {
+            edges.push(Edge { low: neighbor.id, high: id, planner: planner.tag(), weight });
+        }
+    }
+    edges
+}

@@ -1,0 +1,162 @@
+use super::Configs;
+use super::centre::CentreSum;
+use crate::space::Space;
+
+/// A connected component.
+#[derive(Clone, Debug)]
+pub struct Component {
+    /// The smallest node id in it: its name.
+    pub name: u32,
+    /// Its nodes, in no particular order.
+    pub members: Vec<u32>,
+    /// The average of its nodes; up to date after every fold.
+    pub centre: Vec<f64>,
+    sum: CentreSum,
+}
+
+/// The connected components of a graph that only grows.
+///
+/// Each node knows its component and each component its nodes; when two unite the smaller one's
+/// nodes are relabelled, which costs O(log n) per node over any number of unions and leaves
+/// look-ups without side effects.
+#[derive(Clone, Debug, Default)]
+pub struct Components {
+    slot_of: Vec<u32>,
+    slots: Vec<Option<Component>>,
+    /// Slots that hold a component, as of the last refresh of the centres.
+    live: Vec<u32>,
+    stale: Vec<u32>,
+    count: usize,
+}
+
+impl Components {
+    /// The components of a graph given whole.
+    pub fn of(space: &Space, configs: &Configs, edges: &[super::Edge]) -> Components {
+        let mut components = Components::default();
+        components.add_nodes(space, configs);
+        for edge in edges {
+            components.unite(edge.low, edge.high);
+        }
+        components.refresh_centres(space, configs);
+        components
+    }
+
+    /// Number of components.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The component of a node.
+    pub fn of_node(&self, node: u32) -> &Component {
+        self.slots[self.slot_of[node as usize] as usize].as_ref().expect("labels are current")
+    }
+
+    /// Whether two nodes are connected.
+    pub fn same(&self, a: u32, b: u32) -> bool {
+        self.slot_of[a as usize] == self.slot_of[b as usize]
+    }
+
+    /// All components, in an order that depends on nothing but the graph's history.
+    pub fn iter(&self) -> impl Iterator<Item = &Component> {
+        self.live.iter().filter_map(|slot| self.slots[*slot as usize].as_ref())
+    }
+
+    /// Appends nodes, each a component of its own.
+    pub(super) fn add_nodes(&mut self, space: &Space, configs: &Configs) {
+        for q in configs.iter() {
+            let node = self.slot_of.len() as u32;
+            let slot = self.slots.len() as u32;
+            self.slot_of.push(slot);
+            self.slots.push(Some(Component {
+                name: node,
+                members: vec![node],
+                centre: Vec::new(),
+                sum: CentreSum::of(space, q),
+            }));
+            self.live.push(slot);
+            self.stale.push(slot);
+            self.count += 1;
+        }
+    }
+
+    /// Unites the components of two nodes.
+    pub(super) fn unite(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.slot_of[a as usize], self.slot_of[b as usize]);
+        if a == b {
+            return;
+        }
+        let size = |slot: u32| self.slots[slot as usize].as_ref().map_or(0, |c| c.members.len());
+        let (kept, gone) = if (size(a), b) >= (size(b), a) { (a, b) } else { (b, a) };
+        let smaller = self.slots[gone as usize].take().expect("labels are current");
+        for node in &smaller.members {
+            self.slot_of[*node as usize] = kept;
+        }
+        let larger = self.slots[kept as usize].as_mut().expect("labels are current");
+        larger.name = larger.name.min(smaller.name);
+        larger.members.extend(smaller.members);
+        larger.sum.add(&smaller.sum);
+        self.stale.push(kept);
+        self.count -= 1;
+    }
+
+    /// Brings the centres of changed components up to date.
+    pub(super) fn refresh_centres(&mut self, space: &Space, configs: &Configs) {
+        self.live.retain(|slot| self.slots[*slot as usize].is_some());
+        self.stale.sort_unstable();
+        self.stale.dedup();
+        for slot in std::mem::take(&mut self.stale) {
+            if let Some(component) = &mut self.slots[slot as usize] {
+                let fallback = configs.get(component.name as usize);
+                component.centre = component.sum.centre(space, fallback);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::roadmap::Edge;
+    use crate::space::{Motion, rigid_space};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn components_agree_with_reachability(
+            edges in proptest::collection::vec((0u32..30, 0u32..30), 0..40),
+        ) {
+            let space = rigid_space(Motion::Translation2d, [0.0; 3], [30.0; 3], 0.0);
+            let mut configs = Configs::new(2);
+            for i in 0..30 {
+                configs.push(&[f64::from(i), 0.0]);
+            }
+            let edges: Vec<Edge> = edges
+                .into_iter()
+                .filter(|(a, b)| a < b)
+                .map(|(low, high)| Edge { low, high, planner: 0, weight: 1.0 })
+                .collect();
+            let components = Components::of(&space, &configs, &edges);
+
+            let mut label: Vec<u32> = (0..30).collect();
+            for _ in 0..30 {
+                for edge in &edges {
+                    let least = label[edge.low as usize].min(label[edge.high as usize]);
+                    label[edge.low as usize] = least;
+                    label[edge.high as usize] = least;
+                }
+            }
+            for node in 0..30u32 {
+                let component = components.of_node(node);
+                prop_assert_eq!(component.name, label[node as usize]);
+                prop_assert!(component.members.contains(&node));
+                let mean = component.members.iter().map(|m| f64::from(*m)).sum::<f64>()
+                    / component.members.len() as f64;
+                prop_assert!((component.centre[0] - mean).abs() < 1e-9);
+            }
+            label.sort_unstable();
+            label.dedup();
+            prop_assert_eq!(components.count(), label.len());
+            prop_assert_eq!(components.iter().count(), label.len());
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! Bodies: shapes with poses, and the files that meshes come from.
+//!
+//! Lengths are in the scene's own unit, whatever it is; nothing in roadmill converts units.
+//! Rotations are unit quaternions `w x y z`; a pose maps body coordinates to the frame it is
+//! given in: `p ↦ rotation · p + translation`.
+
+mod mesh;
+mod obj;
+mod pose;
+mod shape;
+mod stl;
+
+pub use mesh::{Mesh, MeshError, read_mesh};
+pub use pose::Pose;
+pub use shape::Shape;
+
+use bincode::{Decode, Encode};
+
+/// A shape at a pose: an obstacle in the world's frame, or a part of the robot in the robot's.
+#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+pub struct Body {
+    /// The shape in its own frame.
+    pub shape: Shape,
+    /// Where it stands.
+    pub pose: Pose,
+    /// Whether its inside is material too. Primitives always are; a mesh may be a mere surface.
+    pub solid: bool,
+}

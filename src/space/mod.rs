@@ -1,0 +1,222 @@
+//! Configuration spaces: what the numbers of a configuration mean, how far apart two
+//! configurations are and what lies between them.
+//!
+//! Every robot's space is a product of three kinds of [`Part`]: real intervals, wrapped angles
+//! and rotations in 3D (unit quaternions). A configuration is a flat slice of `f64`, one value
+//! per degree of freedom in the order of [`Space::dofs`]; a quaternion takes four values,
+//! `w x y z`.
+
+mod quaternion;
+mod rigid;
+
+pub use quaternion::{canonical, slerp, uniform_rotation};
+pub use rigid::{Motion, rigid_space};
+
+use crate::math;
+use crate::seed::Stream;
+
+/// One factor of the product.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PartKind {
+    /// A real number in an interval, in the scene's length unit.
+    Real {
+        /// Least value.
+        min: f64,
+        /// Largest value.
+        max: f64,
+    },
+    /// An angle in radians, in `[-π, π)`, that wraps.
+    Angle,
+    /// A rotation in 3D: a unit quaternion `w x y z` whose first non-zero value is positive.
+    Rotation,
+}
+
+/// A factor of the product with its place and its weight in the metric.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    /// What the values are.
+    pub kind: PartKind,
+    /// Index of the first value in a configuration.
+    pub at: usize,
+    /// Metric length per unit of the part: 1 for lengths, length per radian for rotations.
+    pub weight: f64,
+}
+
+/// A degree of freedom as people read it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Dof {
+    /// Name, as in the header of a path: `x`, `qw`, …
+    pub name: String,
+    /// Unit: `length`, `rad`, or `1` for the values of a quaternion.
+    pub unit: &'static str,
+}
+
+/// A configuration space.
+#[derive(Clone, Debug)]
+pub struct Space {
+    parts: Vec<Part>,
+    dofs: Vec<Dof>,
+}
+
+/// Relative margin of every pruning bound on distances; rounding errors are a thousand times smaller.
+const PRUNING_MARGIN: f64 = 1e-12;
+
+impl Space {
+    /// The product of `parts`, described by `dofs`.
+    ///
+    /// # Panics
+    /// If the parts do not cover the degrees of freedom in order.
+    pub fn new(parts: Vec<Part>, dofs: Vec<Dof>) -> Space {
+        let mut next = 0;
+        for part in &parts {
+            assert_eq!(part.at, next, "parts follow one another");
+            next += if part.kind == PartKind::Rotation { 4 } else { 1 };
+        }
+        assert_eq!(next, dofs.len(), "every value has a name");
+        Space { parts, dofs }
+    }
+
+    /// The degrees of freedom, one per value of a configuration.
+    pub fn dofs(&self) -> &[Dof] {
+        &self.dofs
+    }
+
+    /// The factors of the product.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Number of values of a configuration.
+    pub fn len(&self) -> usize {
+        self.dofs.len()
+    }
+
+    /// Whether configurations have no values.
+    pub fn is_empty(&self) -> bool {
+        self.dofs.is_empty()
+    }
+
+    /// Draws a configuration uniformly: reals in their intervals, angles on the circle, rotations
+    /// on SO(3) by the Haar measure. `out` has [`Space::len`] values.
+    pub fn sample_uniform(&self, stream: &mut Stream, out: &mut [f64]) {
+        for part in &self.parts {
+            match part.kind {
+                PartKind::Real { min, max } => out[part.at] = stream.between(min, max),
+                PartKind::Angle => {
+                    out[part.at] =
+                        math::wrap_angle(stream.between(-std::f64::consts::PI, std::f64::consts::PI));
+                }
+                PartKind::Rotation => {
+                    out[part.at..part.at + 4].copy_from_slice(&uniform_rotation(stream));
+                }
+            }
+        }
+    }
+
+    /// Whether every real value lies in its interval.
+    pub fn within_bounds(&self, q: &[f64]) -> bool {
+        self.parts.iter().all(|part| match part.kind {
+            PartKind::Real { min, max } => (min..=max).contains(&q[part.at]),
+            PartKind::Angle | PartKind::Rotation => true,
+        })
+    }
+
+    /// Brings a configuration into the form that is stored: angles in `[-π, π)`, quaternions of
+    /// unit length with their first non-zero value positive, no negative zero.
+    ///
+    /// # Errors
+    /// Says which value is not finite or which quaternion is zero.
+    pub fn canonicalize(&self, q: &mut [f64]) -> Result<(), String> {
+        for (value, dof) in q.iter().zip(&self.dofs) {
+            if !value.is_finite() {
+                return Err(format!("the value of {} is {value}, not a finite number", dof.name));
+            }
+        }
+        for part in &self.parts {
+            match part.kind {
+                PartKind::Real { .. } => {}
+                PartKind::Angle => q[part.at] = math::wrap_angle(q[part.at]),
+                PartKind::Rotation => {
+                    let quaternion = [q[part.at], q[part.at + 1], q[part.at + 2], q[part.at + 3]];
+                    let quaternion = canonical(quaternion).ok_or_else(|| {
+                        format!("the quaternion (w x y z) = {quaternion:?} has no direction")
+                    })?;
+                    q[part.at..part.at + 4].copy_from_slice(&quaternion);
+                }
+            }
+        }
+        for value in q.iter_mut() {
+            *value += 0.0; // −0 becomes 0
+        }
+        Ok(())
+    }
+
+    /// Distance of two configurations in the scene's length unit: the square root of the weighted
+    /// sum of squares over the parts. Angles count by their shortest turn, rotations by the angle
+    /// of the rotation between them (in `[0, π]`). Symmetric to the bit.
+    pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        for part in &self.parts {
+            let difference = match part.kind {
+                PartKind::Real { .. } => a[part.at] - b[part.at],
+                PartKind::Angle => math::angle_between(a[part.at], b[part.at]),
+                PartKind::Rotation => 2.0 * math::acos(dot(a, b, part.at).abs()),
+            } * part.weight;
+            sum += difference * difference;
+        }
+        sum.sqrt()
+    }
+
+    /// [`Space::distance`], or `None` where it is cheaply known to exceed `bound`. The value, when
+    /// given, may exceed the bound too.
+    pub fn distance_unless_above(&self, a: &[f64], b: &[f64], bound: f64) -> Option<f64> {
+        let mut below = 0.0;
+        for part in &self.parts {
+            below += match part.kind {
+                PartKind::Real { .. } => {
+                    let difference = (a[part.at] - b[part.at]) * part.weight;
+                    difference * difference
+                }
+                PartKind::Angle => {
+                    let difference = math::angle_between(a[part.at], b[part.at]) * part.weight;
+                    difference * difference
+                }
+                // angle² ≥ 8 (1 − cos(angle / 2)) spares the arc cosine.
+                PartKind::Rotation => {
+                    let chord = (1.0 - dot(a, b, part.at).abs()).max(0.0);
+                    8.0 * chord * part.weight * part.weight
+                }
+            };
+        }
+        if below > bound * bound * (1.0 + PRUNING_MARGIN) {
+            return None;
+        }
+        Some(self.distance(a, b))
+    }
+
+    /// The configuration at fraction `t` of the shortest motion from `a` to `b`, at constant
+    /// speed in every part; `out` is in stored form but for rounding of the quaternion's length.
+    pub fn interpolate(&self, a: &[f64], b: &[f64], t: f64, out: &mut [f64]) {
+        for part in &self.parts {
+            let at = part.at;
+            match part.kind {
+                PartKind::Real { .. } => out[at] = a[at] + (b[at] - a[at]) * t,
+                PartKind::Angle => {
+                    out[at] = math::wrap_angle(a[at] + math::wrap_angle(b[at] - a[at]) * t);
+                }
+                PartKind::Rotation => {
+                    let from = [a[at], a[at + 1], a[at + 2], a[at + 3]];
+                    let to = [b[at], b[at + 1], b[at + 2], b[at + 3]];
+                    out[at..at + 4].copy_from_slice(&slerp(from, to, t));
+                }
+            }
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64], at: usize) -> f64 {
+    a[at] * b[at] + a[at + 1] * b[at + 1] + a[at + 2] * b[at + 2] + a[at + 3] * b[at + 3]
+}
+
+#[cfg(test)]
+mod tests;

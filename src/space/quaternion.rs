@@ -1,0 +1,60 @@
+//! Unit quaternions `w x y z`.
+
+use crate::math;
+use crate::seed::Stream;
+
+/// A rotation drawn uniformly from SO(3) (K. Shoemake, *Uniform random rotations*, Graphics Gems
+/// III, 1992), in stored form.
+pub fn uniform_rotation(stream: &mut Stream) -> [f64; 4] {
+    let share = stream.unit();
+    let first = math::TURN * stream.unit();
+    let second = math::TURN * stream.unit();
+    let (low, high) = ((1.0 - share).sqrt(), share.sqrt());
+    let quaternion = [
+        high * math::cos(second),
+        low * math::sin(first),
+        low * math::cos(first),
+        high * math::sin(second),
+    ];
+    canonical(quaternion).unwrap_or([1.0, 0.0, 0.0, 0.0])
+}
+
+/// The same rotation with unit length and the first non-zero value positive; `None` where the
+/// values are too small or too large to have a direction.
+pub fn canonical(quaternion: [f64; 4]) -> Option<[f64; 4]> {
+    let largest = quaternion.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+    if !(1e-150..=1e150).contains(&largest) {
+        return None;
+    }
+    let scaled = quaternion.map(|value| value / largest);
+    let length = scaled.iter().map(|value| value * value).sum::<f64>().sqrt();
+    let sign = match scaled.iter().find(|value| **value != 0.0) {
+        Some(first) if *first < 0.0 => -1.0,
+        _ => 1.0,
+    };
+    Some(scaled.map(|value| value / length * sign + 0.0))
+}
+
+/// Spherical linear interpolation along the shorter arc; turns `to` around only when the dot
+/// product is negative.
+pub fn slerp(from: [f64; 4], to: [f64; 4], t: f64) -> [f64; 4] {
+    let mut dot = 0.0;
+    for (a, b) in from.iter().zip(&to) {
+        dot += a * b;
+    }
+    let sign = if dot < 0.0 { -1.0 } else { 1.0 };
+    let angle = math::acos(dot.abs());
+    let (weight_from, weight_to) = if angle < 1e-6 {
+        (1.0 - t, t)
+    } else {
+        let sine = math::sin(angle);
+        (math::sin((1.0 - t) * angle) / sine, math::sin(t * angle) / sine)
+    };
+    let mut between = [0.0; 4];
+    for (value, (a, b)) in between.iter_mut().zip(from.iter().zip(&to)) {
+        *value = a * weight_from + b * sign * weight_to;
+    }
+    // Without a sign change here: the motion stays continuous for whoever follows it.
+    let length = between.iter().map(|value| value * value).sum::<f64>().sqrt();
+    between.map(|value| value / length)
+}

@@ -1,0 +1,104 @@
+use super::*;
+use crate::seed::{Purpose, Seed};
+use proptest::prelude::*;
+
+fn spaces() -> Vec<Space> {
+    [Motion::Translation2d, Motion::Rigid2d, Motion::Translation3d, Motion::Rigid3d]
+        .map(|motion| rigid_space(motion, [-1.0, -2.0, -3.0], [1.0, 2.0, 5.0], 0.7))
+        .to_vec()
+}
+
+fn draw(space: &Space, ordinal: u64) -> Vec<f64> {
+    let mut q = vec![0.0; space.len()];
+    let mut stream = Seed::of_set(3, "space tests", ordinal).stream(Purpose::Sampling);
+    space.sample_uniform(&mut stream, &mut q);
+    q
+}
+
+proptest! {
+    #[test]
+    fn samples_are_in_bounds_and_in_stored_form(ordinal in any::<u64>()) {
+        for space in spaces() {
+            let q = draw(&space, ordinal);
+            prop_assert!(space.within_bounds(&q));
+            let mut stored = q.clone();
+            space.canonicalize(&mut stored).unwrap();
+            for (a, b) in q.iter().zip(&stored) {
+                prop_assert!((a - b).abs() <= 2e-16, "{q:?} {stored:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn distance_is_a_metric(ordinal in 0..u64::MAX - 3) {
+        for space in spaces() {
+            let [a, b, c] = [0, 1, 2].map(|i| draw(&space, ordinal + i));
+            prop_assert_eq!(space.distance(&a, &b).to_bits(), space.distance(&b, &a).to_bits());
+            prop_assert!(space.distance(&a, &a) < 1e-7);
+            prop_assert!(
+                space.distance(&a, &c) <= space.distance(&a, &b) + space.distance(&b, &c) + 1e-9
+            );
+        }
+    }
+
+    #[test]
+    fn the_cheap_bound_never_hides_a_neighbour(ordinal in 0..u64::MAX - 1, scale in 0.0f64..1.0) {
+        for space in spaces() {
+            let (a, far) = (draw(&space, ordinal), draw(&space, ordinal + 1));
+            // Nearly equal rotations are where rounding bites.
+            let mut b = vec![0.0; space.len()];
+            space.interpolate(&a, &far, scale * scale * scale * scale * 1e-3, &mut b);
+            for b in [&b, &far] {
+                let distance = space.distance(&a, b);
+                prop_assert_eq!(space.distance_unless_above(&a, b, distance), Some(distance));
+            }
+        }
+    }
+
+    #[test]
+    fn interpolation_runs_at_constant_speed(ordinal in 0..u64::MAX - 1, t in 0.0f64..1.0) {
+        for space in spaces() {
+            let (a, b) = (draw(&space, ordinal), draw(&space, ordinal + 1));
+            let mut between = vec![0.0; space.len()];
+            space.interpolate(&a, &b, t, &mut between);
+            let whole = space.distance(&a, &b);
+            prop_assert!((space.distance(&a, &between) - t * whole).abs() < 1e-6);
+            prop_assert!((space.distance(&between, &b) - (1.0 - t) * whole).abs() < 1e-6);
+        }
+    }
+}
+
+#[test]
+fn uniform_rotations_follow_the_haar_measure() {
+    // Kolmogorov–Smirnov: the angle θ of a uniform rotation has P(angle ≤ θ) = (θ − sin θ) / π,
+    // and each axis component is uniform on [-1, 1]. Level 0.001: 1.95 / √n.
+    let count = 20_000;
+    let mut stream = Seed::of_set(1, "haar", 0).stream(Purpose::Sampling);
+    let (mut angles, mut components) = (Vec::new(), Vec::new());
+    for _ in 0..count {
+        let [w, x, y, z] = uniform_rotation(&mut stream);
+        let angle = 2.0 * math::acos(w);
+        angles.push((angle - math::sin(angle)) / std::f64::consts::PI);
+        components.push((z / (x * x + y * y + z * z).sqrt() + 1.0) / 2.0);
+    }
+    for mut sample in [angles, components] {
+        sample.sort_by(f64::total_cmp);
+        let gap = sample.iter().enumerate().fold(0.0f64, |gap, (i, value)| {
+            let (below, above) = (i as f64 / count as f64, (i + 1) as f64 / count as f64);
+            gap.max((value - below).abs()).max((above - value).abs())
+        });
+        assert!(gap < 1.95 / f64::from(count).sqrt(), "gap {gap}");
+    }
+}
+
+#[test]
+fn bad_configurations_are_named() {
+    let space = rigid_space(Motion::Rigid3d, [0.0; 3], [1.0; 3], 1.0);
+    let error = space.canonicalize(&mut [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).unwrap_err();
+    assert!(error.contains("quaternion"), "{error}");
+    let error = space.canonicalize(&mut [0.0, f64::NAN, 0.0, 1.0, 0.0, 0.0, 0.0]).unwrap_err();
+    assert!(error.contains("value of y"), "{error}");
+    let mut q = [-0.0, 0.0, 0.0, -2.0, 0.0, 0.0, 0.0];
+    space.canonicalize(&mut q).unwrap();
+    assert_eq!(q.map(f64::to_bits), [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0].map(f64::to_bits));
+}

@@ -1,0 +1,24 @@
+//! What makes a configuration and a motion valid.
+
+mod inside;
+mod rigid;
+mod scratch;
+
+pub(crate) use rigid::robot_radius;
+pub use rigid::{Bounds, BoundsMeaning, RigidValidity};
+pub use scratch::{Asked, Scratch};
+
+/// Decides which configurations and motions are valid.
+///
+/// Verdicts are pure functions of their arguments: what a [`Scratch`] remembers may change how
+/// fast a verdict comes, never the verdict.
+pub trait Validity: Send + Sync {
+    /// Whether the robot at `q` is in bounds and touches nothing.
+    fn valid(&self, q: &[f64], scratch: &mut Scratch) -> bool;
+
+    /// Whether the motion from `a` to `b` along [`Space::interpolate`](crate::space::Space) is
+    /// valid: every configuration strictly between the two is, at steps so small that no robot
+    /// point moves farther than the problem's resolution divided by `refinement` between two of
+    /// them. The ends are the caller's.
+    fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> bool;
+}

@@ -1,0 +1,84 @@
+//! The one door to bincode: how values become bytes and come back.
+//!
+//! Fixed-width little-endian integers, lengths as u64. `wincode` writes the same bytes, should
+//! bincode 2 have to be left.
+
+use bincode::config::{Configuration, Fixint, Limit, LittleEndian, NoLimit};
+use bincode::{Decode, Encode};
+
+/// Bytes that are not what they should be.
+#[derive(Debug, thiserror::Error)]
+#[error("undecodable bytes: {0}")]
+pub struct WireError(String);
+
+fn format() -> Configuration<LittleEndian, Fixint, NoLimit> {
+    bincode::config::standard()
+        .with_little_endian()
+        .with_fixed_int_encoding()
+        .with_no_limit()
+}
+
+/// The bytes of a value.
+pub fn encode<T: Encode>(value: &T) -> Vec<u8> {
+    match bincode::encode_to_vec(value, format()) {
+        Ok(bytes) => bytes,
+        Err(error) => unreachable!("encoding to memory cannot fail: {error}"),
+    }
+}
+
+/// The value that all of `bytes` stand for.
+///
+/// # Errors
+/// When the bytes are cut off, too many, or no such value. A hostile length inside them makes it
+/// allocate at most 1 MiB or 64 times their own length, whichever is larger.
+pub fn decode<T: Decode<()>>(bytes: &[u8]) -> Result<T, WireError> {
+    // bincode's limit is a constant of the type, so the input's length picks one of a few. A value
+    // takes at most four times its bytes in memory (padding).
+    match bytes.len() {
+        0..=0x4_0000 => decode_within::<T, { 1 << 20 }>(bytes),
+        0..=0x40_0000 => decode_within::<T, { 1 << 24 }>(bytes),
+        0..=0x400_0000 => decode_within::<T, { 1 << 28 }>(bytes),
+        0..=0x4000_0000 => decode_within::<T, { 1 << 32 }>(bytes),
+        length => Err(WireError(format!("{length} bytes, at most 1 GiB expected"))),
+    }
+}
+
+fn decode_within<T: Decode<()>, const MEMORY_BYTES_MAX: usize>(
+    bytes: &[u8],
+) -> Result<T, WireError> {
+    let limited: Configuration<LittleEndian, Fixint, Limit<MEMORY_BYTES_MAX>> =
+        format().with_limit::<MEMORY_BYTES_MAX>();
+    let (value, used) = bincode::decode_from_slice(bytes, limited)
+        .map_err(|error| WireError(error.to_string()))?;
+    if used != bytes.len() {
+        return Err(WireError(format!("{} bytes too many", bytes.len() - used)));
+    }
+    Ok(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_hostile_length_is_an_error_and_not_an_allocation() {
+        let mut bytes = encode(&vec![1.0f64; 4]);
+        bytes[..8].copy_from_slice(&u64::MAX.to_le_bytes());
+        assert!(decode::<Vec<f64>>(&bytes).is_err());
+        bytes[..8].copy_from_slice(&(1u64 << 40).to_le_bytes());
+        assert!(decode::<Vec<f64>>(&bytes).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn values_come_back_whole_and_never_from_less(
+            value in proptest::collection::vec(any::<(u32, u64)>(), 0..20), cut in 0usize..1000,
+        ) {
+            let bytes = encode(&value);
+            prop_assert_eq!(&decode::<Vec<(u32, u64)>>(&bytes).unwrap(), &value);
+            let cut = cut % bytes.len();
+            prop_assert!(decode::<Vec<(u32, u64)>>(&bytes[..cut]).is_err());
+        }
+    }
+}
