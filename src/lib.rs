@@ -3,6 +3,7 @@
 pub mod connect;
 mod context;
 pub mod evaluate;
+pub mod export;
 pub mod img;
 pub mod local;
 pub mod math;

@@ -18,6 +18,9 @@ pub trait Executor {
     /// The next thing that happened, or `None` when nothing did within `wait`.
     fn next(&mut self, wait: Duration) -> Option<Event>;
 
+    /// How many workers are ready or at work.
+    fn alive(&self) -> usize;
+
     /// The roadmap folded so far.
     fn roadmap(&self) -> &Roadmap;
 
@@ -43,7 +46,8 @@ pub trait Observer {
     }
 
     /// Called between events, at least every [`TICK`]; a cut ends the build after the last fold.
-    fn tick(&mut self, _progress: &Progress, _roadmap: &Roadmap) -> Option<Cut> {
+    /// `alive` is the number of workers.
+    fn tick(&mut self, _progress: &Progress, _roadmap: &Roadmap, _alive: usize) -> Option<Cut> {
         None
     }
 }
@@ -74,7 +78,7 @@ pub fn drive<E: Executor, O: Observer>(
                 Command::Stop(stop) => return Ok(stop),
             }
         }
-        let event = match observer.tick(core.progress(), executor.roadmap()) {
+        let event = match observer.tick(core.progress(), executor.roadmap(), executor.alive()) {
             Some(cut) => Some(Event::Cut(cut)),
             None => executor.next(TICK),
         };

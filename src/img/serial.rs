@@ -41,6 +41,10 @@ impl Executor for Serial {
         Some(Event::Done(job, Finished::new(task.run(&self.setup, &mut self.scratch))))
     }
 
+    fn alive(&self) -> usize {
+        1
+    }
+
     fn roadmap(&self) -> &Roadmap {
         self.replica.roadmap()
     }

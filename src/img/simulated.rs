@@ -134,6 +134,10 @@ impl Executor for Simulated<'_> {
         }
     }
 
+    fn alive(&self) -> usize {
+        self.workers
+    }
+
     fn roadmap(&self) -> &Roadmap {
         self.replica.roadmap()
     }

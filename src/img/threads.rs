@@ -85,6 +85,10 @@ impl Executor for Threads {
         }
     }
 
+    fn alive(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+
     fn roadmap(&self) -> &Roadmap {
         self.replica.roadmap()
     }

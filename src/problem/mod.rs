@@ -8,7 +8,7 @@ mod error;
 mod file;
 mod resolve;
 
-pub use configuration::parse_configuration;
+pub use configuration::configuration;
 pub use error::ProblemError;
 
 use crate::context::{Context, Ends};

@@ -4,13 +4,13 @@ use super::configuration::settle;
 use super::error::ProblemError;
 use super::file::{BodyTable, File, QueryTable, ShapeTable, Solid, StrategyTable};
 use super::{DEFAULT_SEED, Limits, Problem};
-use crate::context::{Context, Ends};
+use crate::context::Ends;
 use crate::evaluate::{self, EvaluatorKind};
 use crate::math;
 use crate::scene::{Body, Pose, Shape, read_mesh};
 use crate::space::{Motion, canonical};
 use crate::strategy::Strategy;
-use crate::validity::{Bounds, Scratch, robot_radius};
+use crate::validity::{Bounds, robot_radius};
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
@@ -525,22 +525,7 @@ fn with_query(
 ) -> Result<Problem, ProblemError> {
     let cx = problem.context();
     for (key, q) in [("start", &mut query.start), ("goal", &mut query.goal)] {
-        check_end(&cx, q).map_err(|message| source.error(&[Key("query"), Key(key)], message))?;
+        settle(&cx, q).map_err(|message| source.error(&[Key("query"), Key(key)], message))?;
     }
     Ok(Problem { query: Some(Ends { start: query.start, goal: query.goal }), ..problem })
-}
-
-/// Brings one end of a query into stored form and says what is wrong with it.
-pub(crate) fn check_end(cx: &Context, q: &mut [f64]) -> Result<(), String> {
-    settle(&cx.space, q)?;
-    if !cx.space.within_bounds(q) {
-        return Err(format!("{q:?} found; a configuration within the bounds expected"));
-    }
-    if !cx.validity.valid(q, &mut Scratch::new()) {
-        return Err(format!(
-            "{q:?} found; there the robot collides or leaves the bounds, a valid configuration \
-             expected"
-        ));
-    }
-    Ok(())
 }

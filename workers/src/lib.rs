@@ -1,2 +1,10 @@
-//! workers
+//! The worker process of roadmill: what it says to the coordinator, and its loop.
+//!
+//! A worker keeps a replica of the roadmap, does one job at a time and knows nothing of the
+//! others. It is the same executable as the coordinator.
+
 pub mod channel;
+pub mod message;
+mod worker;
+
+pub use worker::{WorkerArguments, WorkerError, build_id, canary, run};

@@ -1,0 +1,16 @@
+use super::write_whole;
+use crate::cli::{ExportArguments, Format};
+use crate::exit::{Code, Failure};
+use crate::run::Ledger;
+
+/// Writes a roadmap in a format that other programs read.
+pub fn export(arguments: &ExportArguments) -> Result<Code, Failure> {
+    let ledger = Ledger::read(&arguments.run)?;
+    let contents = match arguments.format {
+        Format::Svg => {
+            format!("{:?}", ledger.path)
+        }
+    };
+    write_whole(&arguments.out, &contents)?;
+    Ok(Code::Done)
+}

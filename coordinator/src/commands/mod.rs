@@ -1,0 +1,33 @@
+//! One file per command.
+
+mod build;
+mod check;
+mod export;
+mod query;
+mod worker;
+
+pub use build::build;
+pub use check::check;
+pub use export::export;
+pub use query::query;
+pub use worker::worker;
+
+use crate::exit::Failure;
+use std::path::Path;
+
+/// Writes a file so that it is there whole or not at all.
+///
+/// # Errors
+/// Exit code 2: it cannot be written.
+fn write_whole(path: &Path, contents: &str) -> Result<(), Failure> {
+    let cannot = |error| Failure::usage(format!("{}: cannot write: {error}", path.display()));
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}", std::process::id()));
+    let beside = path.with_file_name(name);
+    std::fs::write(&beside, contents).map_err(cannot)?;
+    std::fs::rename(&beside, path).map_err(|error| {
+        // The half of it must not stay.
+        let _ = std::fs::remove_file(&beside);
+        cannot(error)
+    })
+}

@@ -1,0 +1,334 @@
+use super::log::Log;
+use super::process::{Executable, WorkerProcess};
+use crate::signals::Signals;
+use roadmill::img::{Cut, Event, Executor, Finished, Job, Outcome, Replica, Round, Setup};
+use roadmill::roadmap::{Digest, Increment, Roadmap};
+use roadmill::wire;
+use roadmill_workers::channel::{ChannelError, Delivery, Hub, Received, WorkerId};
+use roadmill_workers::message::{FromWorker, PROTOCOL, ToWorker};
+use roadmill_workers::{build_id, canary};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Why a pool cannot be started.
+#[derive(Debug, thiserror::Error)]
+pub enum PoolError {
+    /// The channel to the workers failed.
+    #[error(transparent)]
+    Channel(#[from] ChannelError),
+    /// The system refused something.
+    #[error("{0}: {1}")]
+    System(&'static str, #[source] std::io::Error),
+}
+
+/// What a worker is doing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    /// Started; nothing has come from it.
+    Starting,
+    /// It sets the problem up.
+    SettingUp,
+    /// It waits for a job.
+    Idle,
+    /// It takes in a part of the log and will ask for more.
+    CatchingUp,
+    /// It works.
+    Busy(Job),
+}
+
+struct Worker {
+    process: WorkerProcess,
+    state: State,
+    /// How much of the log it has.
+    place: usize,
+}
+
+/// Worker processes as an executor. Jobs are pulled: a worker that has finished one is given the
+/// most urgent there is. A worker that dies loses its job, which the build hands out again, and is
+/// replaced.
+pub struct Pool {
+    setup: Arc<Setup>,
+    replica: Replica,
+    log: Log,
+    hub: Hub,
+    executable: Executable,
+    build: Digest,
+    canary: Digest,
+    problem: Arc<Vec<u8>>,
+    wanted: usize,
+    workers: BTreeMap<WorkerId, Worker>,
+    next_worker: u64,
+    /// Deaths since a job was last finished.
+    fruitless_deaths: usize,
+    waiting: BTreeSet<Job>,
+    events: VecDeque<Event>,
+    signals: Arc<Signals>,
+    failed: bool,
+}
+
+impl Pool {
+    /// Opens the channel and starts the workers. To be called, as all methods, from one thread
+    /// that lives as long as the build.
+    ///
+    /// # Errors
+    /// When the channel cannot be made or no process started.
+    pub fn start(
+        setup: Arc<Setup>,
+        workers: usize,
+        signals: Arc<Signals>,
+    ) -> Result<Pool, PoolError> {
+        let system = |what| move |error| PoolError::System(what, error);
+        let executable = Executable::open().map_err(system("cannot open the executable"))?;
+        let build = build_id().map_err(system("cannot read the executable"))?;
+        let problem = ToWorker::Problem(Box::new(setup.problem.clone()));
+        let mut pool = Pool {
+            replica: Replica::new(&setup),
+            log: Log::default(),
+            // A dead worker may hold its place until it is cleaned up after.
+            hub: Hub::create(workers + 2)?,
+            executable,
+            build,
+            canary: canary(&setup),
+            problem: Arc::new(wire::encode(&problem)),
+            setup,
+            wanted: workers,
+            workers: BTreeMap::new(),
+            next_worker: 0,
+            fruitless_deaths: 0,
+            waiting: BTreeSet::new(),
+            events: VecDeque::new(),
+            signals,
+            failed: false,
+        };
+        for _ in 0..workers {
+            pool.hire().map_err(system("cannot start a worker"))?;
+        }
+        Ok(pool)
+    }
+
+    /// Ends the workers and removes every trace of the channel.
+    ///
+    /// # Errors
+    /// When a file could not be removed.
+    pub fn close(mut self) -> Result<Roadmap, PoolError> {
+        self.dismiss();
+        let roadmap = Arc::unwrap_or_clone(self.replica.roadmap().clone());
+        self.hub.close()?;
+        Ok(roadmap)
+    }
+
+    fn dismiss(&mut self) {
+        for (_, mut worker) in std::mem::take(&mut self.workers) {
+            worker.process.end();
+        }
+    }
+
+    fn hire(&mut self) -> std::io::Result<()> {
+        let id = WorkerId(self.next_worker);
+        self.next_worker += 1;
+        let process = WorkerProcess::start(&self.executable, self.hub.directory(), id)?;
+        self.workers.insert(id, Worker { process, state: State::Starting, place: 0 });
+        Ok(())
+    }
+
+    /// Ends a worker that has died or must, and starts another in its place.
+    fn replace(&mut self, id: WorkerId, why: &str) {
+        let Some(mut worker) = self.workers.remove(&id) else { return };
+        let status = worker.process.end();
+        self.hub.forget(id);
+        if let State::Busy(job) = worker.state {
+            self.events.push_back(Event::Lost(job));
+        }
+        self.fruitless_deaths += 1;
+        let status = status.map_or_else(String::new, |status| format!(" ({status})"));
+        if self.fruitless_deaths > (3 * self.wanted).max(5) {
+            self.fail(format!(
+                "{} workers died one after the other without finishing a job; the last: {why}{status}",
+                self.fruitless_deaths
+            ));
+        } else if let Err(error) = self.hire() {
+            if self.workers.is_empty() {
+                self.fail(format!("no worker is left and none can be started: {error}"));
+            }
+        }
+    }
+
+    fn fail(&mut self, why: String) {
+        if !std::mem::replace(&mut self.failed, true) {
+            self.events.push_back(Event::Cut(Cut::WorkersLost(why)));
+        }
+    }
+
+    /// Gives jobs to the workers that wait for one.
+    fn feed(&mut self) {
+        let idle = |(id, worker): (&WorkerId, &Worker)| (worker.state == State::Idle).then_some(*id);
+        let idle: Vec<WorkerId> = self.workers.iter().filter_map(idle).collect();
+        for id in idle {
+            let Some(job) = self.next_job() else { return };
+            let Some(worker) = self.workers.get_mut(&id) else { continue };
+            let (entries, place) = self.log.part(worker.place);
+            worker.place = place;
+            let job = if place == self.log.end() {
+                worker.state = State::Busy(job);
+                Some(job)
+            } else {
+                worker.state = State::CatchingUp;
+                self.waiting.insert(job);
+                None
+            };
+            self.send(id, wire::encode(&ToWorker::Work { entries, job }));
+        }
+    }
+
+    fn next_job(&mut self) -> Option<Job> {
+        loop {
+            let job = self.waiting.pop_first()?;
+            // A job handed out again may have been overtaken.
+            if self.replica.task(&self.setup, job).is_some() {
+                return Some(job);
+            }
+        }
+    }
+
+    fn send(&mut self, id: WorkerId, message: impl Into<Arc<Vec<u8>>>) {
+        match self.hub.reply(id, message) {
+            // One that is gone shows it by its heart.
+            Ok(Delivery::Sent | Delivery::Gone) => {}
+            Err(error) => self.fail(format!("a message cannot be sent: {error}")),
+        }
+    }
+
+    fn hear(&mut self) {
+        loop {
+            match self.hub.receive() {
+                Ok(Some(Received::Message { worker, message })) => self.take(worker, &message),
+                Ok(Some(Received::Broken { worker, reason })) => {
+                    self.replace(worker, &format!("broken message: {reason}"));
+                }
+                Ok(None) => return,
+                Err(error) => return self.fail(format!("the channel failed: {error}")),
+            }
+        }
+    }
+
+    fn take(&mut self, id: WorkerId, message: &[u8]) {
+        let Some(worker) = self.workers.get_mut(&id) else { return };
+        let message = match wire::decode(message) {
+            Ok(message) => message,
+            Err(error) => return self.replace(id, &error.to_string()),
+        };
+        match (worker.state, message) {
+            (State::Starting, FromWorker::Hello { protocol, build }) => {
+                if (protocol, build) != (PROTOCOL, self.build) {
+                    return self.refuse(id, "another version of the program");
+                }
+                worker.state = State::SettingUp;
+                self.send(id, self.problem.clone());
+            }
+            (State::SettingUp, FromWorker::Ready { canary }) => {
+                if canary != self.canary {
+                    return self.refuse(id, "another arithmetic: its canary increment differs");
+                }
+                worker.state = State::Idle;
+            }
+            (State::CatchingUp, FromWorker::More) => worker.state = State::Idle,
+            (State::Busy(job), FromWorker::Finished { job: finished, outcome })
+                if job == finished =>
+            {
+                match wire::decode::<Outcome>(&outcome) {
+                    Ok(decoded) => {
+                        worker.state = State::Idle;
+                        self.fruitless_deaths = 0;
+                        let digest = Digest::of(&outcome);
+                        let finished = Finished { outcome: decoded, digest };
+                        self.events.push_back(Event::Done(job, finished));
+                    }
+                    Err(error) => self.replace(id, &error.to_string()),
+                }
+            }
+            _ => self.replace(id, "a message out of turn"),
+        }
+    }
+
+    fn refuse(&mut self, id: WorkerId, why: &str) {
+        self.send(id, wire::encode(&ToWorker::Refused(why.to_owned())));
+        self.fail(format!("a worker runs {why}"));
+    }
+
+    /// Sleeps until a worker says or becomes something, a signal comes or the time is over.
+    fn sleep(&mut self, wait: Duration) {
+        let wait = Timespec { tv_sec: wait.as_secs() as i64, tv_nsec: wait.subsec_nanos().into() };
+        let hub = self.hub.as_fd();
+        let signals = self.signals.as_fd();
+        let mut fds = vec![PollFd::from_borrowed_fd(hub, PollFlags::IN)];
+        fds.push(PollFd::from_borrowed_fd(signals, PollFlags::IN));
+        for worker in self.workers.values() {
+            fds.push(PollFd::from_borrowed_fd(worker.process.as_fd(), PollFlags::IN));
+        }
+        // An interrupted sleep is a short one.
+        let _ = poll(&mut fds, Some(&wait));
+    }
+
+    fn look_after_workers(&mut self) {
+        let dead: Vec<WorkerId> = self
+            .workers
+            .iter_mut()
+            .filter_map(|(id, worker)| worker.process.look().then_some(*id))
+            .collect();
+        for id in dead {
+            // What it still said counts.
+            self.hear();
+            self.replace(id, "it ended");
+        }
+    }
+}
+
+impl Executor for Pool {
+    fn publish(&mut self, increment: &Arc<Increment>) {
+        self.log.publish(increment);
+        self.replica.publish(&self.setup, increment.clone());
+    }
+
+    fn fold(&mut self, round: &Round) {
+        self.log.fold(round);
+        let joins = round.sets.iter().map(|set| &set.joined.edges[..]);
+        self.replica.fold(&self.setup, joins);
+    }
+
+    fn submit(&mut self, job: Job) {
+        self.waiting.insert(job);
+    }
+
+    fn next(&mut self, wait: Duration) -> Option<Event> {
+        let until = Instant::now() + wait;
+        loop {
+            self.feed();
+            if let Some(event) = self.events.pop_front() {
+                return Some(event);
+            }
+            let left = until.saturating_duration_since(Instant::now());
+            if left.is_zero() || self.signals.came() {
+                return None;
+            }
+            self.sleep(left);
+            self.hear();
+            self.look_after_workers();
+        }
+    }
+
+    fn alive(&self) -> usize {
+        let ready = |worker: &&Worker| !matches!(worker.state, State::Starting | State::SettingUp);
+        self.workers.values().filter(ready).count()
+    }
+
+    fn roadmap(&self) -> &Roadmap {
+        self.replica.roadmap()
+    }
+
+    fn into_roadmap(mut self) -> Roadmap {
+        self.dismiss();
+        Arc::unwrap_or_clone(self.replica.roadmap().clone())
+    }
+}

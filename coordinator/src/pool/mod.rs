@@ -1,0 +1,7 @@
+//! The executor over worker processes.
+
+mod executor;
+mod log;
+mod process;
+
+pub use executor::Pool;

@@ -1,0 +1,149 @@
+//! Telling people and programs how far a build is.
+
+use crate::run::EvaluatorValue;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use roadmill::img::Progress;
+use roadmill::problem::Problem;
+use roadmill::roadmap::Roadmap;
+use serde::Serialize;
+use std::io::{IsTerminal, Write};
+use std::time::{Duration, Instant};
+
+const TERMINAL_PAUSE: Duration = Duration::from_millis(200);
+const JSON_PAUSE: Duration = Duration::from_secs(1);
+/// Without a terminal a line now and then, less and less often.
+const FIRST_LINE: Duration = Duration::from_secs(2);
+const LINE_PAUSE_MAX: Duration = Duration::from_secs(60);
+
+/// How far a build is.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    event: &'static str,
+    seconds: f64,
+    sets_generated: u64,
+    sets_joined: u64,
+    rounds: u64,
+    nodes: u64,
+    edges: usize,
+    components: usize,
+    nodes_per_second: f64,
+    evaluators: Vec<EvaluatorValue>,
+    workers_alive: usize,
+    workers_wanted: usize,
+}
+
+impl std::fmt::Display for Report {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "{:.0} s: {} sets generated, {} joined; {} nodes, {} edges, {} components; {:.0} nodes/s; ",
+            self.seconds,
+            self.sets_generated,
+            self.sets_joined,
+            self.nodes,
+            self.edges,
+            self.components,
+            self.nodes_per_second,
+        )?;
+        for evaluator in &self.evaluators {
+            write!(f, "{evaluator}; ")?;
+        }
+        write!(f, "{} of {} workers", self.workers_alive, self.workers_wanted)
+    }
+}
+
+enum Kind {
+    Terminal(ProgressBar),
+    Lines(Duration),
+    Json,
+}
+
+/// Where reports go: a line that renews itself on a terminal, plain lines on standard error
+/// elsewhere, or JSON objects on standard output.
+pub struct Reporter {
+    kind: Kind,
+    begun: Instant,
+    next: Instant,
+}
+
+impl Reporter {
+    /// Chooses by the command line and what standard error is.
+    pub fn new(json: bool) -> Reporter {
+        let begun = Instant::now();
+        let (kind, pause) = if json {
+            (Kind::Json, JSON_PAUSE)
+        } else if std::io::stderr().is_terminal() {
+            let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+            bar.set_style(ProgressStyle::with_template("{wide_msg}").expect("a valid template"));
+            (Kind::Terminal(bar), TERMINAL_PAUSE)
+        } else {
+            (Kind::Lines(FIRST_LINE), FIRST_LINE)
+        };
+        Reporter { kind, begun, next: begun + pause }
+    }
+
+    /// Seconds since the beginning.
+    pub fn seconds(&self) -> f64 {
+        self.begun.elapsed().as_secs_f64()
+    }
+
+    /// Reports if it is time.
+    pub fn report(
+        &mut self,
+        problem: &Problem,
+        progress: &Progress,
+        roadmap: &Roadmap,
+        workers: (usize, usize),
+    ) {
+        let now = Instant::now();
+        if now < self.next {
+            return;
+        }
+        let seconds = self.seconds();
+        let report = Report {
+            event: "progress",
+            seconds,
+            sets_generated: progress.sets_generated,
+            sets_joined: progress.sets_joined,
+            rounds: progress.rounds,
+            nodes: progress.nodes,
+            edges: roadmap.edges().len(),
+            components: roadmap.components().count(),
+            nodes_per_second: progress.nodes as f64 / seconds.max(1e-9),
+            evaluators: EvaluatorValue::all(problem, &progress.verdicts),
+            workers_alive: workers.0,
+            workers_wanted: workers.1,
+        };
+        let pause = match &mut self.kind {
+            Kind::Terminal(bar) => {
+                bar.set_message(report.to_string());
+                bar.tick();
+                TERMINAL_PAUSE
+            }
+            Kind::Lines(pause) => {
+                eprintln!("{report}");
+                *pause = (*pause * 2).min(LINE_PAUSE_MAX);
+                *pause
+            }
+            Kind::Json => {
+                print_json(&report);
+                JSON_PAUSE
+            }
+        };
+        self.next = now + pause;
+    }
+
+    /// Clears the terminal's line.
+    pub fn finish(&self) {
+        if let Kind::Terminal(bar) = &self.kind {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// Prints an object on a line of standard output. Whoever closes the pipe does not want it.
+pub fn print_json(value: &impl Serialize) {
+    if let Ok(line) = serde_json::to_string(value) {
+        let _ = writeln!(std::io::stdout(), "{line}");
+    }
+}

@@ -1,0 +1,101 @@
+use crate::exit::Failure;
+use std::fs::{self, DirBuilder};
+use std::io::ErrorKind;
+use std::os::unix::fs::DirBuilderExt;
+use std::path::{Path, PathBuf};
+
+/// A run folder made for a build. Only its owner may enter it.
+#[derive(Debug)]
+pub struct RunFolder {
+    path: PathBuf,
+}
+
+/// The file that makes a folder a run folder.
+pub const LEDGER: &str = "ledger";
+
+impl RunFolder {
+    /// Makes the folder that `--out` names, or a free one under `runs`. With `force` a run that
+    /// is there is removed first; nothing else ever is.
+    ///
+    /// # Errors
+    /// Exit code 2: the folder exists, is no run, or cannot be made.
+    pub fn make(out: Option<&Path>, name: &str, force: bool) -> Result<RunFolder, Failure> {
+        let path = match out {
+            Some(path) => path.to_owned(),
+            None => return Self::make_numbered(name),
+        };
+        if force {
+            remove_run(&path)?;
+        }
+        make_parents(&path)?;
+        match DirBuilder::new().mode(0o700).create(&path) {
+            Ok(()) => Ok(RunFolder { path }),
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Failure::usage(format!(
+                "{}: exists already; a new folder expected, or --force to replace a run",
+                path.display()
+            ))),
+            Err(error) => Err(cannot_make(&path, &error)),
+        }
+    }
+
+    fn make_numbered(name: &str) -> Result<RunFolder, Failure> {
+        let mut number = 1u64;
+        loop {
+            let path = match number {
+                1 => Path::new("runs").join(name),
+                _ => Path::new("runs").join(format!("{name}-{number}")),
+            };
+            make_parents(&path)?;
+            match DirBuilder::new().mode(0o700).create(&path) {
+                Ok(()) => return Ok(RunFolder { path }),
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => number += 1,
+                Err(error) => return Err(cannot_make(&path, &error)),
+            }
+        }
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Path of a file in it.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Removes the folder again: the build could not begin.
+    pub fn discard(self) {
+        // What cannot be removed is no worse than the failure that led here.
+        let _ = fs::remove_dir_all(&self.path);
+    }
+}
+
+fn make_parents(path: &Path) -> Result<(), Failure> {
+    match path.parent() {
+        Some(parent) => fs::create_dir_all(parent).map_err(|error| cannot_make(path, &error)),
+        None => Ok(()),
+    }
+}
+
+fn cannot_make(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::usage(format!("{}: cannot make the run folder: {error}", path.display()))
+}
+
+/// Removes a run, and refuses anything else.
+fn remove_run(path: &Path) -> Result<(), Failure> {
+    let refuse = |what: &str| {
+        Err(Failure::usage(format!("{}: {what}; --force replaces runs only", path.display())))
+    };
+    match fs::symlink_metadata(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+        Err(error) => return refuse(&error.to_string()),
+        Ok(metadata) if !metadata.is_dir() => return refuse("not a folder"),
+        Ok(_) => {}
+    }
+    if !path.join(LEDGER).is_file() {
+        return refuse("holds no ledger");
+    }
+    fs::remove_dir_all(path)
+        .map_err(|error| Failure::usage(format!("{}: cannot remove it: {error}", path.display())))
+}

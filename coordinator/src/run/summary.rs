@@ -1,0 +1,146 @@
+use super::Stopped;
+use roadmill::evaluate::Verdict;
+use roadmill::problem::Problem;
+use roadmill::roadmap::Roadmap;
+use serde::Serialize;
+use std::fmt;
+
+/// What a build came to.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    /// For programs that read several kinds of objects: always `summary`.
+    pub event: &'static str,
+    /// The problem's name.
+    pub problem: String,
+    /// The base seed.
+    pub seed: u64,
+    /// The run folder.
+    pub run: String,
+    /// Sets folded.
+    pub sets: u64,
+    /// Nodes.
+    pub nodes: usize,
+    /// Edges.
+    pub edges: usize,
+    /// Connected components.
+    pub components: usize,
+    /// The evaluators' last values.
+    pub evaluators: Vec<EvaluatorValue>,
+    /// Why it stopped, in one word.
+    pub stop: String,
+    /// Why it stopped.
+    pub reason: String,
+    /// CPU seconds of all processes.
+    pub cpu_seconds: f64,
+    /// Those of the coordinator alone (with `--threads`: of the one process).
+    pub coordinator_cpu_seconds: f64,
+    /// Seconds from start to end.
+    pub wall_seconds: f64,
+    /// Digest of the roadmap.
+    pub digest: String,
+}
+
+/// The last value of an evaluator.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EvaluatorValue {
+    /// Its name.
+    pub name: &'static str,
+    /// The value.
+    pub value: f64,
+    /// The least value that would do.
+    pub threshold: f64,
+    /// Whether it does.
+    pub satisfied: bool,
+    /// Of a query: edges left out because they failed the finer check.
+    pub dropped_edges: Option<u64>,
+    /// Of a solved query: the path's length in the space's metric.
+    pub path_length: Option<f64>,
+}
+
+impl EvaluatorValue {
+    /// The values of the problem's evaluators; none before the first judgement.
+    pub fn all(problem: &Problem, verdicts: &[Verdict]) -> Vec<EvaluatorValue> {
+        let values = problem.evaluators.iter().zip(verdicts).map(|(evaluator, verdict)| {
+            let answer = verdict.answer.as_ref();
+            EvaluatorValue {
+                name: evaluator.method().name(),
+                value: verdict.value,
+                threshold: verdict.threshold,
+                satisfied: verdict.satisfied,
+                dropped_edges: answer.map(|answer| answer.dropped_edges),
+                path_length: answer.and_then(|answer| answer.path.as_ref()).map(|path| path.length),
+            }
+        });
+        values.collect()
+    }
+}
+
+impl fmt::Display for EvaluatorValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {:.3} of {:.3}", self.name, self.value, self.threshold)?;
+        if let Some(length) = self.path_length {
+            write!(f, ", path of length {length:.3}")?;
+        }
+        if let Some(dropped @ 1..) = self.dropped_edges {
+            write!(f, ", {dropped} edges failed the finer check")?;
+        }
+        Ok(())
+    }
+}
+
+/// CPU and wall seconds of a build.
+#[derive(Debug, Clone, Copy)]
+pub struct Times {
+    pub cpu_seconds: f64,
+    pub coordinator_cpu_seconds: f64,
+    pub wall_seconds: f64,
+}
+
+impl Summary {
+    /// Sums a build up.
+    pub fn new(
+        problem: &Problem,
+        run: &std::path::Path,
+        roadmap: &Roadmap,
+        verdicts: &[Verdict],
+        stopped: &Stopped,
+        times: Times,
+    ) -> Summary {
+        Summary {
+            event: "summary",
+            problem: problem.name.clone(),
+            seed: problem.seed,
+            run: run.display().to_string(),
+            sets: roadmap.sets(),
+            nodes: roadmap.configs().len(),
+            edges: roadmap.edges().len(),
+            components: roadmap.components().count(),
+            evaluators: EvaluatorValue::all(problem, verdicts),
+            stop: stopped.word.clone(),
+            reason: stopped.reason.clone(),
+            cpu_seconds: times.cpu_seconds,
+            coordinator_cpu_seconds: times.coordinator_cpu_seconds,
+            wall_seconds: times.wall_seconds,
+            digest: roadmap.digest().to_string(),
+        }
+    }
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "problem     {} (seed {})", self.problem, self.seed)?;
+        writeln!(f, "run         {}", self.run)?;
+        writeln!(f, "sets        {}", self.sets)?;
+        writeln!(f, "nodes       {}", self.nodes)?;
+        writeln!(f, "edges       {}", self.edges)?;
+        writeln!(f, "components  {}", self.components)?;
+        for evaluator in &self.evaluators {
+            writeln!(f, "evaluator   {evaluator}")?;
+        }
+        writeln!(f, "stopped     {}", self.reason)?;
+        let coordinator = self.coordinator_cpu_seconds;
+        writeln!(f, "cpu         {:.2} s, {coordinator:.2} s of it the coordinator's", self.cpu_seconds)?;
+        writeln!(f, "wall        {:.2} s", self.wall_seconds)?;
+        write!(f, "digest {}", self.digest)
+    }
+}

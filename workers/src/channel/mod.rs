@@ -1,0 +1,77 @@
+//! Byte messages between one coordinator process (the [`Hub`]) and many worker processes (the
+//! [`Link`]s), through shared memory of iceoryx2.
+//!
+//! A worker sends a message and gets exactly one reply to it, possibly much later. That is
+//! request-response reversed: the hub is the one server, the workers are its clients, and the reply
+//! that a worker waits for is its next job. The hub never waits for a worker.
+//!
+//! Messages are cut into chunks of [`CHUNK_BYTES`], so that the shared memory has a fixed, small
+//! size whatever the messages' lengths:
+//!
+//! ```text
+//! link                          hub
+//!  ── Data 0 ─────────────────▶      a message of three chunks:
+//!  ◀───────────────── Ack 1 ──       each is a request, the hub acknowledges
+//!  ── Data 1 ─────────────────▶      all but the last at once
+//!  ◀───────────────── Ack 2 ──
+//!  ── Data 2 ─────────────────▶      Hub::receive yields the message
+//!                                    … until Hub::reply
+//!  ◀──────────────── Data 0 ──       a reply of two chunks is pulled:
+//!  ── Continue 1 ─────────────▶      the hub keeps it until the worker has asked
+//!  ◀──────────────── Data 1 ──       for all of it
+//! ```
+//!
+//! Every chunk has a header with a checksum; a chunk that is malformed or out of turn
+//! ends the conversation with that worker, and only with that worker.
+//!
+//! Each hub has a private folder, and its own names in the memory file system. Both vanish with it,
+//! or, should it be killed, when the next hub of the same user starts.
+
+mod assembly;
+mod bell;
+mod error;
+mod header;
+#[cfg(test)]
+mod hostile;
+mod hub;
+mod link;
+mod peer;
+mod run_folder;
+mod run_lock;
+mod service;
+mod shared_files;
+
+use std::fmt;
+
+use rustix::fs::Mode;
+
+pub use error::ChannelError;
+pub use header::Fault;
+pub use hub::{Delivery, Hub, Received};
+pub use link::Link;
+
+/// The longest message in bytes, either way.
+pub const MESSAGE_BYTES_MAX: u64 = 1 << 30;
+
+/// Bytes of a message that travel at once. Throughput hardly changes from 128 KiB on, and with this
+/// the channel of 64 workers still fits into 64 MB, the `/dev/shm` that containers often get.
+pub const CHUNK_BYTES: usize = 128 << 10;
+
+/// Names a worker process. The coordinator chooses it and never uses it again in the same run,
+/// not even for the process that replaces a dead one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct WorkerId(pub u64);
+
+impl fmt::Display for WorkerId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// Makes every file that this process creates from now on accessible to its own user only.
+///
+/// The channel protects its files by itself; this covers whatever a future release of the library
+/// may create besides. To be called once, before any thread is started.
+pub fn private_umask() {
+    rustix::process::umask(Mode::RWXG | Mode::RWXO);
+}

@@ -1,0 +1,225 @@
+//! The private folder of a run, and everything that is named after it.
+
+use std::fs::{self, DirBuilder, File};
+use std::hash::{BuildHasher, RandomState};
+use std::io::ErrorKind;
+use std::os::unix::fs::{DirBuilderExt, OpenOptionsExt};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use rustix::fs::FlockOperation;
+
+use super::WorkerId;
+use super::bell::SOCKET_PATH_BYTES_MAX;
+use super::error::ChannelError;
+use super::run_lock::{LockedParent, try_lock};
+use super::shared_files;
+
+const PREFIX: &str = "roadmill-";
+/// locked by the hub as long as it lives
+const OWNER: &str = "owner";
+/// locked, shared, by each link as long as it lives
+const MEMBERS: &str = "members";
+const UNIQUE_DIGITS: usize = 12;
+/// process id, dash, unique digits
+const RUN_NAME_BYTES_MAX: usize = 10 + 1 + UNIQUE_DIGITS;
+
+/// The folder of a run that this process owns. Dropping it removes the run.
+#[derive(Debug)]
+pub(super) struct RunFolder {
+    path: PathBuf,
+    _owner: File,
+    is_removed: bool,
+}
+
+impl RunFolder {
+    /// Removes the runs whose processes have all died, then makes a new one, locked.
+    pub fn create() -> Result<RunFolder, ChannelError> {
+        let parent = LockedParent::lock(&parent_path()?)?;
+        reap(&parent);
+        let path = parent.path().join(new_run_name());
+        let io = |action| ChannelError::io(action, &path);
+        DirBuilder::new()
+            .mode(0o700)
+            .create(&path)
+            .map_err(io("could not create"))?;
+        let create = |name| {
+            File::options()
+                .write(true)
+                .create_new(true)
+                .mode(0o600)
+                .open(path.join(name))
+                .map_err(io("could not create the lock files in"))
+        };
+        create(MEMBERS)?;
+        create(OWNER)?;
+        let owner = try_lock(&path.join(OWNER), FlockOperation::NonBlockingLockExclusive)
+            .map_err(io("could not lock"))?
+            .ok_or_else(|| ChannelError::Busy { path: path.clone() })?;
+        Ok(RunFolder {
+            path,
+            _owner: owner,
+            is_removed: false,
+        })
+    }
+
+    /// Where the folder is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Removes the folder and the shared memory of this run.
+    pub fn remove(mut self) -> Result<(), ChannelError> {
+        self.remove_once()
+    }
+
+    fn remove_once(&mut self) -> Result<(), ChannelError> {
+        if std::mem::replace(&mut self.is_removed, true) {
+            return Ok(());
+        }
+        // without this file no worker can join any more, and leave files behind
+        let _ = fs::remove_file(self.path.join(MEMBERS));
+        let parent = self.path.parent().map(LockedParent::lock);
+        remove_run(&self.path)?;
+        if let Some(parent) = parent {
+            parent?.remove_if_empty();
+        }
+        Ok(())
+    }
+}
+
+impl Drop for RunFolder {
+    fn drop(&mut self) {
+        // the next hub tries again
+        let _ = self.remove_once();
+    }
+}
+
+/// Joins the run in `folder` as a worker; the run is not reaped while the result lives.
+pub(super) fn join(folder: &Path) -> Result<File, ChannelError> {
+    match try_lock(&folder.join(MEMBERS), FlockOperation::NonBlockingLockShared) {
+        Ok(Some(file)) => Ok(file),
+        Ok(None) => Err(ChannelError::HubGone),
+        Err(error) if error.kind() == ErrorKind::NotFound => Err(ChannelError::HubGone),
+        Err(error) => Err(ChannelError::io("could not join the run in", folder)(error)),
+    }
+}
+
+/// The socket that wakes the hub.
+pub(super) fn hub_socket(folder: &Path) -> PathBuf {
+    folder.join("h")
+}
+
+/// The socket that wakes a worker.
+pub(super) fn worker_socket(folder: &Path, worker: WorkerId) -> PathBuf {
+    folder.join(format!("w{:016x}", worker.0))
+}
+
+/// What the names of all shared memory of the run in `folder` begin with.
+pub(super) fn shared_memory_prefix(folder: &Path) -> Option<String> {
+    let run = folder.file_name()?.to_str()?;
+    is_run_name(run).then(|| format!("{PREFIX}{run}_"))
+}
+
+/// `<temporary folder>/roadmill-<user>`; `/tmp` stands in for a folder that is too long for sockets.
+fn parent_path() -> Result<PathBuf, ChannelError> {
+    let user = rustix::process::geteuid().as_raw();
+    let below = |base: PathBuf| base.join(format!("{PREFIX}{user}"));
+    let temporary = std::env::temp_dir();
+    let preferred = std::path::absolute(&temporary)
+        .map(below)
+        .map_err(ChannelError::io("could not find", temporary))?;
+    let worker_socket_bytes = "/w".len() + 16;
+    let socket_bytes = preferred.as_os_str().len() + 1 + RUN_NAME_BYTES_MAX + worker_socket_bytes;
+    if socket_bytes <= SOCKET_PATH_BYTES_MAX {
+        Ok(preferred)
+    } else {
+        Ok(below(PathBuf::from("/tmp")))
+    }
+}
+
+/// The process id, for people, and digits that no other run has.
+fn new_run_name() -> String {
+    let process = std::process::id();
+    let now = SystemTime::now()
+        .duration_since(SystemTime::UNIX_EPOCH)
+        .unwrap_or_default();
+    // keyed by the system's randomness: other containers may share the memory file system and
+    // have the same process ids
+    let unique = RandomState::new().hash_one((process, now));
+    format!(
+        "{process}-{:0UNIQUE_DIGITS$x}",
+        unique >> (64 - 4 * UNIQUE_DIGITS)
+    )
+}
+
+fn is_run_name(name: &str) -> bool {
+    name.split_once('-').is_some_and(|(process, unique)| {
+        !process.is_empty()
+            && process.bytes().all(|c| c.is_ascii_digit())
+            && unique.len() == UNIQUE_DIGITS
+            && unique.bytes().all(|c| c.is_ascii_hexdigit())
+    })
+}
+
+/// Removes every run that has neither a living hub nor a living link. What cannot be removed
+/// is left for the next time: an old run must not hinder a new one.
+fn reap(parent: &LockedParent) {
+    let Ok(entries) = fs::read_dir(parent.path()) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        if !name.to_str().is_some_and(is_run_name) {
+            continue;
+        }
+        let path = entry.path();
+        let locks = [OWNER, MEMBERS]
+            .map(|name| try_lock(&path.join(name), FlockOperation::NonBlockingLockExclusive));
+        let is_dead = locks.iter().all(|lock| match lock {
+            Ok(file) => file.is_some(),
+            // killed while creating or removing the run, as both happen with the parent locked
+            Err(error) => error.kind() == ErrorKind::NotFound,
+        });
+        if is_dead {
+            let _ = remove_run(&path);
+        }
+    }
+}
+
+/// Shared memory first: as long as the folder stands, a later reaper finds what is left.
+fn remove_run(folder: &Path) -> Result<(), ChannelError> {
+    if let Some(prefix) = shared_memory_prefix(folder) {
+        shared_files::for_each(&prefix, "could not remove", |path| fs::remove_file(path))?;
+    }
+    match fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            Err(ChannelError::io("could not remove", folder)(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn run_names_are_recognised_and_differ() {
+        let names = [new_run_name(), new_run_name()];
+        assert!(names.iter().all(|name| is_run_name(name)));
+        assert!(names.iter().all(|name| name.len() <= RUN_NAME_BYTES_MAX));
+        assert_ne!(names[0], names[1]);
+        for other in [
+            "",
+            "-",
+            "12-",
+            "12-abc",
+            "x-0123456789ab",
+            "12-0123456789ag",
+            "..",
+        ] {
+            assert!(!is_run_name(other), "{other}");
+        }
+    }
+}

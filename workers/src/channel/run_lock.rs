@@ -1,0 +1,117 @@
+//! Locks on files: they end with the process that holds them, however it ends.
+
+use std::fs::{self, DirBuilder, File};
+use std::io::ErrorKind;
+use std::os::unix::fs::{DirBuilderExt, MetadataExt};
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use rustix::fs::{FlockOperation, Mode, OFlags, flock, open};
+use rustix::io::Errno;
+
+use super::error::ChannelError;
+
+const PATIENCE: Duration = Duration::from_secs(10);
+const PAUSE: Duration = Duration::from_millis(2);
+
+/// Opens `path`, which must exist, and tries to lock it. `None` if another process holds it.
+pub(super) fn try_lock(
+    path: &Path,
+    operation: FlockOperation,
+) -> Result<Option<File>, std::io::Error> {
+    let file = File::options().read(true).write(true).open(path)?;
+    match flock(&file, operation) {
+        Ok(()) => Ok(Some(file)),
+        Err(Errno::WOULDBLOCK) => Ok(None),
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// The folder of all runs of this user, locked: nobody else creates or removes runs meanwhile.
+#[derive(Debug)]
+pub(super) struct LockedParent {
+    path: PathBuf,
+    _directory: File,
+}
+
+impl LockedParent {
+    /// Creates the folder if it is not there, checks that it is private, and locks it.
+    pub fn lock(path: &Path) -> Result<LockedParent, ChannelError> {
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            if let Some(directory) = LockedParent::try_lock(path)? {
+                return Ok(LockedParent {
+                    path: path.to_path_buf(),
+                    _directory: directory,
+                });
+            }
+            if Instant::now() > deadline {
+                return Err(ChannelError::Busy { path: path.into() });
+            }
+            thread::sleep(PAUSE);
+        }
+    }
+
+    fn try_lock(path: &Path) -> Result<Option<File>, ChannelError> {
+        match DirBuilder::new().mode(0o700).create(path) {
+            Err(error) if error.kind() != ErrorKind::AlreadyExists => {
+                return Err(ChannelError::io("could not create", path)(error));
+            }
+            _ => {}
+        }
+        let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::NOFOLLOW | OFlags::CLOEXEC;
+        let directory: File = match open(path, flags, Mode::empty()) {
+            Ok(directory) => directory.into(),
+            // the last run has just removed it
+            Err(Errno::NOENT) => return Ok(None),
+            Err(Errno::LOOP | Errno::NOTDIR) => {
+                return Err(ChannelError::Unsafe {
+                    path: path.into(),
+                    reason: "it is not a folder",
+                });
+            }
+            Err(error) => return Err(ChannelError::io("could not open", path)(error.into())),
+        };
+        let opened = directory
+            .metadata()
+            .map_err(ChannelError::io("could not inspect", path))?;
+        let fault = if opened.uid() != rustix::process::geteuid().as_raw() {
+            Some("it belongs to another user")
+        } else if opened.mode() & 0o077 != 0 {
+            Some("other users have access to it")
+        } else {
+            None
+        };
+        if let Some(reason) = fault {
+            return Err(ChannelError::Unsafe {
+                path: path.into(),
+                reason,
+            });
+        }
+        match flock(&directory, FlockOperation::NonBlockingLockExclusive) {
+            Ok(()) => {}
+            Err(Errno::WOULDBLOCK) => return Ok(None),
+            Err(error) => return Err(ChannelError::io("could not lock", path)(error.into())),
+        }
+        // a folder that was removed, and perhaps made anew, in between is not the one locked
+        match fs::symlink_metadata(path) {
+            Ok(now) if (now.dev(), now.ino()) == (opened.dev(), opened.ino()) => {
+                Ok(Some(directory))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// Where the folder is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Removes the folder if no run is left in it.
+    pub fn remove_if_empty(self) {
+        // still locked, so nobody can have begun a run that is not seen here; a folder that has
+        // other runs is left alone by the system itself
+        let _ = fs::remove_dir(&self.path);
+    }
+}
