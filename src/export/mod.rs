@@ -1,5 +1,9 @@
-//! Formats that other programs read.
+//! Formats that other programs read, and pictures of roadmaps.
 
 mod path_csv;
+mod solid;
+mod svg;
+mod view;
 
 pub use path_csv::path_csv;
+pub use svg::svg;

@@ -57,10 +57,18 @@ impl<'a> Simulated<'a> {
 
     /// A worker takes a job, mostly the most urgent.
     fn take(&mut self) {
-        let index = if self.chance(0.7) { 0 } else { self.below(self.waiting.len()) };
-        let Some(job) = self.waiting.iter().nth(index).copied() else { return };
+        let index = if self.chance(0.7) {
+            0
+        } else {
+            self.below(self.waiting.len())
+        };
+        let Some(job) = self.waiting.iter().nth(index).copied() else {
+            return;
+        };
         self.waiting.remove(&job);
-        let Some(task) = self.replica.task(&self.setup, job) else { return };
+        let Some(task) = self.replica.task(&self.setup, job) else {
+            return;
+        };
         let finished = match self.memo.get(&(job, self.inputs(&task))) {
             Some(finished) => finished.clone(),
             None => {
@@ -68,7 +76,8 @@ impl<'a> Simulated<'a> {
                 Finished::new(task.run(&self.setup, &mut self.scratch))
             }
         };
-        self.memo.insert((job, self.inputs(&task)), finished.clone());
+        self.memo
+            .insert((job, self.inputs(&task)), finished.clone());
         self.running.push((job, finished));
     }
 
@@ -91,7 +100,8 @@ impl<'a> Simulated<'a> {
 
 impl Executor for Simulated<'_> {
     fn publish(&mut self, increment: &Arc<Increment>) {
-        self.published.push(Digest::of(&crate::wire::encode(&**increment)));
+        self.published
+            .push(Digest::of(&crate::wire::encode(&**increment)));
         self.replica.publish(&self.setup, increment.clone());
     }
 

@@ -35,14 +35,25 @@ impl Threads {
             .expect("threads can be started");
         let replica = Replica::new(&setup);
         let waiting = BTreeSet::new();
-        Threads { setup, replica, pool, waiting, running: 0, results: unbounded() }
+        Threads {
+            setup,
+            replica,
+            pool,
+            waiting,
+            running: 0,
+            results: unbounded(),
+        }
     }
 
     /// Keeps every thread busy with the most urgent jobs; the rest wait here, where urgency rules.
     fn feed(&mut self) {
         while self.running < self.pool.current_num_threads() {
-            let Some(job) = self.waiting.pop_first() else { return };
-            let Some(task) = self.replica.task(&self.setup, job) else { continue };
+            let Some(job) = self.waiting.pop_first() else {
+                return;
+            };
+            let Some(task) = self.replica.task(&self.setup, job) else {
+                continue;
+            };
             let (setup, results) = (self.setup.clone(), self.results.0.clone());
             self.running += 1;
             self.pool.spawn(move || {

@@ -55,7 +55,11 @@ pub fn closest_pairs(
             if let Some(distance) =
                 space.distance_unless_above(q, second.0.get(*b as usize), best.bound())
             {
-                best.offer(NearPair { distance, first: *a, second: *b });
+                best.offer(NearPair {
+                    distance,
+                    first: *a,
+                    second: *b,
+                });
             }
         }
     }
@@ -93,7 +97,10 @@ struct Best<T> {
 
 impl<T: Ranked> Best<T> {
     fn new(most: usize) -> Best<T> {
-        Best { most, items: Vec::new() }
+        Best {
+            most,
+            items: Vec::new(),
+        }
     }
 
     /// Nothing farther than this can still get in.
@@ -107,7 +114,11 @@ impl<T: Ranked> Best<T> {
 
     fn offer(&mut self, item: T) {
         let before = |known: &T| {
-            known.distance().total_cmp(&item.distance()).then(known.rank().cmp(&item.rank())).is_lt()
+            known
+                .distance()
+                .total_cmp(&item.distance())
+                .then(known.rank().cmp(&item.rank()))
+                .is_lt()
         };
         let place = self.items.partition_point(before);
         if place < self.most {

@@ -13,39 +13,75 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     let bounds = &problem.bounds;
     let space = problem.space();
     let names: Vec<_> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
-    writeln!(out, "problem          {} (seed {})", problem.name, problem.seed)?;
+    writeln!(
+        out,
+        "problem          {} (seed {})",
+        problem.name, problem.seed
+    )?;
     writeln!(out, "configuration    {}", names.join(" "))?;
     let turns = match names.last() {
         Some(&"theta") => "; theta in radians, in [-pi, pi)",
         Some(&"qz") => "; qw qx qy qz a unit quaternion, w first",
         _ => "",
     };
-    writeln!(out, "                 the pose of the robot's frame in the world's{turns}")?;
+    writeln!(
+        out,
+        "                 the pose of the robot's frame in the world's{turns}"
+    )?;
     writeln!(out, "                 lengths in the unit of the file")?;
     let axes = problem.motion.translations();
     let meaning = match bounds.meaning {
         BoundsMeaning::Body => "hold every robot point and the reference point",
         BoundsMeaning::Reference => "hold the reference point, the origin of the robot's frame",
     };
-    writeln!(out, "bounds           {:?} to {:?}, {meaning}", &bounds.min[..axes], &bounds.max[..axes])?;
-    writeln!(out, "resolution       {}: no robot point moves farther between two checks", problem.resolution)?;
+    writeln!(
+        out,
+        "bounds           {:?} to {:?}, {meaning}",
+        &bounds.min[..axes],
+        &bounds.max[..axes]
+    )?;
+    writeln!(
+        out,
+        "resolution       {}: no robot point moves farther between two checks",
+        problem.resolution
+    )?;
     if problem.motion.rotates() {
-        writeln!(out, "rotation_length  {}: what a radian counts for in the metric", problem.rotation_length)?;
+        writeln!(
+            out,
+            "rotation_length  {}: what a radian counts for in the metric",
+            problem.rotation_length
+        )?;
     }
     for (what, bodies) in [("robot", &problem.robot), ("obstacles", &problem.obstacles)] {
         let triangles: usize = bodies
             .iter()
-            .map(|body| if let Shape::Mesh(mesh) = &body.shape { mesh.triangles.len() } else { 0 })
+            .map(|body| {
+                if let Shape::Mesh(mesh) = &body.shape {
+                    mesh.triangles.len()
+                } else {
+                    0
+                }
+            })
             .sum();
         let mut shapes: Vec<(&str, usize)> = Vec::new();
         for body in bodies {
-            match shapes.iter_mut().find(|(name, _)| *name == body.shape.name()) {
+            match shapes
+                .iter_mut()
+                .find(|(name, _)| *name == body.shape.name())
+            {
                 Some((_, count)) => *count += 1,
                 None => shapes.push((body.shape.name(), 1)),
             }
         }
-        let shapes: Vec<_> = shapes.iter().map(|(name, count)| format!("{count} {name}")).collect();
-        let shapes = if shapes.is_empty() { "none".to_owned() } else { shapes.join(", ") };
+        let shapes: Vec<_> = shapes
+            .iter()
+            .map(|(name, count)| format!("{count} {name}"))
+            .collect();
+        let shapes = if shapes.is_empty() {
+            "none".to_owned()
+        } else {
+            shapes.join(", ")
+        };
         match triangles {
             0 => writeln!(out, "{what:<16} {shapes}")?,
             _ => writeln!(out, "{what:<16} {shapes} ({triangles} triangles)")?,
@@ -67,7 +103,12 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         .iter()
         .map(|index| problem.strategies[*index as usize].label.as_str())
         .collect();
-    writeln!(out, "schedule         {}, over and over; {} sets per round", labels.join(" "), problem.sets_per_round)?;
+    writeln!(
+        out,
+        "schedule         {}, over and over; {} sets per round",
+        labels.join(" "),
+        problem.sets_per_round
+    )?;
     for evaluator in &problem.evaluators {
         writeln!(out, "until            {evaluator:?}")?;
     }
@@ -75,7 +116,11 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         u64::MAX => "any number of".to_owned(),
         sets => sets.to_string(),
     };
-    write!(out, "limits           {} nodes, {sets} sets", problem.limits.nodes)?;
+    write!(
+        out,
+        "limits           {} nodes, {sets} sets",
+        problem.limits.nodes
+    )?;
     match problem.limits.seconds {
         Some(seconds) => writeln!(out, ", {seconds} s")?,
         None => writeln!(out, ", any time")?,

@@ -67,10 +67,20 @@ pub(super) struct TurnTable {
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub(super) enum ShapeTable {
     Point {},
-    Box { size: [f64; 3] },
-    Sphere { radius: f64 },
-    Cylinder { radius: f64, height: f64 },
-    Capsule { radius: f64, height: f64 },
+    Box {
+        size: [f64; 3],
+    },
+    Sphere {
+        radius: f64,
+    },
+    Cylinder {
+        radius: f64,
+        height: f64,
+    },
+    Capsule {
+        radius: f64,
+        height: f64,
+    },
     Mesh {
         file: PathBuf,
         #[serde(default = "one")]

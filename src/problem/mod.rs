@@ -2,11 +2,14 @@
 //!
 //! `docs/problems.md` describes the file format.
 
+mod bodies;
+mod building;
 mod configuration;
 mod describe;
 mod error;
 mod file;
 mod resolve;
+mod source;
 
 pub use configuration::configuration;
 pub use error::ProblemError;
@@ -77,8 +80,9 @@ impl Problem {
     /// # Errors
     /// The first thing that is wrong, with its place in the file.
     pub fn load(path: &Path) -> Result<Problem, ProblemError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| ProblemError::file(path, format!("cannot read the problem: {error}")))?;
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            ProblemError::file(path, format!("cannot read the problem: {error}"))
+        })?;
         Problem::parse(path, &text)
     }
 

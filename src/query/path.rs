@@ -33,6 +33,9 @@ impl Path {
                 configs.push(motion.get(index));
             }
         }
-        Path { configs, length: route.length }
+        Path {
+            configs,
+            length: route.length,
+        }
     }
 }

@@ -10,7 +10,10 @@ pub struct Configs {
 impl Configs {
     /// No configurations of `dofs` values.
     pub fn new(dofs: usize) -> Configs {
-        Configs { dofs: dofs as u32, values: Vec::new() }
+        Configs {
+            dofs: dofs as u32,
+            values: Vec::new(),
+        }
     }
 
     /// Number of configurations.

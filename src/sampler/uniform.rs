@@ -25,7 +25,9 @@ fn default_attempts() -> u64 {
 
 impl Default for Uniform {
     fn default() -> Uniform {
-        Uniform { attempts: default_attempts() }
+        Uniform {
+            attempts: default_attempts(),
+        }
     }
 }
 

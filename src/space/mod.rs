@@ -70,7 +70,11 @@ impl Space {
         let mut next = 0;
         for part in &parts {
             assert_eq!(part.at, next, "parts follow one another");
-            next += if part.kind == PartKind::Rotation { 4 } else { 1 };
+            next += if part.kind == PartKind::Rotation {
+                4
+            } else {
+                1
+            };
         }
         assert_eq!(next, dofs.len(), "every value has a name");
         Space { parts, dofs }
@@ -103,8 +107,9 @@ impl Space {
             match part.kind {
                 PartKind::Real { min, max } => out[part.at] = stream.between(min, max),
                 PartKind::Angle => {
-                    out[part.at] =
-                        math::wrap_angle(stream.between(-std::f64::consts::PI, std::f64::consts::PI));
+                    out[part.at] = math::wrap_angle(
+                        stream.between(-std::f64::consts::PI, std::f64::consts::PI),
+                    );
                 }
                 PartKind::Rotation => {
                     out[part.at..part.at + 4].copy_from_slice(&uniform_rotation(stream));
@@ -129,7 +134,10 @@ impl Space {
     pub fn canonicalize(&self, q: &mut [f64]) -> Result<(), String> {
         for (value, dof) in q.iter().zip(&self.dofs) {
             if !value.is_finite() {
-                return Err(format!("the value of {} is {value}, not a finite number", dof.name));
+                return Err(format!(
+                    "the value of {} is {value}, not a finite number",
+                    dof.name
+                ));
             }
         }
         for part in &self.parts {

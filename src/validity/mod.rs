@@ -22,3 +22,6 @@ pub trait Validity: Send + Sync {
     /// them. The ends are the caller's.
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> bool;
 }
+
+#[cfg(test)]
+mod tests;

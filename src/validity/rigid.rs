@@ -64,14 +64,29 @@ impl Piece {
             Some(shape) => shape.compute_aabb(&pose),
             None => Aabb::new(origin, origin),
         };
-        let witnesses = body.shape.witnesses().into_iter().map(Vector::from_array).collect();
-        Piece { shape, pose, body: frame, form: body.shape.clone(), inside, witnesses, aabb }
+        let witnesses = body
+            .shape
+            .witnesses()
+            .into_iter()
+            .map(Vector::from_array)
+            .collect();
+        Piece {
+            shape,
+            pose,
+            body: frame,
+            form: body.shape.clone(),
+            inside,
+            witnesses,
+            aabb,
+        }
     }
 
     /// Whether the piece, its body's frame standing at `body`, holds a point of the other, whose
     /// body's frame stands at `other_body`.
     fn encloses(&self, body: &Pose, other: &Piece, other_body: &Pose) -> bool {
-        let Some(inside) = &self.inside else { return false };
+        let Some(inside) = &self.inside else {
+            return false;
+        };
         other.witnesses.iter().any(|witness| {
             let world = other_body.transform_point(*witness);
             inside.contains(body.inverse_transform_point(world))
@@ -201,6 +216,12 @@ impl RigidValidity {
         true
     }
 
+    /// Number of steps in which a motion is checked.
+    pub(super) fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64 {
+        let step = self.resolution / f64::from(refinement);
+        (self.farthest(a, b) / step).ceil().max(1.0) as u64
+    }
+
     /// The farthest that any robot point can move between the two configurations.
     fn farthest(&self, a: &[f64], b: &[f64]) -> f64 {
         let axes = self.motion.translations();
@@ -228,8 +249,7 @@ impl Validity for RigidValidity {
 
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> bool {
         scratch.asked.motions += 1;
-        let step = self.resolution / f64::from(refinement);
-        let steps = (self.farthest(a, b) / step).ceil().max(1.0) as u64;
+        let steps = self.steps(a, b, refinement);
         scratch.between.clear();
         scratch.between.resize(a.len(), 0.0);
         // Halving the gaps finds a blocked motion soonest; every step is visited once.
@@ -250,7 +270,9 @@ impl Validity for RigidValidity {
 
 /// A bound on the distance of the robot's points from the origin of its frame.
 pub(crate) fn robot_radius(robot: &[Body]) -> f64 {
-    robot.iter().fold(0.0f64, |most, body| most.max(body.shape.reach(&body.pose)))
+    robot
+        .iter()
+        .fold(0.0f64, |most, body| most.max(body.shape.reach(&body.pose)))
 }
 
 /// The pose of the robot's frame in the world's at a configuration.

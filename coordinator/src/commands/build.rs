@@ -37,8 +37,16 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
         }
     };
     if !arguments.json {
-        eprintln!("{}: seed {}, run folder {}", problem.name, problem.seed, folder.path().display());
-        problem.notes.iter().for_each(|note| eprintln!("{}: {note}", problem.name));
+        eprintln!(
+            "{}: seed {}, run folder {}",
+            problem.name,
+            problem.seed,
+            folder.path().display()
+        );
+        problem
+            .notes
+            .iter()
+            .for_each(|note| eprintln!("{}: {note}", problem.name));
     }
 
     let setup = Arc::new(Setup::new(problem));
@@ -82,9 +90,15 @@ fn end(
     let problem = &watch.setup.problem;
     let stopped = Stopped::new(stop, problem);
     watch.ledger.stopped(&stopped)?;
-    let answers = watch.verdicts.iter().filter_map(|verdict| verdict.answer.as_ref());
+    let answers = watch
+        .verdicts
+        .iter()
+        .filter_map(|verdict| verdict.answer.as_ref());
     if let Some(path) = answers.filter_map(|answer| answer.path.as_ref()).next() {
-        write_whole(&folder.file("path.csv"), &path_csv(&watch.setup.cx.space, path))?;
+        write_whole(
+            &folder.file("path.csv"),
+            &path_csv(&watch.setup.cx.space, path),
+        )?;
     }
     let coordinator_cpu_seconds = cpu::own_seconds();
     let times = Times {
@@ -92,8 +106,14 @@ fn end(
         coordinator_cpu_seconds,
         wall_seconds: watch.reporter.seconds(),
     };
-    let summary =
-        Summary::new(problem, folder.path(), roadmap, &watch.verdicts, &stopped, times);
+    let summary = Summary::new(
+        problem,
+        folder.path(),
+        roadmap,
+        &watch.verdicts,
+        &stopped,
+        times,
+    );
     let json = serde_json::to_string_pretty(&summary).map_err(Failure::system)?;
     write_whole(&folder.file("summary.json"), &(json + "\n"))?;
     if arguments.json {
@@ -106,7 +126,9 @@ fn end(
     match stop {
         Stop::Satisfied => Ok(Code::Done),
         // Without criteria the limit is what was asked for.
-        Stop::NodeLimit | Stop::SetLimit | Stop::Cut(Cut::Time) if problem.evaluators.is_empty() => {
+        Stop::NodeLimit | Stop::SetLimit | Stop::Cut(Cut::Time)
+            if problem.evaluators.is_empty() =>
+        {
             Ok(Code::Done)
         }
         Stop::NodeLimit | Stop::SetLimit | Stop::Cut(Cut::Time) => {
@@ -140,12 +162,17 @@ fn workers(arguments: &BuildArguments) -> Result<usize, Failure> {
         (Some(workers), _) => ("--workers", workers),
         (None, Some(threads)) => ("--threads", threads),
         // Knows the process's affinity and its group's quota.
-        (None, None) => ("", std::thread::available_parallelism().map_or(1, usize::from)),
+        (None, None) => (
+            "",
+            std::thread::available_parallelism().map_or(1, usize::from),
+        ),
     };
     if (1..=WORKERS_MAX).contains(&workers) {
         Ok(workers)
     } else {
-        Err(Failure::usage(format!("{option}: {workers} found, 1 to {WORKERS_MAX} expected")))
+        Err(Failure::usage(format!(
+            "{option}: {workers} found, 1 to {WORKERS_MAX} expected"
+        )))
     }
 }
 
@@ -173,7 +200,8 @@ impl Observer for Watch {
 
     fn tick(&mut self, progress: &Progress, roadmap: &Roadmap, alive: usize) -> Option<Cut> {
         let workers = (alive, self.workers);
-        self.reporter.report(&self.setup.problem, progress, roadmap, workers);
+        self.reporter
+            .report(&self.setup.problem, progress, roadmap, workers);
         let seconds = self.setup.problem.limits.seconds;
         if self.signals.came() {
             Some(Cut::Interrupted)

@@ -8,7 +8,7 @@ pub fn export(arguments: &ExportArguments) -> Result<Code, Failure> {
     let ledger = Ledger::read(&arguments.run)?;
     let contents = match arguments.format {
         Format::Svg => {
-            format!("{:?}", ledger.path)
+            roadmill::export::svg(&ledger.problem, &ledger.roadmap, ledger.path.as_ref())
         }
     };
     write_whole(&arguments.out, &contents)?;

@@ -19,20 +19,28 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
             configuration(&cx, text).map_err(|error| Failure::usage(format!("--{name}: {error}")))
         }
         (None, Some(q)) => Ok(q.clone()),
-        (None, None) => Err(Failure::usage(format!("--{name} expected: the problem has no query"))),
+        (None, None) => Err(Failure::usage(format!(
+            "--{name} expected: the problem has no query"
+        ))),
     };
     let start = end("start", &arguments.start, given.map(|query| &query.start))?;
     let goal = end("goal", &arguments.goal, given.map(|query| &query.goal))?;
 
-    let attachment = ledger.problem.evaluators.iter().find_map(|evaluator| match evaluator {
-        EvaluatorKind::Query(query) => Some(query.attachment()),
-    });
+    let attachment = ledger
+        .problem
+        .evaluators
+        .iter()
+        .find_map(|evaluator| match evaluator {
+            EvaluatorKind::Query(query) => Some(query.attachment()),
+        });
     let attachment = attachment.unwrap_or_else(|| Query::default().attachment());
     let ends = (&start[..], &goal[..]);
     let answer = solve(&cx, &ledger.roadmap, ends, &attachment, &mut Scratch::new());
     let dropped = answer.dropped_edges;
     if dropped > 0 {
-        eprintln!("{dropped} edges failed the {PATH_REFINEMENT} times finer check and were left out");
+        eprintln!(
+            "{dropped} edges failed the {PATH_REFINEMENT} times finer check and were left out"
+        );
     }
     let Some(path) = answer.path else {
         let [start, goal] = answer.attached;
@@ -50,6 +58,10 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
         // Whoever closes the pipe has read enough.
         None => drop(std::io::stdout().write_all(csv.as_bytes())),
     }
-    eprintln!("path of {} configurations, length {:.6}", path.configs.len(), path.length);
+    eprintln!(
+        "path of {} configurations, length {:.6}",
+        path.configs.len(),
+        path.length
+    );
     Ok(Code::Done)
 }

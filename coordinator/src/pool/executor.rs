@@ -129,13 +129,22 @@ impl Pool {
         let id = WorkerId(self.next_worker);
         self.next_worker += 1;
         let process = WorkerProcess::start(&self.executable, self.hub.directory(), id)?;
-        self.workers.insert(id, Worker { process, state: State::Starting, place: 0 });
+        self.workers.insert(
+            id,
+            Worker {
+                process,
+                state: State::Starting,
+                place: 0,
+            },
+        );
         Ok(())
     }
 
     /// Ends a worker that has died or must, and starts another in its place.
     fn replace(&mut self, id: WorkerId, why: &str) {
-        let Some(mut worker) = self.workers.remove(&id) else { return };
+        let Some(mut worker) = self.workers.remove(&id) else {
+            return;
+        };
         let status = worker.process.end();
         self.hub.forget(id);
         if let State::Busy(job) = worker.state {
@@ -150,7 +159,9 @@ impl Pool {
             ));
         } else if let Err(error) = self.hire() {
             if self.workers.is_empty() {
-                self.fail(format!("no worker is left and none can be started: {error}"));
+                self.fail(format!(
+                    "no worker is left and none can be started: {error}"
+                ));
             }
         }
     }
@@ -163,11 +174,14 @@ impl Pool {
 
     /// Gives jobs to the workers that wait for one.
     fn feed(&mut self) {
-        let idle = |(id, worker): (&WorkerId, &Worker)| (worker.state == State::Idle).then_some(*id);
+        let idle =
+            |(id, worker): (&WorkerId, &Worker)| (worker.state == State::Idle).then_some(*id);
         let idle: Vec<WorkerId> = self.workers.iter().filter_map(idle).collect();
         for id in idle {
             let Some(job) = self.next_job() else { return };
-            let Some(worker) = self.workers.get_mut(&id) else { continue };
+            let Some(worker) = self.workers.get_mut(&id) else {
+                continue;
+            };
             let (entries, place) = self.log.part(worker.place);
             worker.place = place;
             let job = if place == self.log.end() {
@@ -214,7 +228,9 @@ impl Pool {
     }
 
     fn take(&mut self, id: WorkerId, message: &[u8]) {
-        let Some(worker) = self.workers.get_mut(&id) else { return };
+        let Some(worker) = self.workers.get_mut(&id) else {
+            return;
+        };
         let message = match wire::decode(message) {
             Ok(message) => message,
             Err(error) => return self.replace(id, &error.to_string()),
@@ -234,20 +250,25 @@ impl Pool {
                 worker.state = State::Idle;
             }
             (State::CatchingUp, FromWorker::More) => worker.state = State::Idle,
-            (State::Busy(job), FromWorker::Finished { job: finished, outcome })
-                if job == finished =>
-            {
-                match wire::decode::<Outcome>(&outcome) {
-                    Ok(decoded) => {
-                        worker.state = State::Idle;
-                        self.fruitless_deaths = 0;
-                        let digest = Digest::of(&outcome);
-                        let finished = Finished { outcome: decoded, digest };
-                        self.events.push_back(Event::Done(job, finished));
-                    }
-                    Err(error) => self.replace(id, &error.to_string()),
+            (
+                State::Busy(job),
+                FromWorker::Finished {
+                    job: finished,
+                    outcome,
+                },
+            ) if job == finished => match wire::decode::<Outcome>(&outcome) {
+                Ok(decoded) => {
+                    worker.state = State::Idle;
+                    self.fruitless_deaths = 0;
+                    let digest = Digest::of(&outcome);
+                    let finished = Finished {
+                        outcome: decoded,
+                        digest,
+                    };
+                    self.events.push_back(Event::Done(job, finished));
                 }
-            }
+                Err(error) => self.replace(id, &error.to_string()),
+            },
             _ => self.replace(id, "a message out of turn"),
         }
     }
@@ -259,13 +280,19 @@ impl Pool {
 
     /// Sleeps until a worker says or becomes something, a signal comes or the time is over.
     fn sleep(&mut self, wait: Duration) {
-        let wait = Timespec { tv_sec: wait.as_secs() as i64, tv_nsec: wait.subsec_nanos().into() };
+        let wait = Timespec {
+            tv_sec: wait.as_secs() as i64,
+            tv_nsec: wait.subsec_nanos().into(),
+        };
         let hub = self.hub.as_fd();
         let signals = self.signals.as_fd();
         let mut fds = vec![PollFd::from_borrowed_fd(hub, PollFlags::IN)];
         fds.push(PollFd::from_borrowed_fd(signals, PollFlags::IN));
         for worker in self.workers.values() {
-            fds.push(PollFd::from_borrowed_fd(worker.process.as_fd(), PollFlags::IN));
+            fds.push(PollFd::from_borrowed_fd(
+                worker.process.as_fd(),
+                PollFlags::IN,
+            ));
         }
         // An interrupted sleep is a short one.
         let _ = poll(&mut fds, Some(&wait));

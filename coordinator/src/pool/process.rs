@@ -61,7 +61,12 @@ impl WorkerProcess {
             .spawn()?;
         let heart = child.stdout.take().ok_or(std::io::ErrorKind::BrokenPipe)?;
         fcntl_setfl(&heart, fcntl_getfl(&heart)? | OFlags::NONBLOCK)?;
-        Ok(WorkerProcess { child, heart, last_beat: Instant::now(), gone: false })
+        Ok(WorkerProcess {
+            child,
+            heart,
+            last_beat: Instant::now(),
+            gone: false,
+        })
     }
 
     /// Readable when the heart has beaten or the process has ended.

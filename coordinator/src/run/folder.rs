@@ -79,13 +79,19 @@ fn make_parents(path: &Path) -> Result<(), Failure> {
 }
 
 fn cannot_make(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::usage(format!("{}: cannot make the run folder: {error}", path.display()))
+    Failure::usage(format!(
+        "{}: cannot make the run folder: {error}",
+        path.display()
+    ))
 }
 
 /// Removes a run, and refuses anything else.
 fn remove_run(path: &Path) -> Result<(), Failure> {
     let refuse = |what: &str| {
-        Err(Failure::usage(format!("{}: {what}; --force replaces runs only", path.display())))
+        Err(Failure::usage(format!(
+            "{}: {what}; --force replaces runs only",
+            path.display()
+        )))
     };
     match fs::symlink_metadata(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),

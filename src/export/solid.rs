@@ -1,0 +1,336 @@
+//! Bodies as they are drawn: flat patches and the edges between them.
+
+use super::view::{View, cross, dot};
+use crate::math;
+use crate::scene::{Body, Mesh, Pose, Shape};
+use std::collections::BTreeMap;
+
+/// Meshes of more triangles are drawn as their convex outline.
+const TRIANGLES_MAX: usize = 4000;
+/// Corners of a drawn circle.
+const CIRCLE: usize = 40;
+/// Two triangles meet in a drawn edge when the cosine between their normals is below this.
+const SMOOTH: f64 = 0.9;
+
+/// Faces that lie in one plane, or nearly.
+pub(super) struct Patch {
+    pub polygons: Vec<Vec<[f64; 3]>>,
+    /// Outward, of unit length.
+    pub normal: [f64; 3],
+}
+
+/// A connected piece of a body in the world's frame, with what the eye sees of it.
+pub(super) struct Solid {
+    pub patches: Vec<Patch>,
+    pub edges: Vec<[[f64; 3]; 2]>,
+    /// Points whose convex hull holds the piece.
+    pub points: Vec<[f64; 3]>,
+    /// The faces of a box around the piece: outward normals and their offsets.
+    pub planes: Vec<([f64; 3], f64)>,
+}
+
+/// The pieces of a body; `frame` is the pose of the body's owner in the world.
+pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
+    let place = |p: [f64; 3]| frame.apply(body.pose.apply(p));
+    let turn = |axis: [f64; 3]| {
+        let (tip, origin) = (place(axis), place([0.0; 3]));
+        [0, 1, 2].map(|i| tip[i] - origin[i])
+    };
+    match &body.shape {
+        Shape::Box { size } => {
+            let corner = |i: usize| {
+                [0, 1, 2].map(|axis| size[axis] * if i >> axis & 1 == 1 { 0.5 } else { -0.5 })
+            };
+            let quads = [
+                [0, 2, 3, 1],
+                [4, 5, 7, 6],
+                [0, 1, 5, 4],
+                [2, 6, 7, 3],
+                [0, 4, 6, 2],
+                [1, 3, 7, 5],
+            ];
+            let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+            let triangles: Vec<[u32; 3]> = quads.into_iter().flat_map(halves).collect();
+            vec![polyhedron(
+                &(0..8).map(corner).collect::<Vec<_>>(),
+                &triangles,
+                place,
+                turn,
+                view,
+            )]
+        }
+        Shape::Mesh(mesh) if mesh.triangles.len() <= TRIANGLES_MAX => pieces(mesh)
+            .iter()
+            .map(|triangles| polyhedron(&mesh.vertices, triangles, place, turn, view))
+            .collect(),
+        Shape::Mesh(mesh) => {
+            let (min, max) = mesh.bounding_box();
+            let points: Vec<_> = mesh.vertices.iter().map(|p| place(*p)).collect();
+            vec![silhouette(&points, (min, max), place, turn, view)]
+        }
+        Shape::Point => vec![ball_like(&[[0.0; 3]], 0.0, place, turn, view)],
+        Shape::Sphere { radius } => vec![ball_like(&[[0.0; 3]], *radius, place, turn, view)],
+        Shape::Capsule { radius, height } => {
+            let ends = [-height / 2.0, height / 2.0].map(|z| [0.0, 0.0, z]);
+            vec![ball_like(&ends, *radius, place, turn, view)]
+        }
+        Shape::Cylinder { radius, height } => {
+            let ring = |z: f64| -> Vec<[f64; 3]> {
+                circle()
+                    .map(|(x, y)| place([radius * x, radius * y, z]))
+                    .collect()
+            };
+            let rings = [ring(-height / 2.0), ring(height / 2.0)];
+            let high = [*radius, *radius, height / 2.0];
+            let mut solid =
+                silhouette(&rings.concat(), (high.map(|v| -v), high), place, turn, view);
+            let axis = turn([0.0, 0.0, 1.0]);
+            let above = dot(axis, view.toward) >= 0.0;
+            let [below_ring, above_ring] = rings;
+            let (cap, normal) = if above {
+                (above_ring, axis)
+            } else {
+                (below_ring, axis.map(|value| -value))
+            };
+            solid
+                .edges
+                .extend((0..CIRCLE).map(|i| [cap[i], cap[(i + 1) % CIRCLE]]));
+            solid.patches.push(Patch {
+                polygons: vec![cap],
+                normal,
+            });
+            vec![solid]
+        }
+    }
+}
+
+/// The triangles of each connected piece of a mesh.
+fn pieces(mesh: &Mesh) -> Vec<Vec<[u32; 3]>> {
+    let mut label: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
+    fn root(label: &mut [u32], mut i: u32) -> u32 {
+        while label[i as usize] != i {
+            label[i as usize] = label[label[i as usize] as usize];
+            i = label[i as usize];
+        }
+        i
+    }
+    for corners in &mesh.triangles {
+        let roots = corners.map(|corner| root(&mut label, corner));
+        let least = roots[0].min(roots[1]).min(roots[2]);
+        for other in roots {
+            label[other as usize] = least;
+        }
+    }
+    let mut pieces: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
+    for corners in &mesh.triangles {
+        pieces
+            .entry(root(&mut label, corners[0]))
+            .or_default()
+            .push(*corners);
+    }
+    pieces.into_values().collect()
+}
+
+/// What the eye sees of a surface of triangles.
+fn polyhedron(
+    vertices: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    place: impl Fn([f64; 3]) -> [f64; 3],
+    turn: impl Fn([f64; 3]) -> [f64; 3],
+    view: &View,
+) -> Solid {
+    let mut used: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
+    let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for corner in triangles.iter().flatten() {
+        let vertex = vertices[*corner as usize];
+        used.entry(*corner).or_insert_with(|| place(vertex));
+        for axis in 0..3 {
+            min[axis] = min[axis].min(vertex[axis]);
+            max[axis] = max[axis].max(vertex[axis]);
+        }
+    }
+    let corners_of: Vec<[[f64; 3]; 3]> = triangles
+        .iter()
+        .map(|corners| corners.map(|corner| used[&corner]))
+        .collect();
+    // Six times the volume; negative where the triangles are listed inside out.
+    let volume: f64 = corners_of
+        .iter()
+        .map(|[a, b, c]| dot(*a, cross(*b, *c)))
+        .sum();
+    let outward = if volume < 0.0 { -1.0 } else { 1.0 };
+    let mut sides_of: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
+    for (index, [a, b, c]) in triangles.iter().enumerate() {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            sides_of
+                .entry((*from.min(to), *from.max(to)))
+                .or_default()
+                .push(index);
+        }
+    }
+    let closed = sides_of.values().all(|sides| sides.len() % 2 == 0);
+    let normals: Vec<[f64; 3]> = corners_of
+        .iter()
+        .map(|[a, b, c]| {
+            let (u, v) = (
+                [0, 1, 2].map(|i| b[i] - a[i]),
+                [0, 1, 2].map(|i| c[i] - a[i]),
+            );
+            let normal = cross(u, v);
+            let length = dot(normal, normal).sqrt();
+            let sign = if closed || dot(normal, view.toward) > 0.0 {
+                outward
+            } else {
+                -outward
+            };
+            normal.map(|value| value / length * sign)
+        })
+        .collect();
+    let seen: Vec<bool> = normals
+        .iter()
+        .map(|normal| !closed || dot(*normal, view.toward) > 1e-9)
+        .collect();
+
+    // Triangles of one direction become one patch, so that no seam shows between them.
+    let mut patches: BTreeMap<[i64; 3], Patch> = BTreeMap::new();
+    for (index, corners) in corners_of
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| seen[*index])
+    {
+        let normal = normals[index];
+        patches
+            .entry(normal.map(|value| (value * 64.0).round() as i64))
+            .or_insert_with(|| Patch {
+                polygons: Vec::new(),
+                normal,
+            })
+            .polygons
+            .push(corners.to_vec());
+    }
+    let edges = sides_of
+        .iter()
+        .filter(|(_, sides)| {
+            let (first, last) = (sides[0], sides[sides.len() - 1]);
+            let sharp = sides.len() == 1
+                || dot(normals[first], normals[last]) < SMOOTH
+                || seen[first] != seen[last];
+            sharp && sides.iter().any(|side| seen[*side])
+        })
+        .map(|((a, b), _)| [used[a], used[b]])
+        .collect();
+    Solid {
+        patches: patches.into_values().collect(),
+        edges,
+        points: used.into_values().collect(),
+        planes: planes((min, max), place, turn),
+    }
+}
+
+/// The convex outline of `points`, which lie in a box of the body's frame.
+fn silhouette(
+    points: &[[f64; 3]],
+    (min, max): ([f64; 3], [f64; 3]),
+    place: impl Fn([f64; 3]) -> [f64; 3],
+    turn: impl Fn([f64; 3]) -> [f64; 3],
+    view: &View,
+) -> Solid {
+    let mut flat: Vec<([f64; 2], [f64; 3])> = points
+        .iter()
+        .map(|p| ([dot(view.right, *p), dot(view.up, *p)], *p))
+        .collect();
+    flat.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    // Andrew's monotone chain: the lower side from left to right, then the upper one back.
+    let mut outline: Vec<([f64; 2], [f64; 3])> = Vec::new();
+    for side in [flat.clone(), flat.into_iter().rev().collect()] {
+        let first = outline.len();
+        for point in side {
+            while outline.len() >= first + 2 {
+                let (a, b) = (outline[outline.len() - 2].0, outline[outline.len() - 1].0);
+                let p = point.0;
+                let left = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+                if left > 0.0 {
+                    break;
+                }
+                outline.pop();
+            }
+            outline.push(point);
+        }
+        outline.pop();
+    }
+    let outline: Vec<[f64; 3]> = outline.into_iter().map(|(_, p)| p).collect();
+    let edges = (0..outline.len()).map(|i| [outline[i], outline[(i + 1) % outline.len()]]);
+    let corner = |i: usize| {
+        place([0, 1, 2].map(|axis| {
+            if i >> axis & 1 == 1 {
+                max[axis]
+            } else {
+                min[axis]
+            }
+        }))
+    };
+    Solid {
+        edges: edges.collect(),
+        patches: vec![Patch {
+            polygons: vec![outline],
+            normal: view.toward,
+        }],
+        points: (0..8).map(corner).collect(),
+        planes: planes((min, max), place, turn),
+    }
+}
+
+/// The hull of balls about `centres` on the z axis. A point is drawn as a small ball.
+fn ball_like(
+    centres: &[[f64; 3]],
+    radius: f64,
+    place: impl Fn([f64; 3]) -> [f64; 3],
+    turn: impl Fn([f64; 3]) -> [f64; 3],
+    view: &View,
+) -> Solid {
+    let drawn = if radius > 0.0 {
+        radius
+    } else {
+        view.length_of(4.0)
+    };
+    let rim: Vec<[f64; 3]> = centres
+        .iter()
+        .flat_map(|centre| {
+            let centre = place(*centre);
+            circle().map(move |(x, y)| {
+                [0, 1, 2].map(|i| centre[i] + drawn * (view.right[i] * x + view.up[i] * y))
+            })
+        })
+        .collect();
+    let top = centres
+        .iter()
+        .fold(0.0f64, |most, centre| most.max(centre[2]));
+    let high = [drawn, drawn, top + drawn];
+    silhouette(&rim, (high.map(|value| -value), high), place, turn, view)
+}
+
+/// The faces of the box `min`..`max` of a body's frame, in the world's.
+fn planes(
+    (min, max): ([f64; 3], [f64; 3]),
+    place: impl Fn([f64; 3]) -> [f64; 3],
+    turn: impl Fn([f64; 3]) -> [f64; 3],
+) -> Vec<([f64; 3], f64)> {
+    let (low, high) = (place(min), place(max));
+    let mut planes = Vec::new();
+    for axis in 0..3 {
+        let mut unit = [0.0; 3];
+        unit[axis] = 1.0;
+        let normal = turn(unit);
+        planes.push((normal, dot(normal, high)));
+        planes.push((normal.map(|value| -value), -dot(normal, low)));
+    }
+    planes
+}
+
+/// Points of the unit circle.
+fn circle() -> impl Iterator<Item = (f64, f64)> {
+    (0..CIRCLE).map(|i| {
+        let angle = math::TURN * i as f64 / CIRCLE as f64;
+        (math::cos(angle), math::sin(angle))
+    })
+}

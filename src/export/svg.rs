@@ -1,0 +1,581 @@
+use super::solid::{Solid, solids};
+use super::view::View;
+use crate::problem::Problem;
+use crate::query;
+use crate::roadmap::Roadmap;
+use crate::scene::{Body, Pose};
+use crate::space::{Motion, Space};
+use crate::{math, validity::BoundsMeaning};
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// The most nodes and edges that are drawn.
+const NODES_MAX: usize = 2500;
+const EDGES_MAX: usize = 6000;
+/// Poses of the robot drawn along a path, both ends included.
+const POSES: usize = 18;
+/// Metric length of a path is summed over this many steps of each of its motions.
+const STEPS: usize = 32;
+/// Pieces that a path is cut into so that walls can hide parts of it.
+const CUTS: usize = 160;
+
+const PAPER: &str = "#fbfaf6";
+const FLOOR: &str = "#f1efe8";
+const RULE: &str = "#d9d5c8";
+const INK: &str = "#33393f";
+/// Of obstacles in the shade and in the light.
+const STONE: [[f64; 3]; 2] = [[74.0, 82.0, 92.0], [150.0, 158.0, 168.0]];
+/// Of the robot at the start and at the goal.
+const WARM: [[f64; 3]; 2] = [[240.0, 165.0, 60.0], [178.0, 38.0, 74.0]];
+const WAY: &str = "#9d1f41";
+/// Of the largest component, then of the others, over and over.
+const CALM: &str = "#4f7ea8";
+const OTHERS: [&str; 8] = [
+    "#3f9b6c", "#8460b5", "#c9a21f", "#2c9fa3", "#c0629e", "#7b8a2e", "#6b6fc9", "#9a6a45",
+];
+
+/// A picture of a problem and its roadmap: an SVG file without references to others, at most 1192
+/// pixels wide, the same bytes for the same arguments.
+///
+/// Planar problems are seen from above, others by a parallel projection aslant. Nodes and edges
+/// stand at the robot's reference points; the largest connected component has one calm colour and
+/// the others brighter ones. Of a large roadmap 2500 nodes are drawn, those of small components
+/// first and then the earliest, and of the edges between them the first 6000; the caption counts
+/// all. Along the path the robot is drawn at 18 poses, evenly by length in the metric, and in 3D
+/// what is nearer to the eye covers what it hides. Meshes of more than 4000 triangles are drawn as
+/// their convex outline.
+pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> String {
+    let planar = problem.motion.translations() == 2;
+    let view = View::new(planar, &points_to_hold(problem, path));
+    let mut drawing = Drawing {
+        problem,
+        view,
+        planar,
+        out: String::new(),
+    };
+    drawing.head();
+    drawing.floor();
+    if planar {
+        drawing.obstacles();
+        drawing.roadmap(roadmap);
+        drawing.journey(path);
+    } else {
+        drawing.roadmap(roadmap);
+        drawing.solids_and_journey(path);
+    }
+    drawing.ends();
+    drawing.caption(roadmap, path);
+    drawing.out.push_str("</svg>\n");
+    drawing.out
+}
+
+/// The bounds, and the robot wherever it is drawn: bounds may hold its reference point alone.
+fn points_to_hold(problem: &Problem, path: Option<&query::Path>) -> Vec<[f64; 3]> {
+    let mut points = bounds_corners(problem).to_vec();
+    if problem.bounds.meaning == BoundsMeaning::Reference {
+        let axes = problem.motion.translations();
+        let ends = problem
+            .query
+            .iter()
+            .flat_map(|ends| [&ends.start[..], &ends.goal[..]]);
+        for q in ends.chain(path.iter().flat_map(|path| path.configs.iter())) {
+            let pose = pose_of(problem.motion, q);
+            for body in &problem.robot {
+                let reach = body.shape.reach(&body.pose);
+                for axis in 0..axes {
+                    for side in [-reach, reach] {
+                        let mut point = pose.translation;
+                        point[axis] += side;
+                        points.push(point);
+                    }
+                }
+            }
+        }
+    }
+    points
+}
+
+/// Corners of the bounds; bit `axis` of the index chooses the largest value. Planar ones lie at
+/// z = 0.
+fn bounds_corners(problem: &Problem) -> [[f64; 3]; 8] {
+    let bounds = &problem.bounds;
+    let axes = problem.motion.translations();
+    [0, 1, 2, 3, 4, 5, 6, 7].map(|i: usize| {
+        [0, 1, 2].map(|axis| match (axis < axes, i >> axis & 1) {
+            (false, _) => 0.0,
+            (true, 0) => bounds.min[axis],
+            (true, _) => bounds.max[axis],
+        })
+    })
+}
+
+/// The robot's frame in the world's.
+fn pose_of(motion: Motion, q: &[f64]) -> Pose {
+    let translation = reference_point(motion, q);
+    let rotation = match motion {
+        Motion::Translation2d | Motion::Translation3d => Pose::IDENTITY.rotation,
+        Motion::Rigid2d => [math::cos(q[2] / 2.0), 0.0, 0.0, math::sin(q[2] / 2.0)],
+        Motion::Rigid3d => [q[3], q[4], q[5], q[6]],
+    };
+    Pose {
+        translation,
+        rotation,
+    }
+}
+
+fn reference_point(motion: Motion, q: &[f64]) -> [f64; 3] {
+    [
+        q[0],
+        q[1],
+        if motion.translations() == 3 {
+            q[2]
+        } else {
+            0.0
+        },
+    ]
+}
+
+/// The configurations at these fractions of a path's length, ascending from 0 to 1.
+fn along(space: &Space, path: &query::Path, fractions: &[f64]) -> Vec<Vec<f64>> {
+    let mut fine = vec![(0.0, path.configs.get(0).to_vec())];
+    for i in 1..path.configs.len() {
+        let (a, b) = (path.configs.get(i - 1), path.configs.get(i));
+        for step in 1..=STEPS {
+            let mut q = vec![0.0; space.len()];
+            space.interpolate(a, b, step as f64 / STEPS as f64, &mut q);
+            let (before, last) = &fine[fine.len() - 1];
+            let length = before + space.distance(last, &q);
+            fine.push((length, q));
+        }
+    }
+    let whole = fine[fine.len() - 1].0;
+    fractions
+        .iter()
+        .map(|fraction| {
+            let place = fine.partition_point(|(length, _)| *length < fraction * whole);
+            fine[place.min(fine.len() - 1)].1.clone()
+        })
+        .collect()
+}
+
+/// A colour between two, as `#rrggbb`.
+fn blend([from, to]: [[f64; 3]; 2], share: f64) -> String {
+    let [r, g, b] = [0, 1, 2].map(|i| (from[i] + (to[i] - from[i]) * share).round() as u8);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+struct Drawing<'a> {
+    problem: &'a Problem,
+    view: View,
+    planar: bool,
+    out: String,
+}
+
+impl Drawing<'_> {
+    fn put(&mut self, text: std::fmt::Arguments) {
+        self.out
+            .write_fmt(text)
+            .expect("writing to memory cannot fail");
+        self.out.push('\n');
+    }
+
+    /// A place in the picture, as SVG writes it.
+    fn at(&self, point: [f64; 3]) -> String {
+        let [x, y] = self.view.px(point);
+        format!("{} {}", decimal(x), decimal(y))
+    }
+
+    fn line(&self, points: impl IntoIterator<Item = [f64; 3]>) -> String {
+        let mut line = String::new();
+        for (index, point) in points.into_iter().enumerate() {
+            line.push(if index == 0 { 'M' } else { 'L' });
+            line.push_str(&self.at(point));
+        }
+        line
+    }
+
+    fn head(&mut self) {
+        let [width, height] = self.view.size_px;
+        let height = height + CAPTION_PX;
+        let (width, height) = (width.ceil(), height.ceil());
+        self.put(format_args!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">"
+        ));
+        self.put(format_args!(
+            "<rect width=\"{width}\" height=\"{height}\" rx=\"10\" fill=\"{PAPER}\"/>"
+        ));
+    }
+
+    fn floor(&mut self) {
+        let corners = bounds_corners(self.problem);
+        let outline = self.line([0, 1, 3, 2].map(|i| corners[i]));
+        self.put(format_args!(
+            "<path class=\"bounds\" d=\"{outline}Z\" fill=\"{FLOOR}\" stroke=\"{INK}\" \
+             stroke-width=\"{}\"/>",
+            if self.planar { "2.5" } else { "1" }
+        ));
+        // Lines a round length apart: about a dozen along the longer side.
+        let extent = [0, 1].map(|axis| corners[3][axis] - corners[0][axis]);
+        let step = round_length(extent[0].max(extent[1]) / 12.0);
+        let mut lines = String::new();
+        for axis in 0..2 {
+            let count = (extent[axis] / step).ceil() as usize;
+            for i in 1..count {
+                let (mut from, mut to) = (corners[0], corners[3]);
+                from[axis] = corners[0][axis] + step * i as f64;
+                to[axis] = from[axis];
+                from[2] = corners[0][2];
+                lines.push_str(&self.line([from, to]));
+            }
+        }
+        self.put(format_args!(
+            "<path class=\"grid\" d=\"{lines}\" stroke=\"{RULE}\" stroke-width=\"0.8\" fill=\"none\"/>"
+        ));
+        if !self.planar {
+            // The nine edges that the floor leaves, the back ones and the front ones alike faint.
+            let rest = [
+                [0, 4],
+                [1, 5],
+                [2, 6],
+                [3, 7],
+                [4, 5],
+                [5, 7],
+                [7, 6],
+                [6, 4],
+            ];
+            let lines: String = rest
+                .iter()
+                .map(|pair| self.line(pair.map(|i| corners[i])))
+                .collect();
+            self.put(format_args!(
+                "<path class=\"bounds\" d=\"{lines}\" stroke=\"{INK}\" stroke-opacity=\"0.35\" \
+                 stroke-width=\"0.9\" stroke-dasharray=\"2 4\" fill=\"none\"/>"
+            ));
+        }
+    }
+
+    fn obstacles(&mut self) {
+        for body in &self.problem.obstacles {
+            for solid in solids(body, &Pose::IDENTITY, &self.view) {
+                let text = self.obstacle(&solid);
+                self.put(format_args!("{text}"));
+            }
+        }
+    }
+
+    fn obstacle(&self, solid: &Solid) -> String {
+        let (opacity, width) = if self.planar {
+            ("1", "1")
+        } else {
+            ("0.6", "0.9")
+        };
+        self.solid(solid, "obstacle", STONE, (opacity, width), INK)
+    }
+
+    /// A solid, lighter where it faces the light, with its edges on top.
+    fn solid(
+        &self,
+        solid: &Solid,
+        class: &str,
+        shades: [[f64; 3]; 2],
+        (opacity, width): (&str, &str),
+        stroke: &str,
+    ) -> String {
+        let mut text = format!("<g class=\"{class}\">");
+        for patch in &solid.patches {
+            let mut outline = String::new();
+            for polygon in &patch.polygons {
+                outline.push_str(&self.line(polygon.iter().copied()));
+                outline.push('Z');
+            }
+            // The light comes from the upper left, behind the eye.
+            let view = &self.view;
+            let light: f64 = (0..3)
+                .map(|i| {
+                    let toward = 0.5 * view.toward[i] - 0.35 * view.right[i] + 0.75 * view.up[i];
+                    toward * patch.normal[i]
+                })
+                .sum();
+            let share = if self.planar {
+                0.0
+            } else {
+                light.clamp(0.0, 1.0)
+            };
+            let fill = blend(shades, share);
+            write!(
+                text,
+                "<path d=\"{outline}\" fill=\"{fill}\" fill-opacity=\"{opacity}\"/>"
+            )
+            .expect("writing to memory cannot fail");
+        }
+        let edges: String = solid.edges.iter().map(|edge| self.line(*edge)).collect();
+        write!(
+            text,
+            "<path d=\"{edges}\" stroke=\"{stroke}\" stroke-width=\"{width}\" fill=\"none\"/></g>"
+        )
+        .expect("writing to memory cannot fail");
+        text
+    }
+
+    /// Nodes and edges, one element per component: the largest below, the others above it.
+    fn roadmap(&mut self, roadmap: &Roadmap) {
+        let components = roadmap.components();
+        let mut ranked: Vec<(usize, u32)> = components
+            .iter()
+            .map(|c| (c.members.len(), c.name))
+            .collect();
+        ranked.sort_by_key(|(size, name)| (usize::MAX - size, *name));
+        let Some((_, largest)) = ranked.first().copied() else {
+            return;
+        };
+
+        let mut drawn: BTreeSet<u32> = (0..roadmap.configs().len() as u32)
+            .filter(|node| components.of_node(*node).name != largest)
+            .take(NODES_MAX / 2)
+            .collect();
+        for node in 0..roadmap.configs().len() as u32 {
+            if drawn.len() >= NODES_MAX {
+                break;
+            }
+            drawn.insert(node);
+        }
+        let motion = self.problem.motion;
+        let place = |node: u32| reference_point(motion, roadmap.configs().get(node as usize));
+        let mut layers = vec![(String::new(), String::new()); ranked.len()];
+        let rank_of = |node: u32| {
+            let component = components.of_node(node);
+            let key = |(size, name): (usize, u32)| (usize::MAX - size, name);
+            let own = key((component.members.len(), component.name));
+            ranked.partition_point(|other| key(*other) < own)
+        };
+        let edges = roadmap.edges().iter();
+        let shown = edges.filter(|edge| drawn.contains(&edge.low) && drawn.contains(&edge.high));
+        for edge in shown.take(EDGES_MAX) {
+            layers[rank_of(edge.low)]
+                .0
+                .push_str(&self.line([place(edge.low), place(edge.high)]));
+        }
+        for node in &drawn {
+            let dot = format!("M{}h0", self.at(place(*node)));
+            layers[rank_of(*node)].1.push_str(&dot);
+        }
+        // The more lines, the fainter each.
+        let crowd = (drawn.len() as f64 / 600.0).clamp(0.0, 1.0);
+        let (faint, dot) = (0.5 - 0.28 * crowd, 4.4 - 1.6 * crowd);
+        for (rank, (edges, nodes)) in layers.into_iter().enumerate() {
+            let (colour, faint) = match rank {
+                0 => (CALM, faint),
+                _ => (OTHERS[(rank - 1) % OTHERS.len()], 0.85),
+            };
+            if nodes.is_empty() {
+                continue;
+            }
+            self.put(format_args!(
+                "<g class=\"component\" stroke=\"{colour}\" fill=\"none\">\
+                 <path class=\"edges\" d=\"{edges}\" stroke-width=\"0.8\" stroke-opacity=\"{faint:.2}\"/>\
+                 <path class=\"nodes\" d=\"{nodes}\" stroke-width=\"{dot:.1}\"/></g>"
+            ));
+        }
+    }
+
+    /// The robot at poses along the path, or at the query's ends where there is no path.
+    fn poses(&self, path: Option<&query::Path>) -> Vec<(f64, Pose)> {
+        let motion = self.problem.motion;
+        match (path, &self.problem.query) {
+            (Some(path), _) => {
+                let fractions: Vec<f64> =
+                    (0..POSES).map(|i| i as f64 / (POSES - 1) as f64).collect();
+                let configs = along(&self.problem.space(), path, &fractions);
+                fractions
+                    .iter()
+                    .zip(&configs)
+                    .map(|(f, q)| (*f, pose_of(motion, q)))
+                    .collect()
+            }
+            (None, Some(ends)) => {
+                vec![
+                    (0.0, pose_of(motion, &ends.start)),
+                    (1.0, pose_of(motion, &ends.goal)),
+                ]
+            }
+            (None, None) => Vec::new(),
+        }
+    }
+
+    fn robot(&self, share: f64, pose: &Pose) -> Vec<(Solid, String)> {
+        let full = blend(WARM, share);
+        let tone = [0, 1, 2].map(|i| WARM[0][i] + (WARM[1][i] - WARM[0][i]) * share);
+        let shades = [
+            tone.map(|value| value * 0.86),
+            tone.map(|value| value + (255.0 - value) * 0.35),
+        ];
+        let ends = share == 0.0 || share == 1.0;
+        let look = match (self.planar, ends) {
+            (true, true) => ("0.9", "1.6"),
+            (true, false) => ("0.22", "1.3"),
+            (false, true) => ("0.95", "1"),
+            (false, false) => ("0.62", "0.8"),
+        };
+        let stroke = if ends { INK } else { &full };
+        let body = |body: &Body| solids(body, pose, &self.view);
+        let parts = self.problem.robot.iter().flat_map(body);
+        parts
+            .map(|solid| {
+                let shades = if self.planar { [tone; 2] } else { shades };
+                let text = self.solid(&solid, "robot", shades, look, stroke);
+                (solid, text)
+            })
+            .collect()
+    }
+
+    /// The path of a planar problem: poses, then the line on top.
+    fn journey(&mut self, path: Option<&query::Path>) {
+        for (share, pose) in self.poses(path) {
+            for (_, text) in self.robot(share, &pose) {
+                self.put(format_args!("{text}"));
+            }
+        }
+        let Some(path) = path else { return };
+        let motion = self.problem.motion;
+        let line = self.line(path.configs.iter().map(|q| reference_point(motion, q)));
+        for (class, colour, width) in [("casing", PAPER, "6.5"), ("way", WAY, "3.2")] {
+            self.put(format_args!(
+                "<path class=\"{class}\" d=\"{line}\" fill=\"none\" stroke=\"{colour}\" \
+                 stroke-width=\"{width}\"/>"
+            ));
+        }
+    }
+
+    /// Obstacles, poses and the path of a 3D problem, what is hidden first.
+    fn solids_and_journey(&mut self, path: Option<&query::Path>) {
+        let motion = self.problem.motion;
+        let mut items: Vec<(Solid, String)> = Vec::new();
+        for body in &self.problem.obstacles {
+            for solid in solids(body, &Pose::IDENTITY, &self.view) {
+                let text = self.obstacle(&solid);
+                items.push((solid, text));
+            }
+        }
+        for (share, pose) in self.poses(path) {
+            items.extend(self.robot(share, &pose));
+        }
+        if let Some(path) = path {
+            let fractions: Vec<f64> = (0..=CUTS).map(|i| i as f64 / CUTS as f64).collect();
+            let way: Vec<[f64; 3]> = along(&self.problem.space(), path, &fractions)
+                .iter()
+                .map(|q| reference_point(motion, q))
+                .collect();
+            // Its shadow on the floor tells how far away it is.
+            let floor = self.problem.bounds.min[2];
+            let shadow = self.line(way.iter().map(|p| [p[0], p[1], floor]));
+            self.put(format_args!(
+                "<path class=\"shadow\" d=\"{shadow}\" fill=\"none\" stroke=\"{INK}\" \
+                 stroke-opacity=\"0.18\" stroke-width=\"5\"/>"
+            ));
+            for pair in way.windows(2) {
+                let line = self.line(pair.iter().copied());
+                let text = format!(
+                    "<path class=\"way\" d=\"{line}\" fill=\"none\" stroke=\"{WAY}\" stroke-width=\"3.4\"/>"
+                );
+                let nothing = Vec::new;
+                let points = pair.to_vec();
+                let (patches, edges, planes) = (nothing(), Vec::new(), Vec::new());
+                items.push((
+                    Solid {
+                        patches,
+                        edges,
+                        points,
+                        planes,
+                    },
+                    text,
+                ));
+            }
+        }
+        let solids: Vec<&Solid> = items.iter().map(|(solid, _)| solid).collect();
+        for index in self.view.paint_order(&solids) {
+            self.put(format_args!("{}", items[index].1));
+        }
+    }
+
+    /// Start and goal: a ring at the reference point and the word beside it.
+    fn ends(&mut self) {
+        let Some(ends) = &self.problem.query else {
+            return;
+        };
+        for (name, q, share) in [("start", &ends.start, 0.0), ("goal", &ends.goal, 1.0)] {
+            let [x, y] = self.view.px(reference_point(self.problem.motion, q));
+            let (x, y, above) = (decimal(x), decimal(y), decimal(y - 13.0));
+            let colour = blend(WARM, share);
+            self.put(format_args!(
+                "<circle class=\"{name}\" cx=\"{x}\" cy=\"{y}\" r=\"6\" fill=\"{PAPER}\" \
+                 stroke=\"{colour}\" stroke-width=\"4\"/>"
+            ));
+            self.put(format_args!(
+                "<text x=\"{x}\" y=\"{above}\" text-anchor=\"middle\" {FONT} font-size=\"15\" \
+                 font-weight=\"600\" fill=\"{INK}\" stroke=\"{PAPER}\" stroke-width=\"4\" \
+                 paint-order=\"stroke\">{name}</text>"
+            ));
+        }
+    }
+
+    fn caption(&mut self, roadmap: &Roadmap, path: Option<&query::Path>) {
+        let count = |number: usize, noun: &str| {
+            format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+        };
+        let mut text = [
+            count(roadmap.configs().len(), "node"),
+            count(roadmap.edges().len(), "edge"),
+            count(roadmap.components().count(), "component"),
+        ]
+        .join(" · ");
+        if let Some(path) = path {
+            write!(text, " · path of length {:.2}", path.length)
+                .expect("writing to memory cannot fail");
+        }
+        let name = escaped(&self.problem.name);
+        let (x, y) = (
+            decimal(crate::export::view::MARGIN_PX),
+            decimal(self.view.size_px[1] + 8.0),
+        );
+        self.put(format_args!(
+            "<text x=\"{x}\" y=\"{y}\" {FONT} font-size=\"16\" fill=\"{INK}\">\
+             <tspan font-weight=\"600\">{name}</tspan><tspan dx=\"14\" fill-opacity=\"0.75\">{text}</tspan></text>"
+        ));
+    }
+}
+
+const CAPTION_PX: f64 = 30.0;
+const FONT: &str = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
+
+/// A number of pixels with one decimal, never a negative zero.
+fn decimal(value: f64) -> String {
+    let text = format!("{value:.1}");
+    if text == "-0.0" {
+        "0.0".to_owned()
+    } else {
+        text
+    }
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is not above `length`.
+fn round_length(length: f64) -> f64 {
+    let mut unit = 1.0;
+    while unit > length {
+        unit /= 10.0;
+    }
+    while unit * 10.0 <= length {
+        unit *= 10.0;
+    }
+    [5.0, 2.0]
+        .into_iter()
+        .map(|times| times * unit)
+        .find(|round| *round <= length)
+        .unwrap_or(unit)
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+}

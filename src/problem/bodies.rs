@@ -1,0 +1,165 @@
+//! The robot's bodies and the obstacles.
+
+use super::error::ProblemError;
+use super::file::{BodyTable, ShapeTable, Solid};
+use super::source::Source;
+use super::source::Step::{self, Index, Key};
+use crate::math;
+use crate::scene::{Body, Pose, Shape, read_mesh};
+use crate::space::canonical;
+use std::path::Path;
+
+/// Reads the bodies of the table at `place`.
+pub(super) fn bodies(
+    source: &Source,
+    place: &[Step],
+    tables: &[BodyTable],
+    notes: &mut Vec<String>,
+) -> Result<Vec<Body>, ProblemError> {
+    let mut bodies = Vec::new();
+    for (index, table) in tables.iter().enumerate() {
+        let at = |key| [place, &[Index(index), Key(key)]].concat();
+        let pose = pose_of(table).map_err(|(key, message)| source.error(&at(key), message))?;
+        let shape =
+            shape_of(source, table).map_err(|message| source.error(&at("shape"), message))?;
+        let solid = match (&shape, table.solid) {
+            (Shape::Mesh(mesh), Solid::Yes) if !mesh.is_closed() => {
+                let message = format!(
+                    "true found, but the mesh is not closed ({} edges belong to an odd number of \
+                     triangles); false or \"auto\" expected",
+                    mesh.odd_edges()
+                );
+                return Err(source.error(&at("solid"), message));
+            }
+            (Shape::Mesh(mesh), Solid::Auto) => {
+                let closed = mesh.is_closed();
+                let what = if place.len() == 1 {
+                    "obstacle"
+                } else {
+                    "robot body"
+                };
+                let found = match mesh.odd_edges() {
+                    0 => "the mesh is closed".to_owned(),
+                    odd => format!("the mesh has {odd} open edges"),
+                };
+                notes.push(format!("{what} {index}: solid = {closed}, as {found}"));
+                closed
+            }
+            (Shape::Mesh(_), Solid::Yes) => true,
+            (Shape::Mesh(_), Solid::No) => false,
+            (_, Solid::No) => {
+                let message = format!("false found; a {} is always solid", shape.name());
+                return Err(source.error(&at("solid"), message));
+            }
+            _ => true,
+        };
+        bodies.push(Body { shape, pose, solid });
+    }
+    Ok(bodies)
+}
+
+fn pose_of(table: &BodyTable) -> Result<Pose, (&'static str, String)> {
+    if table.position.iter().any(|value| !value.is_finite()) {
+        let message = format!("{:?} found; finite numbers expected", table.position);
+        return Err(("position", message));
+    }
+    let rotation = match (&table.orientation, &table.turn) {
+        (Some(_), Some(_)) => {
+            return Err((
+                "turn",
+                "given beside orientation; one of the two expected".to_owned(),
+            ));
+        }
+        (Some(quaternion), None) => canonical(*quaternion).ok_or_else(|| {
+            let expected = "a finite quaternion w x y z other than zero expected";
+            ("orientation", format!("{quaternion:?} found; {expected}"))
+        })?,
+        (None, Some(turn)) => {
+            let [x, y, z] = turn.axis;
+            let length = (x * x + y * y + z * z).sqrt();
+            if !(length.is_finite() && length > 1e-100 && turn.degrees.is_finite()) {
+                let expected = "an axis other than zero and finite degrees expected";
+                let message = format!(
+                    "axis {:?} by {}° found; {expected}",
+                    turn.axis, turn.degrees
+                );
+                return Err(("turn", message));
+            }
+            rotation_about(turn.axis.map(|value| value / length), turn.degrees)
+        }
+        (None, None) => Pose::IDENTITY.rotation,
+    };
+    Ok(Pose {
+        translation: table.position,
+        rotation,
+    })
+}
+
+/// The rotation by `degrees` about a unit axis.
+fn rotation_about(axis: [f64; 3], degrees: f64) -> [f64; 4] {
+    let half = degrees / 360.0 * std::f64::consts::PI;
+    let (sine, cosine) = (math::sin(half), math::cos(half));
+    let quaternion = [cosine, axis[0] * sine, axis[1] * sine, axis[2] * sine];
+    canonical(quaternion).unwrap_or(Pose::IDENTITY.rotation)
+}
+
+fn shape_of(source: &Source, table: &BodyTable) -> Result<Shape, String> {
+    let length = |key: &str, value: f64| {
+        if value.is_finite() && value > 0.0 {
+            Ok(value)
+        } else {
+            Err(format!("{key} = {value} found; a positive length expected"))
+        }
+    };
+    Ok(match &table.shape {
+        ShapeTable::Point {} => Shape::Point,
+        ShapeTable::Box { size } => {
+            for edge in size {
+                length("size", *edge)?;
+            }
+            Shape::Box { size: *size }
+        }
+        ShapeTable::Sphere { radius } => Shape::Sphere {
+            radius: length("radius", *radius)?,
+        },
+        ShapeTable::Cylinder { radius, height } => Shape::Cylinder {
+            radius: length("radius", *radius)?,
+            height: length("height", *height)?,
+        },
+        ShapeTable::Capsule { radius, height } => Shape::Capsule {
+            radius: length("radius", *radius)?,
+            height: length("height", *height)?,
+        },
+        ShapeTable::Mesh { file, scale } => {
+            length("scale", *scale)?;
+            let folder = source.path.parent().unwrap_or(Path::new(""));
+            let mesh = read_mesh(&folder.join(file), *scale).map_err(|error| error.to_string())?;
+            Shape::Mesh(mesh)
+        }
+    })
+}
+
+/// Checks the bodies against one another.
+pub(super) fn check_bodies(
+    source: &Source,
+    robot: &[Body],
+    obstacles: &[Body],
+) -> Result<(), ProblemError> {
+    let place = [Key("robot"), Key("bodies")];
+    if robot.is_empty() {
+        return Err(source.error(&place, "[] found; at least one body expected".to_owned()));
+    }
+    if let Some(index) = obstacles.iter().position(|body| body.shape == Shape::Point) {
+        let message = "a point cannot be an obstacle; a shape with an extent expected";
+        let place = [Key("obstacles"), Index(index), Key("shape")];
+        return Err(source.error(&place, message.to_owned()));
+    }
+    let pointlike = robot.iter().any(|body| body.shape == Shape::Point);
+    if pointlike && let Some(index) = obstacles.iter().position(|body| !body.solid) {
+        let message = "a point robot never touches a surface without inside at the configurations \
+                       that are checked; a solid obstacle or a robot with an extent expected";
+        let place = [Key("obstacles"), Index(index)];
+        return Err(source.error(&place, message.to_owned()));
+    }
+    Ok(())
+}

@@ -1,0 +1,157 @@
+//! How the roadmap is built: strategies, schedule, limits and evaluators.
+
+use super::Limits;
+use super::error::ProblemError;
+use super::file::{File, StrategyTable};
+use super::source::Source;
+use super::source::Step::{Index, Key};
+use crate::evaluate::{self, EvaluatorKind};
+use crate::strategy::Strategy;
+
+/// The most nodes a roadmap may have: ids take 32 bits, and two more name start and goal.
+pub const NODES_MAX: u64 = u32::MAX as u64 - 2;
+const SET_NODES_MAX: u64 = 1_000_000;
+const SETS_PER_ROUND_MAX: u64 = 1_000_000;
+const DEFAULT_SETS_PER_ROUND: u64 = 5;
+const DEFAULT_NODES_MAX: u64 = 100_000;
+
+pub(super) fn strategies_of(
+    source: &Source,
+    file: &File,
+) -> Result<(Vec<Strategy>, Vec<u32>, u32), ProblemError> {
+    let default = [StrategyTable::uniform()];
+    let tables = if file.strategies.is_empty() {
+        &default[..]
+    } else {
+        &file.strategies
+    };
+    let mut strategies: Vec<Strategy> = Vec::new();
+    for (index, table) in tables.iter().enumerate() {
+        let fail = |keys: &[&str], message: String| {
+            let mut place = vec![Key("strategies"), Index(index)];
+            place.extend(keys.iter().map(|key| Key(key)));
+            Err(source.error(&place, message))
+        };
+        if table.label.is_empty() || table.label.len() > 100 {
+            return fail(&["label"], "1 to 100 bytes expected".to_owned());
+        }
+        if strategies.iter().any(|other| other.label == table.label) {
+            let message = format!(
+                "`{}` found twice; labels of their own expected",
+                table.label
+            );
+            return fail(&["label"], message);
+        }
+        if !(1..=SET_NODES_MAX).contains(&table.nodes) {
+            let message = format!("{} found; 1 to {SET_NODES_MAX} expected", table.nodes);
+            return fail(&["nodes"], message);
+        }
+        for (role, complaint) in [
+            ("sampler", table.sampler.method().complaint()),
+            ("within", table.within.method().complaint()),
+            ("among", table.among.method().complaint()),
+        ] {
+            if let Some((key, found, expected)) = complaint {
+                return fail(
+                    &[role],
+                    format!("{key} = {found} found; {expected} expected"),
+                );
+            }
+        }
+        strategies.push(Strategy {
+            label: table.label.clone(),
+            nodes: table.nodes as u32,
+            sampler: table.sampler.clone(),
+            within: table.within.clone(),
+            among: table.among.clone(),
+        });
+    }
+
+    let place = [Key("img"), Key("schedule")];
+    let schedule = match &file.img.schedule {
+        None => (0..strategies.len() as u32).collect(),
+        Some(labels) => {
+            let mut schedule = Vec::new();
+            for label in labels {
+                let Some(index) = strategies.iter().position(|other| other.label == *label) else {
+                    let known: Vec<_> = strategies.iter().map(|s| s.label.as_str()).collect();
+                    let known = known.join(", ");
+                    let message =
+                        format!("`{label}` found; labels of strategies expected: {known}");
+                    return Err(source.error(&place, message));
+                };
+                schedule.push(index as u32);
+            }
+            schedule
+        }
+    };
+    if schedule.is_empty() {
+        return Err(source.error(&place, "[] found; at least one label expected".to_owned()));
+    }
+    if let Some(idle) = (0..strategies.len()).find(|i| !schedule.contains(&(*i as u32))) {
+        let label = &strategies[idle].label;
+        return Err(source.error(&place, format!("the strategy `{label}` has no place in it")));
+    }
+    let sets = file.img.sets_per_round.unwrap_or(DEFAULT_SETS_PER_ROUND);
+    if !(1..=SETS_PER_ROUND_MAX).contains(&sets) {
+        let message = format!("{sets} found; 1 to {SETS_PER_ROUND_MAX} expected");
+        return Err(source.error(&[Key("img"), Key("sets_per_round")], message));
+    }
+    Ok((strategies, schedule, sets as u32))
+}
+
+pub(super) fn limits_of(source: &Source, file: &File) -> Result<Limits, ProblemError> {
+    let table = &file.limits;
+    let limits = Limits {
+        nodes: table.nodes.unwrap_or(DEFAULT_NODES_MAX),
+        sets: table.sets.unwrap_or(u64::MAX),
+        seconds: table.seconds,
+    };
+    limits.complaint().map_or(Ok(limits), |(key, message)| {
+        Err(source.error(&[Key("limits"), Key(key)], message))
+    })
+}
+
+impl Limits {
+    /// What is wrong with the limits: which one, what was found and what is expected.
+    pub fn complaint(&self) -> Option<(&'static str, String)> {
+        if !(1..=NODES_MAX).contains(&self.nodes) {
+            let expected = format!("1 to {NODES_MAX} expected (node ids take 32 bits)");
+            return Some(("nodes", format!("{} found; {expected}", self.nodes)));
+        }
+        if self.sets == 0 {
+            return Some(("sets", "0 found; at least 1 expected".to_owned()));
+        }
+        match self.seconds {
+            Some(seconds) if !(seconds.is_finite() && seconds > 0.0) => Some((
+                "seconds",
+                format!("{seconds} found; a positive number expected"),
+            )),
+            _ => None,
+        }
+    }
+}
+
+pub(super) fn evaluators_of(
+    source: &Source,
+    file: &File,
+) -> Result<Vec<EvaluatorKind>, ProblemError> {
+    let evaluators = match &file.evaluators {
+        Some(evaluators) => evaluators.clone(),
+        None if file.query.is_some() => vec![EvaluatorKind::Query(evaluate::Query::default())],
+        None => Vec::new(),
+    };
+    for (index, evaluator) in evaluators.iter().enumerate() {
+        let place = [Key("evaluators"), Index(index)];
+        let method = evaluator.method();
+        if let Some((key, found, expected)) = method.complaint() {
+            let message = format!("{key} = {found} found; {expected} expected");
+            return Err(source.error(&place, message));
+        }
+        if method.needs_query() && file.query.is_none() {
+            let message = format!("the {} evaluator needs a [query] table", method.name());
+            return Err(source.error(&place, message));
+        }
+    }
+    Ok(evaluators)
+}

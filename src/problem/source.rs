@@ -1,0 +1,86 @@
+//! The text of a problem file, for saying where something is wrong.
+
+use super::error::ProblemError;
+use super::file::File;
+use std::path::Path;
+use toml::de::{DeTable, DeValue};
+
+/// One step on the way to a value in the file.
+#[derive(Clone, Copy)]
+pub(super) enum Step<'a> {
+    Key(&'a str),
+    Index(usize),
+}
+/// The file at hand, for saying where something is wrong.
+pub(super) struct Source<'a> {
+    pub path: &'a Path,
+    text: &'a str,
+    tree: DeTable<'a>,
+}
+
+impl<'a> Source<'a> {
+    /// Parses the file's text.
+    pub fn new(path: &'a Path, text: &'a str) -> Result<Source<'a>, ProblemError> {
+        let tree = DeTable::parse(text).map_err(|error| syntax_error(path, text, &error))?;
+        Ok(Source {
+            path,
+            text,
+            tree: tree.into_inner(),
+        })
+    }
+
+    /// Reads the tree into tables.
+    pub fn file(&self) -> Result<File, ProblemError> {
+        toml::from_str(self.text).map_err(|error| syntax_error(self.path, self.text, &error))
+    }
+
+    /// An error at the deepest step of `place` that the file has.
+    pub fn error(&self, place: &[Step], message: String) -> ProblemError {
+        let mut key = String::new();
+        for step in place {
+            match step {
+                Step::Key(name) if key.is_empty() => key.push_str(name),
+                Step::Key(name) => key = format!("{key}.{name}"),
+                Step::Index(index) => key = format!("{key}[{index}]"),
+            }
+        }
+        let message = format!("{key}: {message}");
+        match self.find(place) {
+            Some(offset) => ProblemError::line(self.path, line_of(self.text, offset), message),
+            None => ProblemError::file(self.path, message),
+        }
+    }
+
+    fn find(&self, place: &[Step]) -> Option<usize> {
+        let (first, rest) = place.split_first()?;
+        let Step::Key(name) = first else { return None };
+        let mut value = self.tree.get(*name)?;
+        let mut offset = value.span().start;
+        for step in rest {
+            let next = match (step, value.get_ref()) {
+                (Step::Key(name), DeValue::Table(table)) => table.get(*name),
+                (Step::Index(index), DeValue::Array(array)) => array.get(*index),
+                _ => None,
+            };
+            let Some(next) = next else { break };
+            value = next;
+            offset = value.span().start;
+        }
+        Some(offset)
+    }
+}
+
+fn line_of(text: &str, offset: usize) -> usize {
+    1 + text.as_bytes()[..offset.min(text.len())]
+        .iter()
+        .filter(|byte| **byte == b'\n')
+        .count()
+}
+
+fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> ProblemError {
+    let message = error.message().to_owned();
+    match error.span() {
+        Some(span) => ProblemError::line(path, line_of(text, span.start), message),
+        None => ProblemError::file(path, message),
+    }
+}

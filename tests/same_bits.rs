@@ -1,0 +1,146 @@
+//! The same roadmap, bit for bit, whatever does the work.
+
+use roadmill::img::{Build, Memo, Setup, Simulated, Stop, build, build_in_threads, build_with};
+use roadmill::problem::Problem;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The digests that each problem of `problems/` has always had. Whoever changes one bumps
+/// `BITS_VERSION`.
+const GOLDEN: [(&str, &str); 3] = [
+    (
+        "planar",
+        "e99f59b51e5663e7f3c2be21d92cf23056d5efd9715aebfdf5486ef168b2f4d9",
+    ),
+    (
+        "meshes",
+        "4f45115a3f95d0d341669f610369659336aad26cbd1858cb67e790d3f10efdeb",
+    ),
+    (
+        "slide",
+        "59298bc3e1054a2863cab638c9f60e2d99d1f6d4daddba67d1d059339a8e7e21",
+    ),
+];
+
+fn setup(name: &str) -> Arc<Setup> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems");
+    let problem = Problem::load(&folder.join(format!("{name}.toml")));
+    Arc::new(Setup::new(
+        problem.unwrap_or_else(|error| panic!("{error}")),
+    ))
+}
+
+/// Everything that must not differ.
+fn result(build: &Build) -> (String, Stop, String) {
+    let verdicts = format!("{:?}", build.judgement);
+    (
+        build.roadmap.digest().to_string(),
+        build.stop.clone(),
+        verdicts,
+    )
+}
+
+#[test]
+fn the_digests_are_golden() {
+    let found = GOLDEN.map(|(name, _)| (name, build(&setup(name)).roadmap.digest().to_string()));
+    let found = found
+        .each_ref()
+        .map(|(name, digest)| (*name, digest.as_str()));
+    assert_eq!(
+        found, GOLDEN,
+        "bits of a given seed changed: bump BITS_VERSION"
+    );
+}
+
+#[test]
+fn threads_build_what_one_thread_builds() {
+    for (name, _) in GOLDEN {
+        let setup = setup(name);
+        let expected = result(&build(&setup));
+        for threads in [1, 2, 3, 8] {
+            assert_eq!(
+                result(&build_in_threads(&setup, threads)),
+                expected,
+                "{name}"
+            );
+        }
+    }
+}
+
+/// Thousands of schedules with reordered, late, repeated and lost results and workers that crash.
+/// `ROADMILL_SCHEDULES` sets how many per problem, `ROADMILL_SCHEDULE` the one to run again.
+#[test]
+fn no_schedule_of_mishaps_changes_a_bit() {
+    let number = |name| {
+        std::env::var(name)
+            .ok()
+            .map(|text| text.parse::<u64>().expect("a number"))
+    };
+    let schedules = match number("ROADMILL_SCHEDULE") {
+        Some(only) => only..only + 1,
+        None => 0..number("ROADMILL_SCHEDULES").unwrap_or(1000),
+    };
+    for (name, _) in GOLDEN {
+        let setup = setup(name);
+        let expected = result(&build(&setup));
+        let mut memo = Memo::new();
+        for seed in schedules.clone() {
+            let workers = 1 + seed as usize % 17;
+            let lookahead = seed / 17 % 23;
+            let simulated = Simulated::new(setup.clone(), workers, seed, &mut memo);
+            let found = result(&build_with(&setup, simulated, lookahead));
+            assert_eq!(
+                found, expected,
+                "{name}: run again with ROADMILL_SCHEDULE={seed}"
+            );
+        }
+    }
+}
+
+/// The jobs themselves, really run anew for each schedule with rubbish in the scratch memory:
+/// what allows the simulations above to run each job once only.
+#[test]
+fn jobs_are_pure() {
+    for (name, _) in GOLDEN {
+        let setup = setup(name);
+        let expected = result(&build(&setup));
+        for seed in 1000..1010 {
+            let simulated_memo = &mut Memo::new();
+            let simulated = Simulated::new(setup.clone(), 5, seed, simulated_memo);
+            assert_eq!(
+                result(&build_with(&setup, simulated, 9)),
+                expected,
+                "{name} {seed}"
+            );
+        }
+    }
+}
+
+#[test]
+fn another_seed_is_another_roadmap() {
+    let problem = setup("planar").problem.clone();
+    let other = Arc::new(Setup::new(Problem {
+        seed: problem.seed + 1,
+        ..problem
+    }));
+    assert_ne!(
+        build(&other).roadmap.digest(),
+        build(&setup("planar")).roadmap.digest()
+    );
+}
+
+/// The report's claim: a roadmap stays what it is when more sets are added to it.
+#[test]
+fn a_longer_build_begins_with_the_shorter() {
+    let mut problem = setup("slide").problem.clone();
+    let short = build(&Arc::new(Setup::new(problem.clone()))).roadmap;
+    problem.limits.nodes *= 2;
+    let long = build(&Arc::new(Setup::new(problem))).roadmap;
+    assert!(long.configs().len() > short.configs().len());
+    assert!(
+        long.configs()
+            .values()
+            .starts_with(short.configs().values())
+    );
+    assert!(long.edges().starts_with(short.edges()));
+}
