@@ -1,7 +1,37 @@
 //! roadmill grows probabilistic roadmaps and always gives the same one, bit for bit.
+//!
+//! This is the planning library: problems, configuration spaces, validity, sampling, connection,
+//! evaluation, and Incremental Map Generation (TR05-007) as a state machine. It starts no process,
+//! reads no clock and has no randomness but what follows from a problem's seed. The program around
+//! it, which works in many processes, is the crate `roadmill-coordinator`.
+//!
+//! # A roadmap in ten lines
+//!
+//! ```
+//! use roadmill::{img, problem::Problem};
+//! use std::{path::Path, sync::Arc};
+//!
+//! let problem = Problem::load(Path::new("problems/maze.toml"))?;
+//! let setup = Arc::new(img::Setup::new(problem));
+//! let built = img::build(&setup);
+//! let judgement = built.judgement.expect("a round was judged");
+//! let answer = judgement.verdicts[0].answer.as_ref().expect("the maze has a query");
+//! let path = answer.path.as_ref().expect("the maze has a way through");
+//! assert_eq!(Some(path.configs.get(0)), setup.cx.query.as_ref().map(|ends| &ends.start[..]));
+//! # Ok::<(), roadmill::problem::ProblemError>(())
+//! ```
+//!
+//! Other questions than the problem's own are asked with [`query::solve`].
+//!
+//! # Units and frames
+//!
+//! Lengths are in the unit of the problem file, angles in radians, rotations unit quaternions
+//! `w x y z`. A configuration is a flat slice with one value per degree of freedom; for rigid bodies
+//! it is the pose of the robot's frame in the world's.
+
+mod context;
 
 pub mod connect;
-mod context;
 pub mod evaluate;
 pub mod export;
 pub mod img;
@@ -25,3 +55,8 @@ pub use strategy::Strategy;
 
 /// Version of the bits: raised whenever the same problem and seed come to give another roadmap.
 pub const BITS_VERSION: u32 = 1;
+
+/// The README's example is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -43,11 +43,7 @@ pub fn wrap_angle(angle: f64) -> f64 {
 /// Size of the shortest turn between two angles in `[-π, π)`; symmetric to the bit.
 pub fn angle_between(a: f64, b: f64) -> f64 {
     let difference = (a - b).abs();
-    if difference > PI {
-        (TURN - difference).max(0.0)
-    } else {
-        difference
-    }
+    if difference > PI { (TURN - difference).max(0.0) } else { difference }
 }
 
 #[cfg(test)]

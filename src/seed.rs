@@ -92,10 +92,7 @@ mod tests {
     fn the_first_numbers_of_a_set_are_golden() {
         let mut stream = Seed::of_set(1, "uniform", 0).stream(Purpose::Sampling);
         let drawn = [stream.unit(), stream.unit()].map(f64::to_bits);
-        assert_eq!(
-            drawn, GOLDEN,
-            "bits of a given seed changed: bump BITS_VERSION"
-        );
+        assert_eq!(drawn, GOLDEN, "bits of a given seed changed: bump BITS_VERSION");
     }
     const GOLDEN: [u64; 2] = [4605283773480867618, 4604761783744469923];
 }

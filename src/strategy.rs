@@ -39,10 +39,6 @@ impl Strategy {
         let sampler = self.sampler.method();
         sampler.sample(cx, &seed, self.nodes as usize, scratch, &mut configs)?;
         let edges = self.within.method().connect(cx, &seed, &configs, scratch);
-        Ok(Increment {
-            configs,
-            edges,
-            asked: scratch.take_asked(),
-        })
+        Ok(Increment { configs, edges, asked: scratch.take_asked() })
     }
 }

@@ -12,10 +12,7 @@ use bincode::{Decode, Encode};
 pub struct WireError(String);
 
 fn format() -> Configuration<LittleEndian, Fixint, NoLimit> {
-    bincode::config::standard()
-        .with_little_endian()
-        .with_fixed_int_encoding()
-        .with_no_limit()
+    bincode::config::standard().with_little_endian().with_fixed_int_encoding().with_no_limit()
 }
 
 /// The bytes of a value.

@@ -8,48 +8,28 @@ use std::sync::Arc;
 /// The digests that each problem of `problems/` has always had. Whoever changes one bumps
 /// `BITS_VERSION`.
 const GOLDEN: [(&str, &str); 3] = [
-    (
-        "planar",
-        "e99f59b51e5663e7f3c2be21d92cf23056d5efd9715aebfdf5486ef168b2f4d9",
-    ),
-    (
-        "meshes",
-        "4f45115a3f95d0d341669f610369659336aad26cbd1858cb67e790d3f10efdeb",
-    ),
-    (
-        "slide",
-        "59298bc3e1054a2863cab638c9f60e2d99d1f6d4daddba67d1d059339a8e7e21",
-    ),
+    ("planar", "e99f59b51e5663e7f3c2be21d92cf23056d5efd9715aebfdf5486ef168b2f4d9"),
+    ("meshes", "4f45115a3f95d0d341669f610369659336aad26cbd1858cb67e790d3f10efdeb"),
+    ("slide", "59298bc3e1054a2863cab638c9f60e2d99d1f6d4daddba67d1d059339a8e7e21"),
 ];
 
 fn setup(name: &str) -> Arc<Setup> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems");
     let problem = Problem::load(&folder.join(format!("{name}.toml")));
-    Arc::new(Setup::new(
-        problem.unwrap_or_else(|error| panic!("{error}")),
-    ))
+    Arc::new(Setup::new(problem.unwrap_or_else(|error| panic!("{error}"))))
 }
 
 /// Everything that must not differ.
 fn result(build: &Build) -> (String, Stop, String) {
     let verdicts = format!("{:?}", build.judgement);
-    (
-        build.roadmap.digest().to_string(),
-        build.stop.clone(),
-        verdicts,
-    )
+    (build.roadmap.digest().to_string(), build.stop.clone(), verdicts)
 }
 
 #[test]
 fn the_digests_are_golden() {
     let found = GOLDEN.map(|(name, _)| (name, build(&setup(name)).roadmap.digest().to_string()));
-    let found = found
-        .each_ref()
-        .map(|(name, digest)| (*name, digest.as_str()));
-    assert_eq!(
-        found, GOLDEN,
-        "bits of a given seed changed: bump BITS_VERSION"
-    );
+    let found = found.each_ref().map(|(name, digest)| (*name, digest.as_str()));
+    assert_eq!(found, GOLDEN, "bits of a given seed changed: bump BITS_VERSION");
 }
 
 #[test]
@@ -58,11 +38,7 @@ fn threads_build_what_one_thread_builds() {
         let setup = setup(name);
         let expected = result(&build(&setup));
         for threads in [1, 2, 3, 8] {
-            assert_eq!(
-                result(&build_in_threads(&setup, threads)),
-                expected,
-                "{name}"
-            );
+            assert_eq!(result(&build_in_threads(&setup, threads)), expected, "{name}");
         }
     }
 }
@@ -71,11 +47,7 @@ fn threads_build_what_one_thread_builds() {
 /// `ROADMILL_SCHEDULES` sets how many per problem, `ROADMILL_SCHEDULE` the one to run again.
 #[test]
 fn no_schedule_of_mishaps_changes_a_bit() {
-    let number = |name| {
-        std::env::var(name)
-            .ok()
-            .map(|text| text.parse::<u64>().expect("a number"))
-    };
+    let number = |name| std::env::var(name).ok().map(|text| text.parse::<u64>().expect("a number"));
     let schedules = match number("ROADMILL_SCHEDULE") {
         Some(only) => only..only + 1,
         None => 0..number("ROADMILL_SCHEDULES").unwrap_or(1000),
@@ -89,10 +61,7 @@ fn no_schedule_of_mishaps_changes_a_bit() {
             let lookahead = seed / 17 % 23;
             let simulated = Simulated::new(setup.clone(), workers, seed, &mut memo);
             let found = result(&build_with(&setup, simulated, lookahead));
-            assert_eq!(
-                found, expected,
-                "{name}: run again with ROADMILL_SCHEDULE={seed}"
-            );
+            assert_eq!(found, expected, "{name}: run again with ROADMILL_SCHEDULE={seed}");
         }
     }
 }
@@ -107,11 +76,7 @@ fn jobs_are_pure() {
         for seed in 1000..1010 {
             let simulated_memo = &mut Memo::new();
             let simulated = Simulated::new(setup.clone(), 5, seed, simulated_memo);
-            assert_eq!(
-                result(&build_with(&setup, simulated, 9)),
-                expected,
-                "{name} {seed}"
-            );
+            assert_eq!(result(&build_with(&setup, simulated, 9)), expected, "{name} {seed}");
         }
     }
 }
@@ -119,14 +84,8 @@ fn jobs_are_pure() {
 #[test]
 fn another_seed_is_another_roadmap() {
     let problem = setup("planar").problem.clone();
-    let other = Arc::new(Setup::new(Problem {
-        seed: problem.seed + 1,
-        ..problem
-    }));
-    assert_ne!(
-        build(&other).roadmap.digest(),
-        build(&setup("planar")).roadmap.digest()
-    );
+    let other = Arc::new(Setup::new(Problem { seed: problem.seed + 1, ..problem }));
+    assert_ne!(build(&other).roadmap.digest(), build(&setup("planar")).roadmap.digest());
 }
 
 /// The report's claim: a roadmap stays what it is when more sets are added to it.
@@ -137,10 +96,6 @@ fn a_longer_build_begins_with_the_shorter() {
     problem.limits.nodes *= 2;
     let long = build(&Arc::new(Setup::new(problem))).roadmap;
     assert!(long.configs().len() > short.configs().len());
-    assert!(
-        long.configs()
-            .values()
-            .starts_with(short.configs().values())
-    );
+    assert!(long.configs().values().starts_with(short.configs().values()));
     assert!(long.edges().starts_with(short.edges()));
 }

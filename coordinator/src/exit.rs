@@ -45,10 +45,7 @@ pub struct Failure {
 impl Failure {
     /// A failure.
     pub fn new(code: Code, message: impl fmt::Display) -> Failure {
-        Failure {
-            code,
-            message: message.to_string(),
-        }
+        Failure { code, message: message.to_string() }
     }
 
     /// Something that the user can put right.

@@ -48,11 +48,7 @@ impl std::fmt::Display for Report {
         for evaluator in &self.evaluators {
             write!(f, "{evaluator}; ")?;
         }
-        write!(
-            f,
-            "{} of {} workers",
-            self.workers_alive, self.workers_wanted
-        )
+        write!(f, "{} of {} workers", self.workers_alive, self.workers_wanted)
     }
 }
 
@@ -83,11 +79,7 @@ impl Reporter {
         } else {
             (Kind::Lines(FIRST_LINE), FIRST_LINE)
         };
-        Reporter {
-            kind,
-            begun,
-            next: begun + pause,
-        }
+        Reporter { kind, begun, next: begun + pause }
     }
 
     /// Seconds since the beginning.

@@ -66,9 +66,9 @@ impl Among for ComponentPairs {
         let mut new_components: Vec<&Component> = new.components.iter().collect();
         new_components.sort_by_key(|component| component.name);
         let before = input.roadmap.configs().len() as u32;
-        let new_first = earlier.iter().fold(before, |first, built| {
-            first + built.increment.configs.len() as u32
-        });
+        let new_first = earlier
+            .iter()
+            .fold(before, |first, built| first + built.increment.configs.len() as u32);
 
         let mut edges = Vec::new();
         for component in new_components {
@@ -120,23 +120,11 @@ impl ComponentPairs {
             let distance = cx.space.distance(&component.centre, &new.centre);
             let name = first + component.name;
             let place = nearest.partition_point(|old| {
-                old.distance
-                    .total_cmp(&distance)
-                    .then(old.name.cmp(&name))
-                    .is_lt()
+                old.distance.total_cmp(&distance).then(old.name.cmp(&name)).is_lt()
             });
             if place < self.components as usize {
                 nearest.truncate(self.components as usize - 1);
-                nearest.insert(
-                    place,
-                    Old {
-                        distance,
-                        name,
-                        first,
-                        configs,
-                        component,
-                    },
-                );
+                nearest.insert(place, Old { distance, name, first, configs, component });
             }
         };
         let roadmap = &input.roadmap;

@@ -73,10 +73,7 @@ impl Built {
     /// Finds the components of an increment.
     pub fn new(cx: &Context, increment: Arc<Increment>) -> Built {
         let components = Components::of(&cx.space, &increment.configs, &increment.edges);
-        Built {
-            increment,
-            components,
-        }
+        Built { increment, components }
     }
 }
 
@@ -96,7 +93,5 @@ fn default_planners() -> Vec<Planner> {
 }
 
 fn planners_complaint(planners: &[Planner]) -> Option<Complaint> {
-    planners
-        .is_empty()
-        .then(|| ("planners", "[]".to_owned(), "at least one local planner"))
+    planners.is_empty().then(|| ("planners", "[]".to_owned(), "at least one local planner"))
 }

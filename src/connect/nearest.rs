@@ -30,10 +30,7 @@ fn default_neighbors() -> u32 {
 
 impl Default for Nearest {
     fn default() -> Nearest {
-        Nearest {
-            neighbors: default_neighbors(),
-            planners: default_planners(),
-        }
+        Nearest { neighbors: default_neighbors(), planners: default_planners() }
     }
 }
 
@@ -58,12 +55,7 @@ impl Within for Nearest {
         for (low, high) in pairs {
             let ends = (configs.get(low as usize), configs.get(high as usize));
             if let Some((planner, weight)) = local::connect(cx, &self.planners, ends, 1, scratch) {
-                edges.push(Edge {
-                    low,
-                    high,
-                    planner: planner.tag(),
-                    weight,
-                });
+                edges.push(Edge { low, high, planner: planner.tag(), weight });
             }
         }
         edges

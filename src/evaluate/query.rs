@@ -36,20 +36,14 @@ fn default_planners() -> Vec<Planner> {
 
 impl Default for Query {
     fn default() -> Query {
-        Query {
-            neighbors: default_neighbors(),
-            planners: default_planners(),
-        }
+        Query { neighbors: default_neighbors(), planners: default_planners() }
     }
 }
 
 impl Query {
     /// How the two ends are attached to the roadmap.
     pub fn attachment(&self) -> Attachment {
-        Attachment {
-            neighbors: self.neighbors,
-            planners: self.planners.clone(),
-        }
+        Attachment { neighbors: self.neighbors, planners: self.planners.clone() }
     }
 }
 

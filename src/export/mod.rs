@@ -3,6 +3,7 @@
 mod path_csv;
 mod solid;
 mod svg;
+mod union;
 mod view;
 
 pub use path_csv::path_csv;

@@ -7,11 +7,8 @@ use std::fmt::Write;
 /// written so that reading them back gives the same bits.
 pub fn path_csv(space: &Space, path: &Path) -> String {
     let mut csv = String::new();
-    let header: Vec<_> = space
-        .dofs()
-        .iter()
-        .map(|dof| format!("{} [{}]", dof.name, dof.unit))
-        .collect();
+    let header: Vec<_> =
+        space.dofs().iter().map(|dof| format!("{} [{}]", dof.name, dof.unit)).collect();
     csv.push_str(&header.join(","));
     csv.push('\n');
     for q in path.configs.iter() {

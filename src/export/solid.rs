@@ -19,14 +19,46 @@ pub(super) struct Patch {
     pub normal: [f64; 3],
 }
 
+/// An edge to be drawn.
+#[derive(Clone, Copy)]
+pub(super) struct Edge {
+    pub ends: [[f64; 3]; 2],
+    /// Outward normals of the two faces that meet in it; `None` on a rim.
+    pub normals: Option<[[f64; 3]; 2]>,
+}
+
 /// A connected piece of a body in the world's frame, with what the eye sees of it.
 pub(super) struct Solid {
     pub patches: Vec<Patch>,
-    pub edges: Vec<[[f64; 3]; 2]>,
+    pub edges: Vec<Edge>,
     /// Points whose convex hull holds the piece.
     pub points: Vec<[f64; 3]>,
     /// The faces of a box around the piece: outward normals and their offsets.
     pub planes: Vec<([f64; 3], f64)>,
+    /// Whether that box is the piece itself.
+    pub is_box: bool,
+}
+
+impl Solid {
+    /// Points without faces of their own, to be put in order among solids.
+    pub fn thread(points: &[[f64; 3]]) -> Solid {
+        let (patches, edges, planes) = (Vec::new(), Vec::new(), Vec::new());
+        Solid { patches, edges, points: points.to_vec(), planes, is_box: false }
+    }
+
+    /// The largest distance along an axis of the world between two of the points.
+    pub fn extent(&self) -> f64 {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let lengths = axes.map(|axis| {
+            let along = self.points.iter().map(|p| dot(axis, *p));
+            let (low, high) = along
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                    (low.min(value), high.max(value))
+                });
+            high - low
+        });
+        lengths.into_iter().fold(0.0, f64::max)
+    }
 }
 
 /// The pieces of a body; `frame` is the pose of the body's owner in the world.
@@ -51,13 +83,7 @@ pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
             ];
             let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
             let triangles: Vec<[u32; 3]> = quads.into_iter().flat_map(halves).collect();
-            vec![polyhedron(
-                &(0..8).map(corner).collect::<Vec<_>>(),
-                &triangles,
-                place,
-                turn,
-                view,
-            )]
+            vec![polyhedron(&(0..8).map(corner).collect::<Vec<_>>(), &triangles, place, turn, view)]
         }
         Shape::Mesh(mesh) if mesh.triangles.len() <= TRIANGLES_MAX => pieces(mesh)
             .iter()
@@ -76,9 +102,7 @@ pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
         }
         Shape::Cylinder { radius, height } => {
             let ring = |z: f64| -> Vec<[f64; 3]> {
-                circle()
-                    .map(|(x, y)| place([radius * x, radius * y, z]))
-                    .collect()
+                circle().map(|(x, y)| place([radius * x, radius * y, z])).collect()
             };
             let rings = [ring(-height / 2.0), ring(height / 2.0)];
             let high = [*radius, *radius, height / 2.0];
@@ -87,46 +111,36 @@ pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
             let axis = turn([0.0, 0.0, 1.0]);
             let above = dot(axis, view.toward) >= 0.0;
             let [below_ring, above_ring] = rings;
-            let (cap, normal) = if above {
-                (above_ring, axis)
-            } else {
-                (below_ring, axis.map(|value| -value))
-            };
-            solid
-                .edges
-                .extend((0..CIRCLE).map(|i| [cap[i], cap[(i + 1) % CIRCLE]]));
-            solid.patches.push(Patch {
-                polygons: vec![cap],
-                normal,
-            });
+            let (cap, normal) =
+                if above { (above_ring, axis) } else { (below_ring, axis.map(|value| -value)) };
+            solid.edges.extend(rim(&cap));
+            solid.patches.push(Patch { polygons: vec![cap], normal });
             vec![solid]
         }
     }
 }
 
-/// The triangles of each connected piece of a mesh.
+/// The triangles of each piece of a mesh that is connected by edges.
 fn pieces(mesh: &Mesh) -> Vec<Vec<[u32; 3]>> {
-    let mut label: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
-    fn root(label: &mut [u32], mut i: u32) -> u32 {
-        while label[i as usize] != i {
-            label[i as usize] = label[label[i as usize] as usize];
-            i = label[i as usize];
+    let mut label: Vec<usize> = (0..mesh.triangles.len()).collect();
+    fn root(label: &mut [usize], mut i: usize) -> usize {
+        while label[i] != i {
+            label[i] = label[label[i]];
+            i = label[i];
         }
         i
     }
-    for corners in &mesh.triangles {
-        let roots = corners.map(|corner| root(&mut label, corner));
-        let least = roots[0].min(roots[1]).min(roots[2]);
-        for other in roots {
-            label[other as usize] = least;
+    let mut first_of: BTreeMap<(u32, u32), usize> = BTreeMap::new();
+    for (index, [a, b, c]) in mesh.triangles.iter().enumerate() {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let other = *first_of.entry((*from.min(to), *from.max(to))).or_insert(index);
+            let roots = (root(&mut label, index), root(&mut label, other));
+            label[roots.0.max(roots.1)] = roots.0.min(roots.1);
         }
     }
-    let mut pieces: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
-    for corners in &mesh.triangles {
-        pieces
-            .entry(root(&mut label, corners[0]))
-            .or_default()
-            .push(*corners);
+    let mut pieces: BTreeMap<usize, Vec<[u32; 3]>> = BTreeMap::new();
+    for (index, corners) in mesh.triangles.iter().enumerate() {
+        pieces.entry(root(&mut label, index)).or_default().push(*corners);
     }
     pieces.into_values().collect()
 }
@@ -149,62 +163,38 @@ fn polyhedron(
             max[axis] = max[axis].max(vertex[axis]);
         }
     }
-    let corners_of: Vec<[[f64; 3]; 3]> = triangles
-        .iter()
-        .map(|corners| corners.map(|corner| used[&corner]))
-        .collect();
+    let corners_of: Vec<[[f64; 3]; 3]> =
+        triangles.iter().map(|corners| corners.map(|corner| used[&corner])).collect();
     // Six times the volume; negative where the triangles are listed inside out.
-    let volume: f64 = corners_of
-        .iter()
-        .map(|[a, b, c]| dot(*a, cross(*b, *c)))
-        .sum();
+    let volume: f64 = corners_of.iter().map(|[a, b, c]| dot(*a, cross(*b, *c))).sum();
     let outward = if volume < 0.0 { -1.0 } else { 1.0 };
     let mut sides_of: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
     for (index, [a, b, c]) in triangles.iter().enumerate() {
         for (from, to) in [(a, b), (b, c), (c, a)] {
-            sides_of
-                .entry((*from.min(to), *from.max(to)))
-                .or_default()
-                .push(index);
+            sides_of.entry((*from.min(to), *from.max(to))).or_default().push(index);
         }
     }
     let closed = sides_of.values().all(|sides| sides.len() % 2 == 0);
     let normals: Vec<[f64; 3]> = corners_of
         .iter()
         .map(|[a, b, c]| {
-            let (u, v) = (
-                [0, 1, 2].map(|i| b[i] - a[i]),
-                [0, 1, 2].map(|i| c[i] - a[i]),
-            );
+            let (u, v) = ([0, 1, 2].map(|i| b[i] - a[i]), [0, 1, 2].map(|i| c[i] - a[i]));
             let normal = cross(u, v);
             let length = dot(normal, normal).sqrt();
-            let sign = if closed || dot(normal, view.toward) > 0.0 {
-                outward
-            } else {
-                -outward
-            };
+            let sign = if closed || dot(normal, view.toward) > 0.0 { outward } else { -outward };
             normal.map(|value| value / length * sign)
         })
         .collect();
-    let seen: Vec<bool> = normals
-        .iter()
-        .map(|normal| !closed || dot(*normal, view.toward) > 1e-9)
-        .collect();
+    let seen: Vec<bool> =
+        normals.iter().map(|normal| !closed || dot(*normal, view.toward) > 1e-9).collect();
 
     // Triangles of one direction become one patch, so that no seam shows between them.
     let mut patches: BTreeMap<[i64; 3], Patch> = BTreeMap::new();
-    for (index, corners) in corners_of
-        .iter()
-        .enumerate()
-        .filter(|(index, _)| seen[*index])
-    {
+    for (index, corners) in corners_of.iter().enumerate().filter(|(index, _)| seen[*index]) {
         let normal = normals[index];
         patches
             .entry(normal.map(|value| (value * 64.0).round() as i64))
-            .or_insert_with(|| Patch {
-                polygons: Vec::new(),
-                normal,
-            })
+            .or_insert_with(|| Patch { polygons: Vec::new(), normal })
             .polygons
             .push(corners.to_vec());
     }
@@ -217,13 +207,27 @@ fn polyhedron(
                 || seen[first] != seen[last];
             sharp && sides.iter().any(|side| seen[*side])
         })
-        .map(|((a, b), _)| [used[a], used[b]])
+        .map(|((a, b), sides)| Edge {
+            ends: [used[a], used[b]],
+            normals: match sides[..] {
+                [first, second] => Some([normals[first], normals[second]]),
+                _ => None,
+            },
+        })
         .collect();
+    let corner = |vertex: &[f64; 3]| {
+        (0..3).all(|axis| vertex[axis] == min[axis] || vertex[axis] == max[axis])
+    };
+    let is_box = closed
+        && triangles.len() == 12
+        && used.len() == 8
+        && used.keys().all(|index| corner(&vertices[*index as usize]));
     Solid {
         patches: patches.into_values().collect(),
         edges,
         points: used.into_values().collect(),
         planes: planes((min, max), place, turn),
+        is_box,
     }
 }
 
@@ -235,10 +239,8 @@ fn silhouette(
     turn: impl Fn([f64; 3]) -> [f64; 3],
     view: &View,
 ) -> Solid {
-    let mut flat: Vec<([f64; 2], [f64; 3])> = points
-        .iter()
-        .map(|p| ([dot(view.right, *p), dot(view.up, *p)], *p))
-        .collect();
+    let mut flat: Vec<([f64; 2], [f64; 3])> =
+        points.iter().map(|p| ([dot(view.right, *p), dot(view.up, *p)], *p)).collect();
     flat.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     // Andrew's monotone chain: the lower side from left to right, then the upper one back.
     let mut outline: Vec<([f64; 2], [f64; 3])> = Vec::new();
@@ -259,25 +261,21 @@ fn silhouette(
         outline.pop();
     }
     let outline: Vec<[f64; 3]> = outline.into_iter().map(|(_, p)| p).collect();
-    let edges = (0..outline.len()).map(|i| [outline[i], outline[(i + 1) % outline.len()]]);
     let corner = |i: usize| {
-        place([0, 1, 2].map(|axis| {
-            if i >> axis & 1 == 1 {
-                max[axis]
-            } else {
-                min[axis]
-            }
-        }))
+        place([0, 1, 2].map(|axis| if i >> axis & 1 == 1 { max[axis] } else { min[axis] }))
     };
     Solid {
-        edges: edges.collect(),
-        patches: vec![Patch {
-            polygons: vec![outline],
-            normal: view.toward,
-        }],
+        edges: rim(&outline),
+        patches: vec![Patch { polygons: vec![outline], normal: view.toward }],
         points: (0..8).map(corner).collect(),
         planes: planes((min, max), place, turn),
+        is_box: false,
     }
+}
+
+fn rim(polygon: &[[f64; 3]]) -> Vec<Edge> {
+    let next = |i: usize| polygon[(i + 1) % polygon.len()];
+    polygon.iter().enumerate().map(|(i, p)| Edge { ends: [*p, next(i)], normals: None }).collect()
 }
 
 /// The hull of balls about `centres` on the z axis. A point is drawn as a small ball.
@@ -288,11 +286,7 @@ fn ball_like(
     turn: impl Fn([f64; 3]) -> [f64; 3],
     view: &View,
 ) -> Solid {
-    let drawn = if radius > 0.0 {
-        radius
-    } else {
-        view.length_of(4.0)
-    };
+    let drawn = if radius > 0.0 { radius } else { view.length_of(4.0) };
     let rim: Vec<[f64; 3]> = centres
         .iter()
         .flat_map(|centre| {
@@ -302,9 +296,7 @@ fn ball_like(
             })
         })
         .collect();
-    let top = centres
-        .iter()
-        .fold(0.0f64, |most, centre| most.max(centre[2]));
+    let top = centres.iter().fold(0.0f64, |most, centre| most.max(centre[2]));
     let high = [drawn, drawn, top + drawn];
     silhouette(&rim, (high.map(|value| -value), high), place, turn, view)
 }

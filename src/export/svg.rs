@@ -1,4 +1,5 @@
 use super::solid::{Solid, solids};
+use super::union::join;
 use super::view::View;
 use crate::problem::Problem;
 use crate::query;
@@ -30,9 +31,8 @@ const WARM: [[f64; 3]; 2] = [[240.0, 165.0, 60.0], [178.0, 38.0, 74.0]];
 const WAY: &str = "#9d1f41";
 /// Of the largest component, then of the others, over and over.
 const CALM: &str = "#4f7ea8";
-const OTHERS: [&str; 8] = [
-    "#3f9b6c", "#8460b5", "#c9a21f", "#2c9fa3", "#c0629e", "#7b8a2e", "#6b6fc9", "#9a6a45",
-];
+const OTHERS: [&str; 8] =
+    ["#3f9b6c", "#8460b5", "#c9a21f", "#2c9fa3", "#c0629e", "#7b8a2e", "#6b6fc9", "#9a6a45"];
 
 /// A picture of a problem and its roadmap: an SVG file without references to others, at most 1192
 /// pixels wide, the same bytes for the same arguments.
@@ -47,12 +47,7 @@ const OTHERS: [&str; 8] = [
 pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> String {
     let planar = problem.motion.translations() == 2;
     let view = View::new(planar, &points_to_hold(problem, path));
-    let mut drawing = Drawing {
-        problem,
-        view,
-        planar,
-        out: String::new(),
-    };
+    let mut drawing = Drawing { problem, view, planar, out: String::new() };
     drawing.head();
     drawing.floor();
     if planar {
@@ -74,10 +69,7 @@ fn points_to_hold(problem: &Problem, path: Option<&query::Path>) -> Vec<[f64; 3]
     let mut points = bounds_corners(problem).to_vec();
     if problem.bounds.meaning == BoundsMeaning::Reference {
         let axes = problem.motion.translations();
-        let ends = problem
-            .query
-            .iter()
-            .flat_map(|ends| [&ends.start[..], &ends.goal[..]]);
+        let ends = problem.query.iter().flat_map(|ends| [&ends.start[..], &ends.goal[..]]);
         for q in ends.chain(path.iter().flat_map(|path| path.configs.iter())) {
             let pose = pose_of(problem.motion, q);
             for body in &problem.robot {
@@ -117,22 +109,11 @@ fn pose_of(motion: Motion, q: &[f64]) -> Pose {
         Motion::Rigid2d => [math::cos(q[2] / 2.0), 0.0, 0.0, math::sin(q[2] / 2.0)],
         Motion::Rigid3d => [q[3], q[4], q[5], q[6]],
     };
-    Pose {
-        translation,
-        rotation,
-    }
+    Pose { translation, rotation }
 }
 
 fn reference_point(motion: Motion, q: &[f64]) -> [f64; 3] {
-    [
-        q[0],
-        q[1],
-        if motion.translations() == 3 {
-            q[2]
-        } else {
-            0.0
-        },
-    ]
+    [q[0], q[1], if motion.translations() == 3 { q[2] } else { 0.0 }]
 }
 
 /// The configurations at these fractions of a path's length, ascending from 0 to 1.
@@ -173,9 +154,7 @@ struct Drawing<'a> {
 
 impl Drawing<'_> {
     fn put(&mut self, text: std::fmt::Arguments) {
-        self.out
-            .write_fmt(text)
-            .expect("writing to memory cannot fail");
+        self.out.write_fmt(text).expect("writing to memory cannot fail");
         self.out.push('\n');
     }
 
@@ -234,20 +213,9 @@ impl Drawing<'_> {
         ));
         if !self.planar {
             // The nine edges that the floor leaves, the back ones and the front ones alike faint.
-            let rest = [
-                [0, 4],
-                [1, 5],
-                [2, 6],
-                [3, 7],
-                [4, 5],
-                [5, 7],
-                [7, 6],
-                [6, 4],
-            ];
-            let lines: String = rest
-                .iter()
-                .map(|pair| self.line(pair.map(|i| corners[i])))
-                .collect();
+            let rest = [[0, 4], [1, 5], [2, 6], [3, 7], [4, 5], [5, 7], [7, 6], [6, 4]];
+            let lines: String =
+                rest.iter().map(|pair| self.line(pair.map(|i| corners[i]))).collect();
             self.put(format_args!(
                 "<path class=\"bounds\" d=\"{lines}\" stroke=\"{INK}\" stroke-opacity=\"0.35\" \
                  stroke-width=\"0.9\" stroke-dasharray=\"2 4\" fill=\"none\"/>"
@@ -256,21 +224,25 @@ impl Drawing<'_> {
     }
 
     fn obstacles(&mut self) {
-        for body in &self.problem.obstacles {
-            for solid in solids(body, &Pose::IDENTITY, &self.view) {
-                let text = self.obstacle(&solid);
-                self.put(format_args!("{text}"));
-            }
+        for solid in self.stand(&self.problem.obstacles, &Pose::IDENTITY) {
+            let text = self.obstacle(&solid);
+            self.put(format_args!("{text}"));
         }
     }
 
+    /// Bodies whose owner stands at a pose; boxes that touch become one.
+    fn stand(&self, bodies: &[Body], pose: &Pose) -> Vec<Solid> {
+        let mut standing: Vec<Solid> =
+            bodies.iter().flat_map(|body| solids(body, pose, &self.view)).collect();
+        join(&mut standing);
+        standing
+    }
+
     fn obstacle(&self, solid: &Solid) -> String {
-        let (opacity, width) = if self.planar {
-            ("1", "1")
-        } else {
-            ("0.6", "0.9")
-        };
-        self.solid(solid, "obstacle", STONE, (opacity, width), INK)
+        match self.planar {
+            true => self.solid(solid, "obstacle", STONE, ("1", "1"), &blend(STONE, 0.0)),
+            false => self.solid(solid, "obstacle", STONE, ("0.6", "0.9"), INK),
+        }
     }
 
     /// A solid, lighter where it faces the light, with its edges on top.
@@ -297,19 +269,12 @@ impl Drawing<'_> {
                     toward * patch.normal[i]
                 })
                 .sum();
-            let share = if self.planar {
-                0.0
-            } else {
-                light.clamp(0.0, 1.0)
-            };
+            let share = if self.planar { 0.0 } else { light.clamp(0.0, 1.0) };
             let fill = blend(shades, share);
-            write!(
-                text,
-                "<path d=\"{outline}\" fill=\"{fill}\" fill-opacity=\"{opacity}\"/>"
-            )
-            .expect("writing to memory cannot fail");
+            write!(text, "<path d=\"{outline}\" fill=\"{fill}\" fill-opacity=\"{opacity}\"/>")
+                .expect("writing to memory cannot fail");
         }
-        let edges: String = solid.edges.iter().map(|edge| self.line(*edge)).collect();
+        let edges: String = solid.edges.iter().map(|edge| self.line(edge.ends)).collect();
         write!(
             text,
             "<path d=\"{edges}\" stroke=\"{stroke}\" stroke-width=\"{width}\" fill=\"none\"/></g>"
@@ -321,10 +286,8 @@ impl Drawing<'_> {
     /// Nodes and edges, one element per component: the largest below, the others above it.
     fn roadmap(&mut self, roadmap: &Roadmap) {
         let components = roadmap.components();
-        let mut ranked: Vec<(usize, u32)> = components
-            .iter()
-            .map(|c| (c.members.len(), c.name))
-            .collect();
+        let mut ranked: Vec<(usize, u32)> =
+            components.iter().map(|c| (c.members.len(), c.name)).collect();
         ranked.sort_by_key(|(size, name)| (usize::MAX - size, *name));
         let Some((_, largest)) = ranked.first().copied() else {
             return;
@@ -352,9 +315,7 @@ impl Drawing<'_> {
         let edges = roadmap.edges().iter();
         let shown = edges.filter(|edge| drawn.contains(&edge.low) && drawn.contains(&edge.high));
         for edge in shown.take(EDGES_MAX) {
-            layers[rank_of(edge.low)]
-                .0
-                .push_str(&self.line([place(edge.low), place(edge.high)]));
+            layers[rank_of(edge.low)].0.push_str(&self.line([place(edge.low), place(edge.high)]));
         }
         for node in &drawn {
             let dot = format!("M{}h0", self.at(place(*node)));
@@ -366,7 +327,7 @@ impl Drawing<'_> {
         for (rank, (edges, nodes)) in layers.into_iter().enumerate() {
             let (colour, faint) = match rank {
                 0 => (CALM, faint),
-                _ => (OTHERS[(rank - 1) % OTHERS.len()], 0.85),
+                _ => (OTHERS[(rank - 1) % OTHERS.len()], 1.5 * faint),
             };
             if nodes.is_empty() {
                 continue;
@@ -387,17 +348,10 @@ impl Drawing<'_> {
                 let fractions: Vec<f64> =
                     (0..POSES).map(|i| i as f64 / (POSES - 1) as f64).collect();
                 let configs = along(&self.problem.space(), path, &fractions);
-                fractions
-                    .iter()
-                    .zip(&configs)
-                    .map(|(f, q)| (*f, pose_of(motion, q)))
-                    .collect()
+                fractions.iter().zip(&configs).map(|(f, q)| (*f, pose_of(motion, q))).collect()
             }
             (None, Some(ends)) => {
-                vec![
-                    (0.0, pose_of(motion, &ends.start)),
-                    (1.0, pose_of(motion, &ends.goal)),
-                ]
+                vec![(0.0, pose_of(motion, &ends.start)), (1.0, pose_of(motion, &ends.goal))]
             }
             (None, None) => Vec::new(),
         }
@@ -406,21 +360,19 @@ impl Drawing<'_> {
     fn robot(&self, share: f64, pose: &Pose) -> Vec<(Solid, String)> {
         let full = blend(WARM, share);
         let tone = [0, 1, 2].map(|i| WARM[0][i] + (WARM[1][i] - WARM[0][i]) * share);
-        let shades = [
-            tone.map(|value| value * 0.86),
-            tone.map(|value| value + (255.0 - value) * 0.35),
-        ];
+        let shades =
+            [tone.map(|value| value * 0.86), tone.map(|value| value + (255.0 - value) * 0.35)];
         let ends = share == 0.0 || share == 1.0;
         let look = match (self.planar, ends) {
             (true, true) => ("0.9", "1.6"),
             (true, false) => ("0.22", "1.3"),
-            (false, true) => ("0.95", "1"),
-            (false, false) => ("0.62", "0.8"),
+            (false, true) => ("0.92", "1"),
+            (false, false) => ("0.5", "0.8"),
         };
         let stroke = if ends { INK } else { &full };
-        let body = |body: &Body| solids(body, pose, &self.view);
-        let parts = self.problem.robot.iter().flat_map(body);
+        let parts = self.stand(&self.problem.robot, pose);
         parts
+            .into_iter()
             .map(|solid| {
                 let shades = if self.planar { [tone; 2] } else { shades };
                 let text = self.solid(&solid, "robot", shades, look, stroke);
@@ -451,11 +403,11 @@ impl Drawing<'_> {
     fn solids_and_journey(&mut self, path: Option<&query::Path>) {
         let motion = self.problem.motion;
         let mut items: Vec<(Solid, String)> = Vec::new();
-        for body in &self.problem.obstacles {
-            for solid in solids(body, &Pose::IDENTITY, &self.view) {
-                let text = self.obstacle(&solid);
-                items.push((solid, text));
-            }
+        // The whole path, faint, on top of what hides it.
+        let mut through = String::new();
+        for solid in self.stand(&self.problem.obstacles, &Pose::IDENTITY) {
+            let text = self.obstacle(&solid);
+            items.push((solid, text));
         }
         for (share, pose) in self.poses(path) {
             items.extend(self.robot(share, &pose));
@@ -476,26 +428,21 @@ impl Drawing<'_> {
             for pair in way.windows(2) {
                 let line = self.line(pair.iter().copied());
                 let text = format!(
-                    "<path class=\"way\" d=\"{line}\" fill=\"none\" stroke=\"{WAY}\" stroke-width=\"3.4\"/>"
+                    "<path d=\"{line}\" fill=\"none\" stroke=\"{WAY}\" stroke-width=\"3.4\"/>"
                 );
-                let nothing = Vec::new;
-                let points = pair.to_vec();
-                let (patches, edges, planes) = (nothing(), Vec::new(), Vec::new());
-                items.push((
-                    Solid {
-                        patches,
-                        edges,
-                        points,
-                        planes,
-                    },
-                    text,
-                ));
+                items.push((Solid::thread(pair), text));
             }
+            let line = self.line(way.iter().copied());
+            through = format!(
+                "<path class=\"way\" d=\"{line}\" fill=\"none\" stroke=\"{WAY}\" \
+                 stroke-opacity=\"0.55\" stroke-width=\"2\"/>"
+            );
         }
         let solids: Vec<&Solid> = items.iter().map(|(solid, _)| solid).collect();
         for index in self.view.paint_order(&solids) {
             self.put(format_args!("{}", items[index].1));
         }
+        self.put(format_args!("{through}"));
     }
 
     /// Start and goal: a ring at the reference point and the word beside it.
@@ -505,7 +452,10 @@ impl Drawing<'_> {
         };
         for (name, q, share) in [("start", &ends.start, 0.0), ("goal", &ends.goal, 1.0)] {
             let [x, y] = self.view.px(reference_point(self.problem.motion, q));
-            let (x, y, above) = (decimal(x), decimal(y), decimal(y - 13.0));
+            let standing = self.stand(&self.problem.robot, &pose_of(self.problem.motion, q));
+            let points = standing.iter().flat_map(|solid| &solid.points);
+            let top = points.map(|point| self.view.px(*point)[1]).fold(y - 6.0, f64::min);
+            let (x, y, above) = (decimal(x), decimal(y), decimal(top - 8.0));
             let colour = blend(WARM, share);
             self.put(format_args!(
                 "<circle class=\"{name}\" cx=\"{x}\" cy=\"{y}\" r=\"6\" fill=\"{PAPER}\" \
@@ -534,10 +484,7 @@ impl Drawing<'_> {
                 .expect("writing to memory cannot fail");
         }
         let name = escaped(&self.problem.name);
-        let (x, y) = (
-            decimal(crate::export::view::MARGIN_PX),
-            decimal(self.view.size_px[1] + 8.0),
-        );
+        let (x, y) = (decimal(crate::export::view::MARGIN_PX), decimal(self.view.size_px[1] + 8.0));
         self.put(format_args!(
             "<text x=\"{x}\" y=\"{y}\" {FONT} font-size=\"16\" fill=\"{INK}\">\
              <tspan font-weight=\"600\">{name}</tspan><tspan dx=\"14\" fill-opacity=\"0.75\">{text}</tspan></text>"
@@ -551,11 +498,7 @@ const FONT: &str = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
 /// A number of pixels with one decimal, never a negative zero.
 fn decimal(value: f64) -> String {
     let text = format!("{value:.1}");
-    if text == "-0.0" {
-        "0.0".to_owned()
-    } else {
-        text
-    }
+    if text == "-0.0" { "0.0".to_owned() } else { text }
 }
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above `length`.
@@ -567,15 +510,9 @@ fn round_length(length: f64) -> f64 {
     while unit * 10.0 <= length {
         unit *= 10.0;
     }
-    [5.0, 2.0]
-        .into_iter()
-        .map(|times| times * unit)
-        .find(|round| *round <= length)
-        .unwrap_or(unit)
+    [5.0, 2.0].into_iter().map(|times| times * unit).find(|round| *round <= length).unwrap_or(unit)
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

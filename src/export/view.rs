@@ -144,10 +144,7 @@ impl View {
             for (normal, offset) in &solid.planes {
                 let squarely = dot(*normal, self.toward) * sign;
                 if squarely.abs() > best.abs()
-                    && other
-                        .points
-                        .iter()
-                        .all(|p| dot(*normal, *p) >= offset - 1e-9)
+                    && other.points.iter().all(|p| dot(*normal, *p) >= offset - 1e-9)
                 {
                     best = squarely;
                 }
@@ -162,9 +159,5 @@ pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -167,10 +167,7 @@ impl Core {
         Core {
             plan: setup.plan.clone(),
             dofs: setup.cx.space.len(),
-            set_nodes: strategies
-                .iter()
-                .map(|strategy| u64::from(strategy.nodes))
-                .collect(),
+            set_nodes: strategies.iter().map(|strategy| u64::from(strategy.nodes)).collect(),
             limits: setup.problem.limits,
             evaluators: setup.problem.evaluators.len() as u32,
             lookahead,
@@ -275,14 +272,8 @@ impl Core {
                 let offset = (place - self.plan.places_of(self.round).start) as usize;
                 let before = &self.published[..offset.min(self.published.len())];
                 let first = self.progress.nodes
-                    + before
-                        .iter()
-                        .map(|increment| increment.configs.len() as u64)
-                        .sum::<u64>();
-                let own = self
-                    .published
-                    .get(offset)
-                    .map_or(0, |own| own.configs.len() as u64);
+                    + before.iter().map(|increment| increment.configs.len() as u64).sum::<u64>();
+                let own = self.published.get(offset).map_or(0, |own| own.configs.len() as u64);
                 joined.edges.iter().all(|edge| {
                     u64::from(edge.low) < first
                         && (first..first + own).contains(&u64::from(edge.high))
@@ -315,10 +306,7 @@ impl Core {
             return;
         };
         let verdicts: Vec<Verdict> = awaited.into_values().collect();
-        let judgement = Judgement {
-            round: self.round - 1,
-            verdicts,
-        };
+        let judgement = Judgement { round: self.round - 1, verdicts };
         self.progress.verdicts = judgement.verdicts.clone();
         let satisfied = judgement.satisfied();
         commands.push(Command::Judge(judgement));
@@ -346,14 +334,7 @@ impl Core {
                     if self.awaited.is_none() {
                         let (strategy, ordinal) = self.plan.set_at(place);
                         let gave_up = gave_up.clone();
-                        self.stop(
-                            Stop::GaveUp {
-                                strategy,
-                                ordinal,
-                                gave_up,
-                            },
-                            commands,
-                        );
+                        self.stop(Stop::GaveUp { strategy, ordinal, gave_up }, commands);
                     }
                     return;
                 }
@@ -380,13 +361,7 @@ impl Core {
         for (increment, (place, joined)) in self.published.drain(..).zip(places.zip(joined)) {
             self.progress.nodes += increment.configs.len() as u64;
             let (strategy, ordinal) = self.plan.set_at(place);
-            sets.push(RoundSet {
-                place,
-                strategy,
-                ordinal,
-                increment,
-                joined,
-            });
+            sets.push(RoundSet { place, strategy, ordinal, increment, joined });
         }
         let round = self.round;
         commands.push(Command::Fold(Round { index: round, sets }));
@@ -420,10 +395,7 @@ impl Core {
 
     fn submit(&mut self, job: Job, commands: &mut Vec<Command>) {
         let before = self.at_work.insert(job, 0);
-        debug_assert!(
-            before.is_none() && !self.done.contains_key(&job),
-            "{job:?} twice"
-        );
+        debug_assert!(before.is_none() && !self.done.contains_key(&job), "{job:?} twice");
         commands.push(Command::Submit(job));
     }
 

@@ -107,10 +107,7 @@ impl Task {
                 let strategy = &setup.problem.strategies[*strategy as usize];
                 scratch.take_asked();
                 let edges = strategy.among.method().connect(cx, input, scratch);
-                Outcome::Joined(Joined {
-                    edges,
-                    asked: scratch.take_asked(),
-                })
+                Outcome::Joined(Joined { edges, asked: scratch.take_asked() })
             }
             Task::Evaluate { evaluator, roadmap } => {
                 let seed = Seed::of_evaluator(cx.base_seed, &evaluator.to_string());

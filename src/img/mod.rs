@@ -65,11 +65,7 @@ pub fn build(setup: &Arc<Setup>) -> Build {
 
 /// Builds a roadmap in `threads` threads of this process: the same roadmap as [`build`].
 pub fn build_in_threads(setup: &Arc<Setup>, threads: usize) -> Build {
-    build_with(
-        setup,
-        Threads::new(setup.clone(), threads),
-        4 * threads as u64,
-    )
+    build_with(setup, Threads::new(setup.clone(), threads), 4 * threads as u64)
 }
 
 /// Builds a roadmap with any executor, up to `lookahead` sets beyond the current round at hand.
@@ -88,11 +84,7 @@ pub fn build_with(setup: &Arc<Setup>, mut executor: impl Executor, lookahead: u6
         Ok(stop) => stop,
         Err(never) => match never {},
     };
-    Build {
-        roadmap: executor.into_roadmap(),
-        stop,
-        judgement: last.0,
-    }
+    Build { roadmap: executor.into_roadmap(), stop, judgement: last.0 }
 }
 
 #[cfg(test)]

@@ -35,10 +35,7 @@ impl Plan {
         let length = self.schedule.len() as u64;
         let (cycle, within) = (place / length, (place % length) as usize);
         let strategy = self.schedule[within];
-        (
-            strategy,
-            cycle * self.per_cycle[strategy as usize] + self.before[within],
-        )
+        (strategy, cycle * self.per_cycle[strategy as usize] + self.before[within])
     }
 
     /// The round to which `place` belongs.

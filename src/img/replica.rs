@@ -17,17 +17,12 @@ impl Replica {
     /// The state before the first round.
     pub fn new(setup: &Setup) -> Replica {
         let roadmap = Arc::new(Roadmap::new(&setup.cx.space));
-        Replica {
-            roadmap,
-            increments: Vec::new(),
-            first: 0,
-        }
+        Replica { roadmap, increments: Vec::new(), first: 0 }
     }
 
     /// Takes in the increment at the next place.
     pub fn publish(&mut self, setup: &Setup, increment: Arc<Increment>) {
-        self.increments
-            .push(Arc::new(Built::new(&setup.cx, increment)));
+        self.increments.push(Arc::new(Built::new(&setup.cx, increment)));
     }
 
     /// Folds the published increments with the edges that join each.
@@ -61,21 +56,12 @@ impl Replica {
             Job::Join { place } => {
                 let index = usize::try_from(place.checked_sub(self.first)?).ok()?;
                 let increments = self.increments.get(..=index)?.to_vec();
-                let input = JoinInput {
-                    roadmap: self.roadmap.clone(),
-                    increments,
-                };
-                Some(Task::Join {
-                    strategy: setup.plan.set_at(place).0,
-                    input,
-                })
+                let input = JoinInput { roadmap: self.roadmap.clone(), increments };
+                Some(Task::Join { strategy: setup.plan.set_at(place).0, input })
             }
             Job::Evaluate { round, evaluator } => {
                 let current = setup.plan.places_of(round).end == self.first;
-                current.then(|| Task::Evaluate {
-                    evaluator,
-                    roadmap: self.roadmap.clone(),
-                })
+                current.then(|| Task::Evaluate { evaluator, roadmap: self.roadmap.clone() })
             }
         }
     }

@@ -17,12 +17,7 @@ impl Serial {
     /// An executor for one build.
     pub fn new(setup: Arc<Setup>) -> Serial {
         let replica = Replica::new(&setup);
-        Serial {
-            setup,
-            replica,
-            jobs: BTreeSet::new(),
-            scratch: Scratch::new(),
-        }
+        Serial { setup, replica, jobs: BTreeSet::new(), scratch: Scratch::new() }
     }
 }
 
@@ -43,10 +38,7 @@ impl Executor for Serial {
     fn next(&mut self, _wait: Duration) -> Option<Event> {
         let job = self.jobs.pop_first()?;
         let task = self.replica.task(&self.setup, job)?;
-        Some(Event::Done(
-            job,
-            Finished::new(task.run(&self.setup, &mut self.scratch)),
-        ))
+        Some(Event::Done(job, Finished::new(task.run(&self.setup, &mut self.scratch))))
     }
 
     fn alive(&self) -> usize {

@@ -57,11 +57,7 @@ impl<'a> Simulated<'a> {
 
     /// A worker takes a job, mostly the most urgent.
     fn take(&mut self) {
-        let index = if self.chance(0.7) {
-            0
-        } else {
-            self.below(self.waiting.len())
-        };
+        let index = if self.chance(0.7) { 0 } else { self.below(self.waiting.len()) };
         let Some(job) = self.waiting.iter().nth(index).copied() else {
             return;
         };
@@ -76,8 +72,7 @@ impl<'a> Simulated<'a> {
                 Finished::new(task.run(&self.setup, &mut self.scratch))
             }
         };
-        self.memo
-            .insert((job, self.inputs(&task)), finished.clone());
+        self.memo.insert((job, self.inputs(&task)), finished.clone());
         self.running.push((job, finished));
     }
 
@@ -100,8 +95,7 @@ impl<'a> Simulated<'a> {
 
 impl Executor for Simulated<'_> {
     fn publish(&mut self, increment: &Arc<Increment>) {
-        self.published
-            .push(Digest::of(&crate::wire::encode(&**increment)));
+        self.published.push(Digest::of(&crate::wire::encode(&**increment)));
         self.replica.publish(&self.setup, increment.clone());
     }
 

@@ -31,9 +31,7 @@ sets = 4
 "#;
 
 fn setup() -> Arc<Setup> {
-    Arc::new(Setup::new(
-        Problem::parse(Path::new("p.toml"), PROBLEM).unwrap(),
-    ))
+    Arc::new(Setup::new(Problem::parse(Path::new("p.toml"), PROBLEM).unwrap()))
 }
 
 fn jobs(commands: &[Command]) -> Vec<Job> {
@@ -64,15 +62,9 @@ fn joins_wait_for_the_increments_before_them_and_nothing_else() {
     let generate = |place| Job::Generate { place };
     assert_eq!(jobs(&core.start()), [generate(0), generate(1)]);
     // The second increment comes first and waits for the first.
-    assert!(
-        core.on_event(done(&setup, &replica, generate(1)))
-            .is_empty()
-    );
+    assert!(core.on_event(done(&setup, &replica, generate(1))).is_empty());
     let commands = core.on_event(done(&setup, &replica, generate(0)));
-    assert_eq!(
-        jobs(&commands),
-        [Job::Join { place: 0 }, Job::Join { place: 1 }]
-    );
+    assert_eq!(jobs(&commands), [Job::Join { place: 0 }, Job::Join { place: 1 }]);
     let published = |command: &&Command| matches!(command, Command::Publish(_));
     assert_eq!(commands.iter().filter(published).count(), 2);
 }
@@ -87,11 +79,7 @@ fn no_set_is_generated_beyond_the_round_that_reaches_a_limit() {
         assert_eq!(jobs(&Core::new(&setup, 100).start()).len(), expected);
         let built = build(&setup);
         assert_eq!(built.roadmap.sets(), expected as u64);
-        let limit = if sets < 1000 {
-            Stop::SetLimit
-        } else {
-            Stop::NodeLimit
-        };
+        let limit = if sets < 1000 { Stop::SetLimit } else { Stop::NodeLimit };
         assert_eq!(built.stop, limit);
     }
 }
@@ -119,23 +107,13 @@ fn impossible_answers_end_the_build() {
     let Outcome::Increment(Ok(mut increment)) = task.run(&setup, &mut Scratch::new()) else {
         panic!("the sampler finds milestones");
     };
-    increment.edges.push(crate::roadmap::Edge {
-        low: 0,
-        high: 4,
-        planner: 0,
-        weight: 1.0,
-    });
+    increment.edges.push(crate::roadmap::Edge { low: 0, high: 4, planner: 0, weight: 1.0 });
     let no_such_node = Outcome::Increment(Ok(increment));
-    let joined = Outcome::Joined(Joined {
-        edges: Vec::new(),
-        asked: Default::default(),
-    });
+    let joined = Outcome::Joined(Joined { edges: Vec::new(), asked: Default::default() });
     let gave_up = Outcome::Increment(Err(GaveUp { attempts: 1 }));
-    for (job, outcome) in [
-        (first, no_such_node),
-        (first, joined),
-        (Job::Generate { place: 99 }, gave_up),
-    ] {
+    for (job, outcome) in
+        [(first, no_such_node), (first, joined), (Job::Generate { place: 99 }, gave_up)]
+    {
         let mut core = Core::new(&setup, 0);
         core.start();
         let commands = core.on_event(Event::Done(job, Finished::new(outcome)));
@@ -152,10 +130,7 @@ fn a_job_lost_three_times_ends_the_build_and_is_named() {
     for _ in 0..2 {
         assert_eq!(jobs(&core.on_event(Event::Lost(job))), [job]);
     }
-    assert_eq!(
-        stop(&core.on_event(Event::Lost(job))),
-        Some(&Stop::Deadly(job))
-    );
+    assert_eq!(stop(&core.on_event(Event::Lost(job))), Some(&Stop::Deadly(job)));
     assert!(core.on_event(Event::Lost(job)).is_empty());
 }
 
@@ -209,12 +184,7 @@ fn a_sampler_that_gives_up_ends_the_build_with_its_name() {
             0 => build(&setup),
             _ => build_in_threads(&setup, threads),
         };
-        let Stop::GaveUp {
-            strategy: 0,
-            ordinal,
-            gave_up,
-        } = built.stop
-        else {
+        let Stop::GaveUp { strategy: 0, ordinal, gave_up } = built.stop else {
             panic!("{:?}", built.stop);
         };
         assert_eq!(gave_up, GaveUp { attempts: 50 });

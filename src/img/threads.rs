@@ -35,14 +35,7 @@ impl Threads {
             .expect("threads can be started");
         let replica = Replica::new(&setup);
         let waiting = BTreeSet::new();
-        Threads {
-            setup,
-            replica,
-            pool,
-            waiting,
-            running: 0,
-            results: unbounded(),
-        }
+        Threads { setup, replica, pool, waiting, running: 0, results: unbounded() }
     }
 
     /// Keeps every thread busy with the most urgent jobs; the rest wait here, where urgency rules.

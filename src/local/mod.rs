@@ -39,9 +39,7 @@ impl Planner {
 
     /// The planner that a tag stands for.
     pub fn from_tag(tag: u8) -> Option<Planner> {
-        Planner::ALL
-            .into_iter()
-            .find(|planner| planner.tag() == tag)
+        Planner::ALL.into_iter().find(|planner| planner.tag() == tag)
     }
 
     fn method(self) -> &'static dyn LocalPlanner {

@@ -55,11 +55,7 @@ pub fn closest_pairs(
             if let Some(distance) =
                 space.distance_unless_above(q, second.0.get(*b as usize), best.bound())
             {
-                best.offer(NearPair {
-                    distance,
-                    first: *a,
-                    second: *b,
-                });
+                best.offer(NearPair { distance, first: *a, second: *b });
             }
         }
     }
@@ -97,10 +93,7 @@ struct Best<T> {
 
 impl<T: Ranked> Best<T> {
     fn new(most: usize) -> Best<T> {
-        Best {
-            most,
-            items: Vec::new(),
-        }
+        Best { most, items: Vec::new() }
     }
 
     /// Nothing farther than this can still get in.

@@ -33,11 +33,7 @@ pub(super) fn bodies(
             }
             (Shape::Mesh(mesh), Solid::Auto) => {
                 let closed = mesh.is_closed();
-                let what = if place.len() == 1 {
-                    "obstacle"
-                } else {
-                    "robot body"
-                };
+                let what = if place.len() == 1 { "obstacle" } else { "robot body" };
                 let found = match mesh.odd_edges() {
                     0 => "the mesh is closed".to_owned(),
                     odd => format!("the mesh has {odd} open edges"),
@@ -65,10 +61,7 @@ fn pose_of(table: &BodyTable) -> Result<Pose, (&'static str, String)> {
     }
     let rotation = match (&table.orientation, &table.turn) {
         (Some(_), Some(_)) => {
-            return Err((
-                "turn",
-                "given beside orientation; one of the two expected".to_owned(),
-            ));
+            return Err(("turn", "given beside orientation; one of the two expected".to_owned()));
         }
         (Some(quaternion), None) => canonical(*quaternion).ok_or_else(|| {
             let expected = "a finite quaternion w x y z other than zero expected";
@@ -79,20 +72,15 @@ fn pose_of(table: &BodyTable) -> Result<Pose, (&'static str, String)> {
             let length = (x * x + y * y + z * z).sqrt();
             if !(length.is_finite() && length > 1e-100 && turn.degrees.is_finite()) {
                 let expected = "an axis other than zero and finite degrees expected";
-                let message = format!(
-                    "axis {:?} by {}° found; {expected}",
-                    turn.axis, turn.degrees
-                );
+                let message =
+                    format!("axis {:?} by {}° found; {expected}", turn.axis, turn.degrees);
                 return Err(("turn", message));
             }
             rotation_about(turn.axis.map(|value| value / length), turn.degrees)
         }
         (None, None) => Pose::IDENTITY.rotation,
     };
-    Ok(Pose {
-        translation: table.position,
-        rotation,
-    })
+    Ok(Pose { translation: table.position, rotation })
 }
 
 /// The rotation by `degrees` about a unit axis.
@@ -119,9 +107,7 @@ fn shape_of(source: &Source, table: &BodyTable) -> Result<Shape, String> {
             }
             Shape::Box { size: *size }
         }
-        ShapeTable::Sphere { radius } => Shape::Sphere {
-            radius: length("radius", *radius)?,
-        },
+        ShapeTable::Sphere { radius } => Shape::Sphere { radius: length("radius", *radius)? },
         ShapeTable::Cylinder { radius, height } => Shape::Cylinder {
             radius: length("radius", *radius)?,
             height: length("height", *height)?,

@@ -20,11 +20,7 @@ pub(super) fn strategies_of(
     file: &File,
 ) -> Result<(Vec<Strategy>, Vec<u32>, u32), ProblemError> {
     let default = [StrategyTable::uniform()];
-    let tables = if file.strategies.is_empty() {
-        &default[..]
-    } else {
-        &file.strategies
-    };
+    let tables = if file.strategies.is_empty() { &default[..] } else { &file.strategies };
     let mut strategies: Vec<Strategy> = Vec::new();
     for (index, table) in tables.iter().enumerate() {
         let fail = |keys: &[&str], message: String| {
@@ -36,10 +32,7 @@ pub(super) fn strategies_of(
             return fail(&["label"], "1 to 100 bytes expected".to_owned());
         }
         if strategies.iter().any(|other| other.label == table.label) {
-            let message = format!(
-                "`{}` found twice; labels of their own expected",
-                table.label
-            );
+            let message = format!("`{}` found twice; labels of their own expected", table.label);
             return fail(&["label"], message);
         }
         if !(1..=SET_NODES_MAX).contains(&table.nodes) {
@@ -52,10 +45,7 @@ pub(super) fn strategies_of(
             ("among", table.among.method().complaint()),
         ] {
             if let Some((key, found, expected)) = complaint {
-                return fail(
-                    &[role],
-                    format!("{key} = {found} found; {expected} expected"),
-                );
+                return fail(&[role], format!("{key} = {found} found; {expected} expected"));
             }
         }
         strategies.push(Strategy {
@@ -107,9 +97,9 @@ pub(super) fn limits_of(source: &Source, file: &File) -> Result<Limits, ProblemE
         sets: table.sets.unwrap_or(u64::MAX),
         seconds: table.seconds,
     };
-    limits.complaint().map_or(Ok(limits), |(key, message)| {
-        Err(source.error(&[Key("limits"), Key(key)], message))
-    })
+    limits
+        .complaint()
+        .map_or(Ok(limits), |(key, message)| Err(source.error(&[Key("limits"), Key(key)], message)))
 }
 
 impl Limits {
@@ -123,10 +113,9 @@ impl Limits {
             return Some(("sets", "0 found; at least 1 expected".to_owned()));
         }
         match self.seconds {
-            Some(seconds) if !(seconds.is_finite() && seconds > 0.0) => Some((
-                "seconds",
-                format!("{seconds} found; a positive number expected"),
-            )),
+            Some(seconds) if !(seconds.is_finite() && seconds > 0.0) => {
+                Some(("seconds", format!("{seconds} found; a positive number expected")))
+            }
             _ => None,
         }
     }

@@ -13,21 +13,14 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     let bounds = &problem.bounds;
     let space = problem.space();
     let names: Vec<_> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
-    writeln!(
-        out,
-        "problem          {} (seed {})",
-        problem.name, problem.seed
-    )?;
+    writeln!(out, "problem          {} (seed {})", problem.name, problem.seed)?;
     writeln!(out, "configuration    {}", names.join(" "))?;
     let turns = match names.last() {
         Some(&"theta") => "; theta in radians, in [-pi, pi)",
         Some(&"qz") => "; qw qx qy qz a unit quaternion, w first",
         _ => "",
     };
-    writeln!(
-        out,
-        "                 the pose of the robot's frame in the world's{turns}"
-    )?;
+    writeln!(out, "                 the pose of the robot's frame in the world's{turns}")?;
     writeln!(out, "                 lengths in the unit of the file")?;
     let axes = problem.motion.translations();
     let meaning = match bounds.meaning {
@@ -55,33 +48,17 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     for (what, bodies) in [("robot", &problem.robot), ("obstacles", &problem.obstacles)] {
         let triangles: usize = bodies
             .iter()
-            .map(|body| {
-                if let Shape::Mesh(mesh) = &body.shape {
-                    mesh.triangles.len()
-                } else {
-                    0
-                }
-            })
+            .map(|body| if let Shape::Mesh(mesh) = &body.shape { mesh.triangles.len() } else { 0 })
             .sum();
         let mut shapes: Vec<(&str, usize)> = Vec::new();
         for body in bodies {
-            match shapes
-                .iter_mut()
-                .find(|(name, _)| *name == body.shape.name())
-            {
+            match shapes.iter_mut().find(|(name, _)| *name == body.shape.name()) {
                 Some((_, count)) => *count += 1,
                 None => shapes.push((body.shape.name(), 1)),
             }
         }
-        let shapes: Vec<_> = shapes
-            .iter()
-            .map(|(name, count)| format!("{count} {name}"))
-            .collect();
-        let shapes = if shapes.is_empty() {
-            "none".to_owned()
-        } else {
-            shapes.join(", ")
-        };
+        let shapes: Vec<_> = shapes.iter().map(|(name, count)| format!("{count} {name}")).collect();
+        let shapes = if shapes.is_empty() { "none".to_owned() } else { shapes.join(", ") };
         match triangles {
             0 => writeln!(out, "{what:<16} {shapes}")?,
             _ => writeln!(out, "{what:<16} {shapes} ({triangles} triangles)")?,
@@ -116,11 +93,7 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         u64::MAX => "any number of".to_owned(),
         sets => sets.to_string(),
     };
-    write!(
-        out,
-        "limits           {} nodes, {sets} sets",
-        problem.limits.nodes
-    )?;
+    write!(out, "limits           {} nodes, {sets} sets", problem.limits.nodes)?;
     match problem.limits.seconds {
         Some(seconds) => writeln!(out, ", {seconds} s")?,
         None => writeln!(out, ", any time")?,

@@ -11,19 +11,11 @@ pub struct ProblemError {
 
 impl ProblemError {
     pub(super) fn file(path: &Path, message: impl Into<String>) -> ProblemError {
-        ProblemError {
-            path: path.to_owned(),
-            line: None,
-            message: message.into(),
-        }
+        ProblemError { path: path.to_owned(), line: None, message: message.into() }
     }
 
     pub(super) fn line(path: &Path, line: usize, message: impl Into<String>) -> ProblemError {
-        ProblemError {
-            path: path.to_owned(),
-            line: Some(line),
-            message: message.into(),
-        }
+        ProblemError { path: path.to_owned(), line: Some(line), message: message.into() }
     }
 }
 

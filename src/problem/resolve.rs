@@ -24,12 +24,7 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
 
     let name = name_of(&source, &file)?;
     let bounds = bounds_of(&source, &file)?;
-    let robot = bodies(
-        &source,
-        &[Key("robot"), Key("bodies")],
-        &file.robot.bodies,
-        &mut notes,
-    )?;
+    let robot = bodies(&source, &[Key("robot"), Key("bodies")], &file.robot.bodies, &mut notes)?;
     let obstacles = bodies(&source, &[Key("obstacles")], &file.obstacles, &mut notes)?;
     check_bodies(&source, &robot, &obstacles)?;
     let motion = file.space.motion;
@@ -66,10 +61,9 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
 fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {
     let name = match &file.name {
         Some(name) => name.clone(),
-        None => source
-            .path
-            .file_stem()
-            .map_or_else(String::new, |stem| stem.to_string_lossy().into()),
+        None => {
+            source.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into())
+        }
     };
     // The name becomes that of a folder.
     let fits = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
@@ -83,9 +77,8 @@ fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {
 fn bounds_of(source: &Source, file: &File) -> Result<Bounds, ProblemError> {
     let axes = file.space.motion.translations();
     let mut box_of = [[0.0; 3]; 2];
-    for (corner, (key, values)) in box_of
-        .iter_mut()
-        .zip([("min", &file.space.min), ("max", &file.space.max)])
+    for (corner, (key, values)) in
+        box_of.iter_mut().zip([("min", &file.space.min), ("max", &file.space.max)])
     {
         let place = [Key("space"), Key(key)];
         if values.len() != axes {
@@ -108,11 +101,7 @@ fn bounds_of(source: &Source, file: &File) -> Result<Bounds, ProblemError> {
             return Err(source.error(&[Key("space"), Key("max")], message));
         }
     }
-    Ok(Bounds {
-        min,
-        max,
-        meaning: file.space.bounds,
-    })
+    Ok(Bounds { min, max, meaning: file.space.bounds })
 }
 
 fn resolution_of(
@@ -164,10 +153,9 @@ fn rotation_length_of(
     let place = [Key("space"), Key("rotation_length")];
     match file.space.rotation_length {
         Some(length) if length.is_finite() && length >= 0.0 => Ok(length),
-        Some(length) => Err(source.error(
-            &place,
-            format!("{length} found; a length of at least 0 expected"),
-        )),
+        Some(length) => {
+            Err(source.error(&place, format!("{length} found; a length of at least 0 expected")))
+        }
         None => {
             let radius = robot_radius(robot);
             if matches!(file.space.motion, Motion::Rigid2d | Motion::Rigid3d) {
@@ -189,11 +177,5 @@ fn with_query(
     for (key, q) in [("start", &mut query.start), ("goal", &mut query.goal)] {
         settle(&cx, q).map_err(|message| source.error(&[Key("query"), Key(key)], message))?;
     }
-    Ok(Problem {
-        query: Some(Ends {
-            start: query.start,
-            goal: query.goal,
-        }),
-        ..problem
-    })
+    Ok(Problem { query: Some(Ends { start: query.start, goal: query.goal }), ..problem })
 }

@@ -22,11 +22,7 @@ impl<'a> Source<'a> {
     /// Parses the file's text.
     pub fn new(path: &'a Path, text: &'a str) -> Result<Source<'a>, ProblemError> {
         let tree = DeTable::parse(text).map_err(|error| syntax_error(path, text, &error))?;
-        Ok(Source {
-            path,
-            text,
-            tree: tree.into_inner(),
-        })
+        Ok(Source { path, text, tree: tree.into_inner() })
     }
 
     /// Reads the tree into tables.
@@ -71,10 +67,7 @@ impl<'a> Source<'a> {
 }
 
 fn line_of(text: &str, offset: usize) -> usize {
-    1 + text.as_bytes()[..offset.min(text.len())]
-        .iter()
-        .filter(|byte| **byte == b'\n')
-        .count()
+    1 + text.as_bytes()[..offset.min(text.len())].iter().filter(|byte| **byte == b'\n').count()
 }
 
 fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> ProblemError {

@@ -9,23 +9,13 @@ fn parse(text: &str) -> Result<Problem, String> {
 #[test]
 fn every_choice_is_noted_and_every_default_is_the_papers() {
     let problem = parse(WALLS).unwrap();
-    assert_eq!(
-        (problem.name.as_str(), problem.seed),
-        ("walls", DEFAULT_SEED)
-    );
-    assert_eq!(
-        (problem.sets_per_round, problem.schedule.as_slice()),
-        (5, &[0][..])
-    );
+    assert_eq!((problem.name.as_str(), problem.seed), ("walls", DEFAULT_SEED));
+    assert_eq!((problem.sets_per_round, problem.schedule.as_slice()), (5, &[0][..]));
     assert_eq!(problem.strategies[0].nodes, 50);
     let described = problem.describe();
-    for expected in [
-        "x y z qw qx qy qz",
-        "neighbors: 10",
-        "components: 3, pairs: 10",
-        "12 box",
-        "chosen",
-    ] {
+    for expected in
+        ["x y z qw qx qy qz", "neighbors: 10", "components: 3, pairs: 10", "12 box", "chosen"]
+    {
         assert!(described.contains(expected), "{expected} in\n{described}");
     }
 }
@@ -33,59 +23,26 @@ fn every_choice_is_noted_and_every_default_is_the_papers() {
 #[test]
 fn errors_name_file_line_and_key() {
     let line_of = |key: &str| {
-        1 + WALLS
-            .lines()
-            .position(|line| line.starts_with(key))
-            .expect("walls has the key")
+        1 + WALLS.lines().position(|line| line.starts_with(key)).expect("walls has the key")
     };
     let replaced = |key: &str, with: &str| {
         let old = WALLS.lines().nth(line_of(key) - 1).unwrap();
-        (
-            WALLS.replace(old, with),
-            format!("walls.toml:{}: ", line_of(key)),
-        )
+        (WALLS.replace(old, with), format!("walls.toml:{}: ", line_of(key)))
     };
     for (key, with, expected) in [
         ("bounds", "bounds = \"bodies\"", "unknown variant `bodies`"),
         ("bounds", "bonds = \"body\"", "unknown field `bonds`"),
-        (
-            "max",
-            "max = [8.0, -4.0, 4.0]",
-            "space.max: in y max = -4 found; more than min = 0",
-        ),
+        ("max", "max = [8.0, -4.0, 4.0]", "space.max: in y max = -4 found; more than min = 0"),
         ("max", "max = [8.0, nan, 4.0]", "space.max: NaN found"),
-        (
-            "min",
-            "min = [0.0, 0.0]",
-            "space.min: 2 values found; 3 expected",
-        ),
-        (
-            "start",
-            "start = [1.0, 2.0]",
-            "query.start: 2 values found, 7 expected: x y z qw",
-        ),
-        (
-            "start",
-            "start = [2.0, 3.0, 2.0, 1.0, 0.0, 0.0, 0.0]",
-            "query.start: [2.0, 3.0",
-        ),
-        (
-            "start",
-            "start = [-2.0, 3.0, 2.0, 1.0, 0.0, 0.0, 0.0]",
-            "within the bounds expected",
-        ),
-        (
-            "goal",
-            "goal = [7.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0]",
-            "query.goal: the quaternion",
-        ),
+        ("min", "min = [0.0, 0.0]", "space.min: 2 values found; 3 expected"),
+        ("start", "start = [1.0, 2.0]", "query.start: 2 values found, 7 expected: x y z qw"),
+        ("start", "start = [2.0, 3.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "query.start: [2.0, 3.0"),
+        ("start", "start = [-2.0, 3.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "within the bounds expected"),
+        ("goal", "goal = [7.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0]", "query.goal: the quaternion"),
     ] {
         let (text, place) = replaced(key, with);
         let error = parse(&text).unwrap_err();
-        assert!(
-            error.starts_with(&place) && error.contains(expected),
-            "{error}"
-        );
+        assert!(error.starts_with(&place) && error.contains(expected), "{error}");
     }
 }
 
@@ -93,35 +50,17 @@ fn errors_name_file_line_and_key() {
 fn errors_in_added_tables_name_the_key() {
     let strategy = "[[strategies]]\nlabel = \"a\"\nsampler = { uniform = {} }\n";
     for (added, expected) in [
-        (
-            "[img]\nsets_per_round = 0\n",
-            "img.sets_per_round: 0 found; 1 to",
-        ),
-        (
-            "[limits]\nnodes = 1_000_000_000_000\n",
-            "limits.nodes: 1000000000000 found; 1 to",
-        ),
+        ("[img]\nsets_per_round = 0\n", "img.sets_per_round: 0 found; 1 to"),
+        ("[limits]\nnodes = 1_000_000_000_000\n", "limits.nodes: 1000000000000 found; 1 to"),
         ("[limits]\nseconds = -1.0\n", "limits.seconds: -1 found"),
-        (
-            "[[strategies]]\nlabel = \"a\"\nsampler = { uniform = { atempts = 3 } }\n",
-            "`atempts`",
-        ),
-        (
-            &format!("{strategy}nodes = 0\n"),
-            "strategies[0].nodes: 0 found; 1 to",
-        ),
-        (
-            &format!("{strategy}{strategy}"),
-            "strategies[1].label: `a` found twice",
-        ),
+        ("[[strategies]]\nlabel = \"a\"\nsampler = { uniform = { atempts = 3 } }\n", "`atempts`"),
+        (&format!("{strategy}nodes = 0\n"), "strategies[0].nodes: 0 found; 1 to"),
+        (&format!("{strategy}{strategy}"), "strategies[1].label: `a` found twice"),
         (
             &format!("{strategy}within = {{ nearest = {{ neighbors = 0 }} }}\n"),
             "strategies[0].within: neighbors = 0 found; at least 1 expected",
         ),
-        (
-            &format!("{strategy}[img]\nschedule = [\"b\"]\n"),
-            "img.schedule: `b` found",
-        ),
+        (&format!("{strategy}[img]\nschedule = [\"b\"]\n"), "img.schedule: `b` found"),
         (
             "[[obstacles]]\nshape = { mesh = { file = \"none.obj\" } }\n",
             "obstacles[12].shape: none.obj: cannot read the mesh",
@@ -134,10 +73,7 @@ fn errors_in_added_tables_name_the_key() {
             "[[obstacles]]\nshape = { sphere = { radius = 0.1 } }\norientation = [0, 0, 0, 0]\n",
             "obstacles[12].orientation: [0.0, 0.0, 0.0, 0.0] found",
         ),
-        (
-            "[[obstacles]]\nshape = { point = {} }\n",
-            "obstacles[12].shape: a point cannot be",
-        ),
+        ("[[obstacles]]\nshape = { point = {} }\n", "obstacles[12].shape: a point cannot be"),
         (
             "[[obstacles]]\nshape = { sphere = { radius = 0.1 } }\nsolid = false\n",
             "obstacles[12].solid: false found; a sphere is always solid",
@@ -148,10 +84,7 @@ fn errors_in_added_tables_name_the_key() {
         ),
     ] {
         let error = parse(&format!("{WALLS}\n{added}")).unwrap_err();
-        assert!(
-            error.starts_with("walls.toml:") && error.contains(expected),
-            "{error}"
-        );
+        assert!(error.starts_with("walls.toml:") && error.contains(expected), "{error}");
     }
 }
 
@@ -160,48 +93,12 @@ fn the_digest_covers_what_determines_entries_and_nothing_else() {
     let problem = parse(WALLS).unwrap();
     let digest = problem.digest();
     for (changed, same) in [
-        (
-            Problem {
-                name: "other".to_owned(),
-                ..problem.clone()
-            },
-            true,
-        ),
-        (
-            Problem {
-                evaluators: Vec::new(),
-                ..problem.clone()
-            },
-            true,
-        ),
-        (
-            Problem {
-                seed: 2,
-                ..problem.clone()
-            },
-            false,
-        ),
-        (
-            Problem {
-                resolution: 0.01,
-                ..problem.clone()
-            },
-            false,
-        ),
-        (
-            Problem {
-                sets_per_round: 6,
-                ..problem.clone()
-            },
-            false,
-        ),
-        (
-            Problem {
-                obstacles: Vec::new(),
-                ..problem.clone()
-            },
-            false,
-        ),
+        (Problem { name: "other".to_owned(), ..problem.clone() }, true),
+        (Problem { evaluators: Vec::new(), ..problem.clone() }, true),
+        (Problem { seed: 2, ..problem.clone() }, false),
+        (Problem { resolution: 0.01, ..problem.clone() }, false),
+        (Problem { sets_per_round: 6, ..problem.clone() }, false),
+        (Problem { obstacles: Vec::new(), ..problem.clone() }, false),
     ] {
         assert_eq!(changed.digest() == digest, same);
     }

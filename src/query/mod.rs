@@ -52,10 +52,7 @@ pub fn solve(
     let from_start = attach(cx, roadmap, start, nodes, attachment, scratch);
     let from_goal = attach(cx, roadmap, goal, nodes + 1, attachment, scratch);
     let reached = |edges: &[Edge]| -> BTreeSet<u32> {
-        edges
-            .iter()
-            .map(|edge| roadmap.components().of_node(edge.low).name)
-            .collect()
+        edges.iter().map(|edge| roadmap.components().of_node(edge.low).name).collect()
     };
     let mut answer = Answer {
         attached: [from_start.len() as u32, from_goal.len() as u32],
@@ -82,9 +79,7 @@ pub fn solve(
             let edge = &edges[**index as usize];
             !passed.contains(*index) && {
                 let ends = (config(edge.low), config(edge.high));
-                let planner = Planner::from_tag(edge.planner)
-                    .into_iter()
-                    .collect::<Vec<_>>();
+                let planner = Planner::from_tag(edge.planner).into_iter().collect::<Vec<_>>();
                 let free = local::connect(cx, &planner, ends, PATH_REFINEMENT, scratch).is_some();
                 if free {
                     passed.insert(**index);
@@ -124,12 +119,7 @@ fn attach(
         let ends = (configs.get(neighbor.id as usize), q);
         if let Some((planner, weight)) = local::connect(cx, &attachment.planners, ends, 1, scratch)
         {
-            edges.push(Edge {
-                low: neighbor.id,
-                high: id,
-                planner: planner.tag(),
-                weight,
-            });
+            edges.push(Edge { low: neighbor.id, high: id, planner: planner.tag(), weight });
         }
     }
     edges

@@ -33,9 +33,6 @@ impl Path {
                 configs.push(motion.get(index));
             }
         }
-        Path {
-            configs,
-            length: route.length,
-        }
+        Path { configs, length: route.length }
     }
 }

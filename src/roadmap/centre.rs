@@ -87,11 +87,7 @@ fn principal(upper: &[f64], count: f64) -> Option<[f64; 4]> {
     }
     let eigen = matrix.symmetric_eigen();
     let mut order = [0, 1, 2, 3];
-    order.sort_by(|a, b| {
-        eigen.eigenvalues[*b]
-            .total_cmp(&eigen.eigenvalues[*a])
-            .then(a.cmp(b))
-    });
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]).then(a.cmp(b)));
     let [first, second, ..] = order;
     if eigen.eigenvalues[first] - eigen.eigenvalues[second] <= DEGENERATE {
         return None;
@@ -129,10 +125,7 @@ mod tests {
     fn directions_without_a_mean_fall_back() {
         let space = rigid_space(Motion::Rigid2d, [-1.0; 3], [1.0; 3], 1.0);
         let mut sum = CentreSum::of(&space, &[0.0, 0.0, 1.0]);
-        sum.add(&CentreSum::of(
-            &space,
-            &[1.0, 0.0, 1.0 - std::f64::consts::PI],
-        ));
+        sum.add(&CentreSum::of(&space, &[1.0, 0.0, 1.0 - std::f64::consts::PI]));
         assert_eq!(sum.centre(&space, &[9.0, 9.0, 0.25]), [0.5, 0.0, 0.25]);
 
         let space = rigid_space(Motion::Rigid3d, [-1.0; 3], [1.0; 3], 1.0);

@@ -48,9 +48,7 @@ impl Components {
 
     /// The component of a node.
     pub fn of_node(&self, node: u32) -> &Component {
-        self.slots[self.slot_of[node as usize] as usize]
-            .as_ref()
-            .expect("labels are current")
+        self.slots[self.slot_of[node as usize] as usize].as_ref().expect("labels are current")
     }
 
     /// Whether two nodes are connected.
@@ -60,9 +58,7 @@ impl Components {
 
     /// All components, in an order that depends on nothing but the graph's history.
     pub fn iter(&self) -> impl Iterator<Item = &Component> {
-        self.live
-            .iter()
-            .filter_map(|slot| self.slots[*slot as usize].as_ref())
+        self.live.iter().filter_map(|slot| self.slots[*slot as usize].as_ref())
     }
 
     /// Appends nodes, each a component of its own.
@@ -89,25 +85,13 @@ impl Components {
         if a == b {
             return;
         }
-        let size = |slot: u32| {
-            self.slots[slot as usize]
-                .as_ref()
-                .map_or(0, |c| c.members.len())
-        };
-        let (kept, gone) = if (size(a), b) >= (size(b), a) {
-            (a, b)
-        } else {
-            (b, a)
-        };
-        let smaller = self.slots[gone as usize]
-            .take()
-            .expect("labels are current");
+        let size = |slot: u32| self.slots[slot as usize].as_ref().map_or(0, |c| c.members.len());
+        let (kept, gone) = if (size(a), b) >= (size(b), a) { (a, b) } else { (b, a) };
+        let smaller = self.slots[gone as usize].take().expect("labels are current");
         for node in &smaller.members {
             self.slot_of[*node as usize] = kept;
         }
-        let larger = self.slots[kept as usize]
-            .as_mut()
-            .expect("labels are current");
+        let larger = self.slots[kept as usize].as_mut().expect("labels are current");
         larger.name = larger.name.min(smaller.name);
         larger.members.extend(smaller.members);
         larger.sum.add(&smaller.sum);
@@ -117,8 +101,7 @@ impl Components {
 
     /// Brings the centres of changed components up to date.
     pub(super) fn refresh_centres(&mut self, space: &Space, configs: &Configs) {
-        self.live
-            .retain(|slot| self.slots[*slot as usize].is_some());
+        self.live.retain(|slot| self.slots[*slot as usize].is_some());
         self.stale.sort_unstable();
         self.stale.dedup();
         for slot in std::mem::take(&mut self.stale) {

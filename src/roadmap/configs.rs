@@ -10,10 +10,7 @@ pub struct Configs {
 impl Configs {
     /// No configurations of `dofs` values.
     pub fn new(dofs: usize) -> Configs {
-        Configs {
-            dofs: dofs as u32,
-            values: Vec::new(),
-        }
+        Configs { dofs: dofs as u32, values: Vec::new() }
     }
 
     /// Number of configurations.

@@ -18,11 +18,7 @@ pub struct Edge {
 impl Edge {
     /// The same edge with both ids raised by `first`.
     pub fn shifted(self, first: u32) -> Edge {
-        Edge {
-            low: self.low + first,
-            high: self.high + first,
-            ..self
-        }
+        Edge { low: self.low + first, high: self.high + first, ..self }
     }
 }
 

@@ -42,11 +42,7 @@ impl Graph {
                 next[from as usize] += 1;
             }
         }
-        Graph {
-            start,
-            arcs,
-            weights: edges.iter().map(|edge| edge.weight).collect(),
-        }
+        Graph { start, arcs, weights: edges.iter().map(|edge| edge.weight).collect() }
     }
 
     /// A shortest route from `from` to `to` that avoids the edges in `without`; of several, the
@@ -85,20 +81,14 @@ impl Graph {
         let length = best[to as usize].map_or(0.0, |(length, _, _)| length);
         let (mut nodes, mut edges, mut node) = (vec![to], Vec::new(), to);
         while node != from {
-            let Some((_, before, edge)) = best[node as usize] else {
-                unreachable!("settled")
-            };
+            let Some((_, before, edge)) = best[node as usize] else { unreachable!("settled") };
             nodes.push(before);
             edges.push(edge);
             node = before;
         }
         nodes.reverse();
         edges.reverse();
-        Route {
-            nodes,
-            edges,
-            length,
-        }
+        Route { nodes, edges, length }
     }
 }
 
@@ -107,29 +97,16 @@ mod tests {
     use super::*;
 
     fn edge(low: u32, high: u32, weight: f64) -> Edge {
-        Edge {
-            low,
-            high,
-            planner: 0,
-            weight,
-        }
+        Edge { low, high, planner: 0, weight }
     }
 
     #[test]
     fn the_shortest_route_is_found_and_dropped_edges_avoided() {
-        let edges = [
-            edge(0, 1, 1.0),
-            edge(1, 3, 1.0),
-            edge(0, 2, 0.5),
-            edge(2, 3, 2.0),
-        ];
+        let edges = [edge(0, 1, 1.0), edge(1, 3, 1.0), edge(0, 2, 0.5), edge(2, 3, 2.0)];
         let graph = Graph::new(5, &edges);
         let mut without = BTreeSet::new();
         let route = graph.shortest(0, 3, &without).unwrap();
-        assert_eq!(
-            (route.nodes, route.edges, route.length),
-            (vec![0, 1, 3], vec![0, 1], 2.0)
-        );
+        assert_eq!((route.nodes, route.edges, route.length), (vec![0, 1, 3], vec![0, 1], 2.0));
         without.insert(1);
         assert_eq!(graph.shortest(0, 3, &without).unwrap().nodes, [0, 2, 3]);
         without.insert(3);

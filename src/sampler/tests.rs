@@ -19,9 +19,7 @@ position = [2.0, 2.0, 2.0]
 "#;
 
 fn context(scene: &str) -> Context {
-    Problem::parse(Path::new("scene.toml"), scene)
-        .unwrap()
-        .context()
+    Problem::parse(Path::new("scene.toml"), scene).unwrap().context()
 }
 
 /// One of each sampler, with its default settings.
@@ -32,10 +30,7 @@ fn samplers() -> Vec<SamplerKind> {
 fn sample(cx: &Context, sampler: &SamplerKind, ordinal: u64, scratch: &mut Scratch) -> Configs {
     let mut configs = Configs::new(cx.space.len());
     let seed = Seed::of_set(7, "laws", ordinal);
-    sampler
-        .method()
-        .sample(cx, &seed, 40, scratch, &mut configs)
-        .unwrap();
+    sampler.method().sample(cx, &seed, 40, scratch, &mut configs).unwrap();
     configs
 }
 
@@ -82,9 +77,7 @@ fn a_sampler_that_can_find_nothing_gives_up() {
     let mut configs = Configs::new(cx.space.len());
     let mut scratch = Scratch::new();
     let seed = Seed::of_set(7, "laws", 0);
-    let error = sampler
-        .sample(&cx, &seed, 1, &mut scratch, &mut configs)
-        .unwrap_err();
+    let error = sampler.sample(&cx, &seed, 1, &mut scratch, &mut configs).unwrap_err();
     assert_eq!(error, GaveUp { attempts: 500 });
     assert_eq!(scratch.take_asked().configurations, 500);
 }

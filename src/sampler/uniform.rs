@@ -25,9 +25,7 @@ fn default_attempts() -> u64 {
 
 impl Default for Uniform {
     fn default() -> Uniform {
-        Uniform {
-            attempts: default_attempts(),
-        }
+        Uniform { attempts: default_attempts() }
     }
 }
 

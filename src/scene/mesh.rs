@@ -31,19 +31,11 @@ pub struct MeshError {
 
 impl MeshError {
     pub(super) fn whole(path: &Path, message: impl Into<String>) -> MeshError {
-        MeshError {
-            path: path.to_owned(),
-            place: String::new(),
-            message: message.into(),
-        }
+        MeshError { path: path.to_owned(), place: String::new(), message: message.into() }
     }
 
     pub(super) fn line(path: &Path, line: usize, message: impl Into<String>) -> MeshError {
-        MeshError {
-            path: path.to_owned(),
-            place: format!(":{line}"),
-            message: message.into(),
-        }
+        MeshError { path: path.to_owned(), place: format!(":{line}"), message: message.into() }
     }
 }
 
@@ -59,28 +51,19 @@ pub(super) struct RawMesh {
 /// Names the file and the line or byte: unreadable, cut off, an index out of range, a number that
 /// is not finite, no face at all, or none with an area.
 pub fn read_mesh(path: &Path, scale: f64) -> Result<Mesh, MeshError> {
-    let extension = path
-        .extension()
-        .and_then(|e| e.to_str())
-        .map(str::to_ascii_lowercase);
+    let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     let read = match extension.as_deref() {
         Some("obj") => obj::read,
         Some("stl") => stl::read,
         _ => {
-            return Err(MeshError::whole(
-                path,
-                "unknown kind of mesh; .obj or .stl expected",
-            ));
+            return Err(MeshError::whole(path, "unknown kind of mesh; .obj or .stl expected"));
         }
     };
     let bytes = std::fs::read(path)
         .map_err(|error| MeshError::whole(path, format!("cannot read the mesh: {error}")))?;
     let raw = read(path, &bytes)?;
     if raw.triangles.is_empty() {
-        return Err(MeshError::whole(
-            path,
-            "no faces found; at least one triangle expected",
-        ));
+        return Err(MeshError::whole(path, "no faces found; at least one triangle expected"));
     }
     let found = raw.triangles.len();
     let mesh = Mesh::weld(raw, scale);
@@ -121,10 +104,7 @@ impl Mesh {
                 triangles.push(corners);
             }
         }
-        Mesh {
-            vertices,
-            triangles,
-        }
+        Mesh { vertices, triangles }
     }
 
     /// Number of edges that an odd number of triangles share: 0 for a closed surface.
@@ -187,11 +167,7 @@ impl Mesh {
 fn area_squared(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
     let u = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
     let v = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
-    let n = [
-        u[1] * v[2] - u[2] * v[1],
-        u[2] * v[0] - u[0] * v[2],
-        u[0] * v[1] - u[1] * v[0],
-    ];
+    let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     n[0] * n[0] + n[1] * n[1] + n[2] * n[2]
 }
 
@@ -201,22 +177,11 @@ mod tests {
 
     fn cube(offset: f64) -> RawMesh {
         let corner = |i: usize| [0, 1, 2].map(|axis| (i >> axis & 1) as f64 + offset);
-        let quads = [
-            [0, 1, 3, 2],
-            [4, 6, 7, 5],
-            [0, 4, 5, 1],
-            [2, 3, 7, 6],
-            [0, 2, 6, 4],
-            [1, 5, 7, 3],
-        ];
-        let triangles = quads
-            .iter()
-            .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]])
-            .collect();
-        RawMesh {
-            vertices: (0..8).map(corner).collect(),
-            triangles,
-        }
+        let quads =
+            [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+        let triangles =
+            quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+        RawMesh { vertices: (0..8).map(corner).collect(), triangles }
     }
 
     #[test]
@@ -230,12 +195,10 @@ mod tests {
     #[test]
     fn doubled_and_flat_triangles_are_dropped_and_pieces_told_apart() {
         let (mut raw, other) = (cube(0.0), cube(5.0));
-        raw.triangles
-            .extend(raw.triangles.clone().into_iter().map(|[a, b, c]| [a, c, b]));
+        raw.triangles.extend(raw.triangles.clone().into_iter().map(|[a, b, c]| [a, c, b]));
         raw.triangles.push([0, 0, 1]);
         raw.vertices.extend(other.vertices);
-        raw.triangles
-            .extend(other.triangles.iter().map(|corners| corners.map(|c| c + 8)));
+        raw.triangles.extend(other.triangles.iter().map(|corners| corners.map(|c| c + 8)));
         let mesh = Mesh::weld(raw, 2.0);
         assert_eq!(mesh.triangles.len(), 24);
         assert_eq!(mesh.witnesses(), [[0.0; 3], [10.0; 3]]);

@@ -9,16 +9,10 @@ use std::path::Path;
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
-        let line = 1 + bytes[..error.valid_up_to()]
-            .iter()
-            .filter(|b| **b == b'\n')
-            .count();
+        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count();
         MeshError::line(path, line, "not UTF-8 text; a Wavefront .obj expected")
     })?;
-    let mut mesh = RawMesh {
-        vertices: Vec::new(),
-        triangles: Vec::new(),
-    };
+    let mut mesh = RawMesh { vertices: Vec::new(), triangles: Vec::new() };
     let mut corners: Vec<u32> = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let number = index + 1;
@@ -41,8 +35,7 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     return Err(MeshError::line(path, number, message));
                 }
                 for i in 2..corners.len() {
-                    mesh.triangles
-                        .push([corners[0], corners[i - 1], corners[i]]);
+                    mesh.triangles.push([corners[0], corners[i - 1], corners[i]]);
                 }
             }
             _ => {}
@@ -58,9 +51,7 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
 fn vertex<'a>(mut words: impl Iterator<Item = &'a str>) -> Result<[f64; 3], String> {
     let mut vertex = [0.0; 3];
     for value in &mut vertex {
-        let word = words
-            .next()
-            .ok_or("a vertex with fewer than 3 coordinates")?;
+        let word = words.next().ok_or("a vertex with fewer than 3 coordinates")?;
         *value = match word.parse::<f64>() {
             Ok(number) if number.is_finite() => number,
             _ => return Err(format!("`{word}` found; a finite coordinate expected")),
@@ -72,14 +63,9 @@ fn vertex<'a>(mut words: impl Iterator<Item = &'a str>) -> Result<[f64; 3], Stri
 /// A corner `i`, `i/t`, `i//n` or `i/t/n`: counted from 1, or backwards from −1.
 fn corner(word: &str, vertices: usize) -> Result<u32, String> {
     let first = word.split('/').next().unwrap_or_default();
-    let index: i64 = first
-        .parse()
-        .map_err(|_| format!("`{word}` found; the index of a vertex expected"))?;
-    let from_zero = if index > 0 {
-        index - 1
-    } else {
-        vertices as i64 + index
-    };
+    let index: i64 =
+        first.parse().map_err(|_| format!("`{word}` found; the index of a vertex expected"))?;
+    let from_zero = if index > 0 { index - 1 } else { vertices as i64 + index };
     if index == 0 || from_zero < 0 || from_zero >= vertices as i64 {
         return Err(format!(
             "vertex {index} of a face does not exist; {vertices} are defined so far"
@@ -109,10 +95,7 @@ mod tests {
         for (text, expected) in [
             ("v 0 0 0\nv 0 1\n", "m.obj:2: a vertex with fewer"),
             ("v 0 0 inf\n", "m.obj:1: `inf` found"),
-            (
-                "v 0 0 0\nf 1 1 2\n",
-                "m.obj:2: vertex 2 of a face does not exist; 1 are",
-            ),
+            ("v 0 0 0\nf 1 1 2\n", "m.obj:2: vertex 2 of a face does not exist; 1 are"),
             ("v 0 0 0\nf 1 1\n", "m.obj:2: a face with 2 corners"),
             ("v 0 0 0\n\nf 1 1 x\n", "m.obj:3: `x` found"),
         ] {

@@ -12,16 +12,11 @@ pub struct Pose {
 
 impl Pose {
     /// The motion that moves nothing.
-    pub const IDENTITY: Pose = Pose {
-        translation: [0.0; 3],
-        rotation: [1.0, 0.0, 0.0, 0.0],
-    };
+    pub const IDENTITY: Pose = Pose { translation: [0.0; 3], rotation: [1.0, 0.0, 0.0, 0.0] };
 
     /// Where the motion takes a point.
     pub fn apply(&self, point: [f64; 3]) -> [f64; 3] {
-        self.to_parry()
-            .transform_point(parry::Vector::from_array(point))
-            .to_array()
+        self.to_parry().transform_point(parry::Vector::from_array(point)).to_array()
     }
 
     /// The same motion in parry's types.

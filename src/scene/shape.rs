@@ -47,24 +47,18 @@ impl Shape {
         };
         Some(match self {
             Shape::Point => return None,
-            Shape::Box { size: [x, y, z] } => (
-                parry::SharedShape::cuboid(x / 2.0, y / 2.0, z / 2.0),
-                ParryPose::IDENTITY,
-            ),
+            Shape::Box { size: [x, y, z] } => {
+                (parry::SharedShape::cuboid(x / 2.0, y / 2.0, z / 2.0), ParryPose::IDENTITY)
+            }
             Shape::Sphere { radius } => (parry::SharedShape::ball(*radius), ParryPose::IDENTITY),
             Shape::Cylinder { radius, height } => {
                 (parry::SharedShape::cylinder(height / 2.0, *radius), upright)
             }
-            Shape::Capsule { radius, height } => (
-                parry::SharedShape::capsule_y(height / 2.0, *radius),
-                upright,
-            ),
+            Shape::Capsule { radius, height } => {
+                (parry::SharedShape::capsule_y(height / 2.0, *radius), upright)
+            }
             Shape::Mesh(mesh) => {
-                let vertices = mesh
-                    .vertices
-                    .iter()
-                    .map(|v| Vector::from_array(*v))
-                    .collect();
+                let vertices = mesh.vertices.iter().map(|v| Vector::from_array(*v)).collect();
                 let shape = parry::SharedShape::trimesh(vertices, mesh.triangles.clone())
                     .expect("a validated mesh has triangles");
                 (shape, ParryPose::IDENTITY)
@@ -86,9 +80,10 @@ impl Shape {
                 radius * (x * x + y * y).sqrt() + height / 2.0 * z.abs()
             }
             Shape::Capsule { radius, height } => radius + height / 2.0 * z.abs(),
-            Shape::Mesh(mesh) => mesh.vertices.iter().fold(f64::NEG_INFINITY, |most, p| {
-                most.max(p[0] * x + p[1] * y + p[2] * z)
-            }),
+            Shape::Mesh(mesh) => mesh
+                .vertices
+                .iter()
+                .fold(f64::NEG_INFINITY, |most, p| most.max(p[0] * x + p[1] * y + p[2] * z)),
         }
     }
 
@@ -96,22 +91,14 @@ impl Shape {
     /// stands at `pose`; exact for boxes, spheres, capsules and meshes.
     pub fn reach(&self, pose: &Pose) -> f64 {
         let farthest = |points: &[[f64; 3]]| {
-            points
-                .iter()
-                .fold(0.0f64, |most, p| most.max(length(pose.apply(*p))))
+            points.iter().fold(0.0f64, |most, p| most.max(length(pose.apply(*p))))
         };
         match self {
             Shape::Point => farthest(&[[0.0; 3]]),
             Shape::Box { size } => {
                 let half = size.map(|edge| edge / 2.0);
                 let corner = |i: usize| {
-                    [0, 1, 2].map(|axis| {
-                        if i >> axis & 1 == 1 {
-                            half[axis]
-                        } else {
-                            -half[axis]
-                        }
-                    })
+                    [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { half[axis] } else { -half[axis] })
                 };
                 farthest(&[0, 1, 2, 3, 4, 5, 6, 7].map(corner))
             }

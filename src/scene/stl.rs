@@ -26,10 +26,7 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
             bytes.len(),
             HEADER_BYTES + count * TRIANGLE_BYTES
         ),
-        None => format!(
-            "{} bytes found; at least {HEADER_BYTES} expected",
-            bytes.len()
-        ),
+        None => format!("{} bytes found; at least {HEADER_BYTES} expected", bytes.len()),
     };
     Err(MeshError::whole(path, message))
 }
@@ -41,19 +38,10 @@ fn stated_count(bytes: &[u8]) -> Option<usize> {
 
 fn read_binary(path: &Path, bytes: &[u8], count: usize) -> Result<RawMesh, MeshError> {
     if count > MESH_ITEMS_MAX {
-        return Err(MeshError::whole(
-            path,
-            format!("more than {MESH_ITEMS_MAX} triangles"),
-        ));
+        return Err(MeshError::whole(path, format!("more than {MESH_ITEMS_MAX} triangles")));
     }
-    let mut mesh = RawMesh {
-        vertices: Vec::new(),
-        triangles: Vec::new(),
-    };
-    for (index, record) in bytes[HEADER_BYTES..]
-        .chunks_exact(TRIANGLE_BYTES)
-        .enumerate()
-    {
+    let mut mesh = RawMesh { vertices: Vec::new(), triangles: Vec::new() };
+    for (index, record) in bytes[HEADER_BYTES..].chunks_exact(TRIANGLE_BYTES).enumerate() {
         for corner in 1..4 {
             let mut vertex = [0.0; 3];
             for (axis, value) in vertex.iter_mut().enumerate() {
@@ -63,11 +51,7 @@ fn read_binary(path: &Path, bytes: &[u8], count: usize) -> Result<RawMesh, MeshE
                 if !value.is_finite() {
                     let place = format!(" byte {}", HEADER_BYTES + index * TRIANGLE_BYTES + at);
                     let message = format!("{value} found; a finite coordinate expected");
-                    return Err(MeshError {
-                        path: path.to_owned(),
-                        place,
-                        message,
-                    });
+                    return Err(MeshError { path: path.to_owned(), place, message });
                 }
             }
             mesh.vertices.push(vertex);
@@ -79,10 +63,7 @@ fn read_binary(path: &Path, bytes: &[u8], count: usize) -> Result<RawMesh, MeshE
 }
 
 fn read_text(path: &Path, text: &str) -> Result<RawMesh, MeshError> {
-    let mut mesh = RawMesh {
-        vertices: Vec::new(),
-        triangles: Vec::new(),
-    };
+    let mut mesh = RawMesh { vertices: Vec::new(), triangles: Vec::new() };
     let mut corners = 0;
     let mut ended = false;
     for (index, line) in text.lines().enumerate() {
@@ -115,11 +96,7 @@ fn read_text(path: &Path, text: &str) -> Result<RawMesh, MeshError> {
         }
     }
     if !ended {
-        return Err(MeshError::line(
-            path,
-            text.lines().count(),
-            "cut off; `endsolid` expected",
-        ));
+        return Err(MeshError::line(path, text.lines().count(), "cut off; `endsolid` expected"));
     }
     Ok(mesh)
 }
@@ -135,9 +112,7 @@ mod tests {
         let mut bytes = vec![0; 80];
         bytes[..5].copy_from_slice(b"solid");
         bytes.extend(1u32.to_le_bytes());
-        for value in [
-            0.0f32, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0,
-        ] {
+        for value in [0.0f32, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0] {
             bytes.extend(value.to_le_bytes());
         }
         bytes.extend([0, 0]);
@@ -148,10 +123,7 @@ mod tests {
     fn both_kinds_hold_the_same_triangle() {
         for bytes in [TEXT.as_bytes(), &binary()] {
             let mesh = read(Path::new("m.stl"), bytes).unwrap_or_else(|error| panic!("{error}"));
-            assert_eq!(
-                mesh.vertices,
-                [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
-            );
+            assert_eq!(mesh.vertices, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
             assert_eq!(mesh.triangles, [[0, 1, 2]]);
         }
     }
@@ -164,17 +136,8 @@ mod tests {
         for end in 0..TEXT.len() - "endsolid t\n".len() {
             assert!(read(Path::new("m.stl"), &TEXT.as_bytes()[..end]).is_err());
         }
-        let error = read(
-            Path::new("m.stl"),
-            TEXT.replace("vertex 1 0 0\n", "").as_bytes(),
-        );
-        assert!(
-            error
-                .err()
-                .unwrap()
-                .to_string()
-                .starts_with("m.stl:6: a facet with 2 corners")
-        );
+        let error = read(Path::new("m.stl"), TEXT.replace("vertex 1 0 0\n", "").as_bytes());
+        assert!(error.err().unwrap().to_string().starts_with("m.stl:6: a facet with 2 corners"));
     }
 
     proptest! {

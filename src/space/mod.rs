@@ -70,11 +70,7 @@ impl Space {
         let mut next = 0;
         for part in &parts {
             assert_eq!(part.at, next, "parts follow one another");
-            next += if part.kind == PartKind::Rotation {
-                4
-            } else {
-                1
-            };
+            next += if part.kind == PartKind::Rotation { 4 } else { 1 };
         }
         assert_eq!(next, dofs.len(), "every value has a name");
         Space { parts, dofs }
@@ -134,10 +130,7 @@ impl Space {
     pub fn canonicalize(&self, q: &mut [f64]) -> Result<(), String> {
         for (value, dof) in q.iter().zip(&self.dofs) {
             if !value.is_finite() {
-                return Err(format!(
-                    "the value of {} is {value}, not a finite number",
-                    dof.name
-                ));
+                return Err(format!("the value of {} is {value}, not a finite number", dof.name));
             }
         }
         for part in &self.parts {

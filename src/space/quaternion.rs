@@ -22,9 +22,7 @@ pub fn uniform_rotation(stream: &mut Stream) -> [f64; 4] {
 /// The same rotation with unit length and the first non-zero value positive; `None` where the
 /// values are too small or too large to have a direction.
 pub fn canonical(quaternion: [f64; 4]) -> Option<[f64; 4]> {
-    let largest = quaternion
-        .iter()
-        .fold(0.0f64, |most, value| most.max(value.abs()));
+    let largest = quaternion.iter().fold(0.0f64, |most, value| most.max(value.abs()));
     if !(1e-150..=1e150).contains(&largest) {
         return None;
     }
@@ -50,20 +48,13 @@ pub fn slerp(from: [f64; 4], to: [f64; 4], t: f64) -> [f64; 4] {
         (1.0 - t, t)
     } else {
         let sine = math::sin(angle);
-        (
-            math::sin((1.0 - t) * angle) / sine,
-            math::sin(t * angle) / sine,
-        )
+        (math::sin((1.0 - t) * angle) / sine, math::sin(t * angle) / sine)
     };
     let mut between = [0.0; 4];
     for (value, (a, b)) in between.iter_mut().zip(from.iter().zip(&to)) {
         *value = a * weight_from + b * sign * weight_to;
     }
     // Without a sign change here: the motion stays continuous for whoever follows it.
-    let length = between
-        .iter()
-        .map(|value| value * value)
-        .sum::<f64>()
-        .sqrt();
+    let length = between.iter().map(|value| value * value).sum::<f64>().sqrt();
     between.map(|value| value / length)
 }

@@ -39,22 +39,12 @@ impl Motion {
 /// The space of a rigid body whose reference point lies in the box `min`..`max` (of a planar
 /// body: in its first two intervals). One radian of rotation counts as `rotation_length`.
 pub fn rigid_space(motion: Motion, min: [f64; 3], max: [f64; 3], rotation_length: f64) -> Space {
-    let length = |name: &str| Dof {
-        name: name.to_owned(),
-        unit: "length",
-    };
+    let length = |name: &str| Dof { name: name.to_owned(), unit: "length" };
     let mut parts = Vec::new();
     let mut dofs = Vec::new();
-    for (axis, name) in ["x", "y", "z"]
-        .into_iter()
-        .enumerate()
-        .take(motion.translations())
-    {
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate().take(motion.translations()) {
         parts.push(Part {
-            kind: PartKind::Real {
-                min: min[axis],
-                max: max[axis],
-            },
+            kind: PartKind::Real { min: min[axis], max: max[axis] },
             at: axis,
             weight: 1.0,
         });
@@ -65,27 +55,13 @@ pub fn rigid_space(motion: Motion, min: [f64; 3], max: [f64; 3], rotation_length
     match motion {
         Motion::Translation2d | Motion::Translation3d => {}
         Motion::Rigid2d => {
-            parts.push(Part {
-                kind: PartKind::Angle,
-                at,
-                weight,
-            });
-            dofs.push(Dof {
-                name: "theta".to_owned(),
-                unit: "rad",
-            });
+            parts.push(Part { kind: PartKind::Angle, at, weight });
+            dofs.push(Dof { name: "theta".to_owned(), unit: "rad" });
         }
         Motion::Rigid3d => {
-            parts.push(Part {
-                kind: PartKind::Rotation,
-                at,
-                weight,
-            });
+            parts.push(Part { kind: PartKind::Rotation, at, weight });
             for name in ["qw", "qx", "qy", "qz"] {
-                dofs.push(Dof {
-                    name: name.to_owned(),
-                    unit: "1",
-                });
+                dofs.push(Dof { name: name.to_owned(), unit: "1" });
             }
         }
     }

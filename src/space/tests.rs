@@ -3,14 +3,9 @@ use crate::seed::{Purpose, Seed};
 use proptest::prelude::*;
 
 fn spaces() -> Vec<Space> {
-    [
-        Motion::Translation2d,
-        Motion::Rigid2d,
-        Motion::Translation3d,
-        Motion::Rigid3d,
-    ]
-    .map(|motion| rigid_space(motion, [-1.0, -2.0, -3.0], [1.0, 2.0, 5.0], 0.7))
-    .to_vec()
+    [Motion::Translation2d, Motion::Rigid2d, Motion::Translation3d, Motion::Rigid3d]
+        .map(|motion| rigid_space(motion, [-1.0, -2.0, -3.0], [1.0, 2.0, 5.0], 0.7))
+        .to_vec()
 }
 
 fn draw(space: &Space, ordinal: u64) -> Vec<f64> {
@@ -99,18 +94,11 @@ fn uniform_rotations_follow_the_haar_measure() {
 #[test]
 fn bad_configurations_are_named() {
     let space = rigid_space(Motion::Rigid3d, [0.0; 3], [1.0; 3], 1.0);
-    let error = space
-        .canonicalize(&mut [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-        .unwrap_err();
+    let error = space.canonicalize(&mut [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).unwrap_err();
     assert!(error.contains("quaternion"), "{error}");
-    let error = space
-        .canonicalize(&mut [0.0, f64::NAN, 0.0, 1.0, 0.0, 0.0, 0.0])
-        .unwrap_err();
+    let error = space.canonicalize(&mut [0.0, f64::NAN, 0.0, 1.0, 0.0, 0.0, 0.0]).unwrap_err();
     assert!(error.contains("value of y"), "{error}");
     let mut q = [-0.0, 0.0, 0.0, -2.0, 0.0, 0.0, 0.0];
     space.canonicalize(&mut q).unwrap();
-    assert_eq!(
-        q.map(f64::to_bits),
-        [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0].map(f64::to_bits)
-    );
+    assert_eq!(q.map(f64::to_bits), [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0].map(f64::to_bits));
 }

@@ -65,18 +65,10 @@ fn crosses(corners: &[[f64; 3]; 3], [x, y, z]: [f64; 3]) -> bool {
     let [a, b, c] = corners;
     let u = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
     let v = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
-    let normal = [
-        u[1] * v[2] - u[2] * v[1],
-        u[2] * v[0] - u[0] * v[2],
-        u[0] * v[1] - u[1] * v[0],
-    ];
+    let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     // Where the line meets the triangle's plane: normal · (p − a) = 0, solved for x.
     let ahead = normal[1] * (y - a[1]) + normal[2] * (z - a[2]) + normal[0] * (x - a[0]);
-    if normal[0] > 0.0 {
-        ahead < 0.0
-    } else {
-        ahead > 0.0
-    }
+    if normal[0] > 0.0 { ahead < 0.0 } else { ahead > 0.0 }
 }
 
 #[cfg(test)]
@@ -101,10 +93,7 @@ mod tests {
                 }
             }
         }
-        Mesh {
-            vertices: vertices.to_vec(),
-            triangles,
-        }
+        Mesh { vertices: vertices.to_vec(), triangles }
     }
 
     proptest! {

@@ -64,21 +64,8 @@ impl Piece {
             Some(shape) => shape.compute_aabb(&pose),
             None => Aabb::new(origin, origin),
         };
-        let witnesses = body
-            .shape
-            .witnesses()
-            .into_iter()
-            .map(Vector::from_array)
-            .collect();
-        Piece {
-            shape,
-            pose,
-            body: frame,
-            form: body.shape.clone(),
-            inside,
-            witnesses,
-            aabb,
-        }
+        let witnesses = body.shape.witnesses().into_iter().map(Vector::from_array).collect();
+        Piece { shape, pose, body: frame, form: body.shape.clone(), inside, witnesses, aabb }
     }
 
     /// Whether the piece, its body's frame standing at `body`, holds a point of the other, whose
@@ -270,9 +257,7 @@ impl Validity for RigidValidity {
 
 /// A bound on the distance of the robot's points from the origin of its frame.
 pub(crate) fn robot_radius(robot: &[Body]) -> f64 {
-    robot
-        .iter()
-        .fold(0.0f64, |most, body| most.max(body.shape.reach(&body.pose)))
+    robot.iter().fold(0.0f64, |most, body| most.max(body.shape.reach(&body.pose)))
 }
 
 /// The pose of the robot's frame in the world's at a configuration.

@@ -5,14 +5,7 @@ use crate::space::{Motion, Space, rigid_space};
 use proptest::prelude::*;
 
 fn solid(shape: Shape, translation: [f64; 3]) -> Body {
-    Body {
-        shape,
-        pose: Pose {
-            translation,
-            ..Pose::IDENTITY
-        },
-        solid: true,
-    }
+    Body { shape, pose: Pose { translation, ..Pose::IDENTITY }, solid: true }
 }
 
 fn cuboid(size: [f64; 3], translation: [f64; 3]) -> Body {
@@ -24,30 +17,14 @@ fn cuboid_mesh(size: [f64; 3], translation: [f64; 3], solid: bool) -> Body {
     let corner = |i: usize| {
         [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { size[axis] } else { -size[axis] } / 2.0)
     };
-    let quads = [
-        [0, 1, 3, 2],
-        [4, 6, 7, 5],
-        [0, 4, 5, 1],
-        [2, 3, 7, 6],
-        [0, 2, 6, 4],
-        [1, 5, 7, 3],
-    ];
+    let quads =
+        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
     let mesh = Mesh {
         vertices: (0..8).map(corner).collect(),
-        triangles: quads
-            .iter()
-            .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]])
-            .collect(),
+        triangles: quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect(),
     };
     assert!(mesh.is_closed());
-    Body {
-        shape: Shape::Mesh(mesh),
-        pose: Pose {
-            translation,
-            ..Pose::IDENTITY
-        },
-        solid,
-    }
+    Body { shape: Shape::Mesh(mesh), pose: Pose { translation, ..Pose::IDENTITY }, solid }
 }
 
 fn validity(
@@ -56,11 +33,7 @@ fn validity(
     robot: &[Body],
     obstacles: &[Body],
 ) -> (Space, RigidValidity) {
-    let bounds = Bounds {
-        min: [-5.0; 3],
-        max: [5.0; 3],
-        meaning,
-    };
+    let bounds = Bounds { min: [-5.0; 3], max: [5.0; 3], meaning };
     let space = rigid_space(motion, bounds.min, bounds.max, 1.0);
     let validity = RigidValidity::new(space.clone(), motion, bounds, 0.05, robot, obstacles);
     (space, validity)
@@ -153,42 +126,14 @@ proptest! {
 fn every_primitive_stands_along_its_axis() {
     let probe = [solid(Shape::Sphere { radius: 0.01 }, [0.0; 3])];
     for (shape, inside, outside) in [
-        (
-            Shape::Cylinder {
-                radius: 1.0,
-                height: 4.0,
-            },
-            [0.9, 0.0, 1.9],
-            [0.0, 1.9, 0.0],
-        ),
-        (
-            Shape::Capsule {
-                radius: 1.0,
-                height: 2.0,
-            },
-            [0.0, 0.0, 1.9],
-            [0.0, 1.9, 0.0],
-        ),
-        (
-            Shape::Box {
-                size: [2.0, 4.0, 6.0],
-            },
-            [0.9, 1.9, 2.9],
-            [1.9, 0.0, 0.0],
-        ),
-        (
-            Shape::Sphere { radius: 2.0 },
-            [1.1, 1.1, 1.1],
-            [1.2, 1.2, 1.2],
-        ),
+        (Shape::Cylinder { radius: 1.0, height: 4.0 }, [0.9, 0.0, 1.9], [0.0, 1.9, 0.0]),
+        (Shape::Capsule { radius: 1.0, height: 2.0 }, [0.0, 0.0, 1.9], [0.0, 1.9, 0.0]),
+        (Shape::Box { size: [2.0, 4.0, 6.0] }, [0.9, 1.9, 2.9], [1.9, 0.0, 0.0]),
+        (Shape::Sphere { radius: 2.0 }, [1.1, 1.1, 1.1], [1.2, 1.2, 1.2]),
     ] {
         let obstacle = [solid(shape.clone(), [0.0; 3])];
-        let (_, validity) = validity(
-            Motion::Translation3d,
-            BoundsMeaning::Reference,
-            &probe,
-            &obstacle,
-        );
+        let (_, validity) =
+            validity(Motion::Translation3d, BoundsMeaning::Reference, &probe, &obstacle);
         assert!(!valid(&validity, &inside), "{shape:?}");
         assert!(valid(&validity, &outside), "{shape:?}");
         assert!(shape.extent([0.0, 0.0, 1.0]) >= inside[2]);
@@ -198,19 +143,11 @@ fn every_primitive_stands_along_its_axis() {
 #[test]
 fn the_inside_of_a_surface_is_free_and_that_of_a_solid_is_not() {
     for (is_solid, point_robot) in [(true, false), (false, false), (true, true)] {
-        let shape = if point_robot {
-            Shape::Point
-        } else {
-            Shape::Sphere { radius: 0.1 }
-        };
+        let shape = if point_robot { Shape::Point } else { Shape::Sphere { radius: 0.1 } };
         let robot = [solid(shape, [0.0; 3])];
         let obstacle = [cuboid_mesh([2.0; 3], [0.0; 3], is_solid)];
-        let (_, validity) = validity(
-            Motion::Translation3d,
-            BoundsMeaning::Reference,
-            &robot,
-            &obstacle,
-        );
+        let (_, validity) =
+            validity(Motion::Translation3d, BoundsMeaning::Reference, &robot, &obstacle);
         assert_eq!(valid(&validity, &[0.0, 0.1, 0.0]), !is_solid);
         assert!(valid(&validity, &[0.0, 2.1, 0.0]));
     }
@@ -225,13 +162,7 @@ fn a_motion_through_a_thin_wall_is_seen_at_the_resolution() {
     let (left, right) = ([-2.0, 0.0, 0.0], [2.0, 1.0, 3.0]);
     assert!(!validity.motion(&left, &right, 1, &mut scratch));
     assert!(validity.motion(&left, &[-2.0, 3.0, -3.0], 20, &mut scratch));
-    assert_eq!(
-        scratch.take_asked(),
-        Asked {
-            configurations: 0,
-            motions: 2
-        }
-    );
+    assert_eq!(scratch.take_asked(), Asked { configurations: 0, motions: 2 });
 }
 
 #[test]
@@ -248,15 +179,10 @@ fn steps_keep_the_promise_of_the_resolution() {
         let mut before: Option<[f64; 3]> = None;
         for i in 0..=steps {
             space.interpolate(&a, &b, i as f64 / steps as f64, &mut q);
-            let pose = Pose {
-                translation: [q[0], q[1], q[2]],
-                rotation: [q[3], q[4], q[5], q[6]],
-            };
+            let pose = Pose { translation: [q[0], q[1], q[2]], rotation: [q[3], q[4], q[5], q[6]] };
             let end = pose.apply([2.0, 0.05, 0.05]);
             if let Some(before) = before {
-                let moved: f64 = (0..3)
-                    .map(|k| (end[k] - before[k]) * (end[k] - before[k]))
-                    .sum();
+                let moved: f64 = (0..3).map(|k| (end[k] - before[k]) * (end[k] - before[k])).sum();
                 assert!(moved.sqrt() <= 0.05 * (1.0 + 1e-9));
             }
             before = Some(end);

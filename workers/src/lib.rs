@@ -4,6 +4,7 @@
 //! others. It is the same executable as the coordinator.
 
 pub mod channel;
+mod faults;
 pub mod message;
 mod worker;
 

@@ -1,4 +1,5 @@
 use crate::channel::{ChannelError, Link, WorkerId};
+use crate::faults::Faults;
 use crate::message::{Entry, FromWorker, PROTOCOL, ToWorker};
 use roadmill::img::{Outcome, Replica, Setup, Task};
 use roadmill::problem::Problem;
@@ -46,6 +47,9 @@ pub enum WorkerError {
     /// The coordinator does not want this worker.
     #[error("refused: {0}")]
     Refused(String),
+    /// A test asked for faults that there are not.
+    #[error("{0}: `{1}` found, faults expected")]
+    Faults(&'static str, String),
 }
 
 /// Runs a worker until the coordinator is done with it, which it says by ending it.
@@ -58,17 +62,19 @@ pub enum WorkerError {
 pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, WorkerError> {
     tie_to_parent(arguments.coordinator)?;
     beat()?;
+    let faults = Faults::read()?;
     let mut link = Link::open(&arguments.directory, arguments.worker)?;
     // An orphan that its parent's death did not end ends itself here.
     let parent = arguments.coordinator;
     let mut parent_lives = move || is_parent(parent);
-    let mut call = |message: FromWorker| -> Result<ToWorker, WorkerError> {
-        let reply = link.call(&wire::encode(&message), &mut parent_lives)?;
+    let mut call = |message: &[u8]| -> Result<ToWorker, WorkerError> {
+        let reply = link.call(message, &mut parent_lives)?;
         Ok(wire::decode(&reply)?)
     };
 
     let build = build_id().map_err(|error| WorkerError::System("cannot read itself", error))?;
-    let problem = match call(FromWorker::Hello { protocol: PROTOCOL, build })? {
+    let hello = FromWorker::Hello { protocol: PROTOCOL, build };
+    let problem = match call(&wire::encode(&hello))? {
         ToWorker::Problem(problem) => problem,
         ToWorker::Refused(reason) => return Err(WorkerError::Refused(reason)),
         ToWorker::Work { .. } => return Err(WorkerError::Turn("work")),
@@ -76,9 +82,9 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
     let setup = Setup::new(*problem);
     let mut replica = Replica::new(&setup);
     let mut scratch = Scratch::new();
-    let mut message = FromWorker::Ready { canary: canary(&setup) };
+    let mut message = wire::encode(&FromWorker::Ready { canary: canary(&setup) });
     loop {
-        let (entries, job) = match call(message)? {
+        let (entries, job) = match call(&message)? {
             ToWorker::Work { entries, job } => (entries, job),
             ToWorker::Refused(reason) => return Err(WorkerError::Refused(reason)),
             ToWorker::Problem(_) => return Err(WorkerError::Turn("a problem")),
@@ -90,14 +96,17 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
             }
         }
         message = match job {
-            None => FromWorker::More,
-            Some(job) => {
-                let task = replica.task(&setup, job).ok_or(WorkerError::Turn("a job"))?;
-                let outcome = task.run(&setup, &mut scratch);
-                // Free the inputs before the next fold, which would copy a shared roadmap.
-                drop(task);
-                FromWorker::Finished { job, outcome: wire::encode(&outcome) }
-            }
+            None => wire::encode(&FromWorker::More),
+            Some(job) => match faults.instead_of(job, &setup) {
+                Some(rubbish) => rubbish,
+                None => {
+                    let task = replica.task(&setup, job).ok_or(WorkerError::Turn("a job"))?;
+                    let outcome = wire::encode(&task.run(&setup, &mut scratch));
+                    // Free the inputs before the next fold, which would copy a shared roadmap.
+                    drop(task);
+                    wire::encode(&FromWorker::Finished { job, outcome })
+                }
+            },
         };
     }
 }

@@ -25,9 +25,7 @@ fn sizes() -> [usize; 7] {
 }
 
 fn pattern(len: usize, seed: u64) -> Vec<u8> {
-    (0..len as u64)
-        .map(|i| (i.wrapping_mul(31).wrapping_add(seed) >> 3) as u8)
-        .collect()
+    (0..len as u64).map(|i| (i.wrapping_mul(31).wrapping_add(seed) >> 3) as u8).collect()
 }
 
 fn env_path(name: &str) -> PathBuf {
@@ -84,9 +82,7 @@ fn command(role: &str, directory: &Path, worker: u64) -> Command {
 }
 
 fn start(role: &str, directory: &Path, worker: u64) -> Child {
-    command(role, directory, worker)
-        .spawn()
-        .expect("the test can be started again")
+    command(role, directory, worker).spawn().expect("the test can be started again")
 }
 
 fn kill(mut child: Child) {
@@ -95,10 +91,7 @@ fn kill(mut child: Child) {
 }
 
 fn sleep_until_rung(hub: &Hub) {
-    let nap = Timespec {
-        tv_sec: 0,
-        tv_nsec: 20_000_000,
-    };
+    let nap = Timespec { tv_sec: 0, tv_nsec: 20_000_000 };
     let bell = hub.as_fd();
     let _ = poll(&mut [PollFd::new(&bell, PollFlags::IN)], Some(&nap));
 }
@@ -152,9 +145,7 @@ fn shared_memory_of(directory: &Path) -> Vec<PathBuf> {
     let run = run.to_str().expect("the name is text");
     let entries = fs::read_dir("/dev/shm").expect("there is shared memory");
     let paths = entries.flatten().map(|entry| entry.path());
-    paths
-        .filter(|path| path.to_string_lossy().contains(run))
-        .collect()
+    paths.filter(|path| path.to_string_lossy().contains(run)).collect()
 }
 
 fn assert_nothing_left(directory: &Path) {
@@ -180,12 +171,8 @@ fn messages_of_all_sizes_come_back() {
 fn eight_workers_at_a_time() {
     let mut hub = Hub::create(8).expect("the hub opens");
     let directory = hub.directory().to_path_buf();
-    let roles = [
-        "sizes", "sizes", "sizes", "many", "many", "many", "many", "many",
-    ];
-    let mut children: Vec<Child> = (0..8)
-        .map(|i| start(roles[i], &directory, i as u64))
-        .collect();
+    let roles = ["sizes", "sizes", "sizes", "many", "many", "many", "many", "many"];
+    let mut children: Vec<Child> = (0..8).map(|i| start(roles[i], &directory, i as u64)).collect();
     serve(&mut hub, echo, || have_ended(&mut children));
     close(hub);
 }
@@ -236,10 +223,7 @@ fn workers_killed_while_they_join_do_no_harm() {
         assert_eq!(hub.receive().expect("the hub can receive"), None);
         hub.forget(WorkerId(id));
     }
-    let mut children = [
-        start("sizes", hub.directory(), 100),
-        start("many", hub.directory(), 101),
-    ];
+    let mut children = [start("sizes", hub.directory(), 100), start("many", hub.directory(), 101)];
     serve(&mut hub, echo, || have_ended(&mut children));
     close(hub);
 }
@@ -268,10 +252,7 @@ fn a_temporary_folder_too_long_for_sockets_is_not_used() {
     fs::create_dir(&long).expect("the folder can be made");
     let (child, directory) = start_hub(scratch.path(), &long);
     kill(child);
-    assert_eq!(
-        directory.parent().and_then(Path::parent),
-        Some(Path::new("/tmp"))
-    );
+    assert_eq!(directory.parent().and_then(Path::parent), Some(Path::new("/tmp")));
 }
 
 #[test]
@@ -333,9 +314,7 @@ fn with_link<T>(
     let (end, ended) = mpsc::channel::<()>();
     let hub = thread::spawn(move || {
         let mut hub = Hub::create(1).expect("the hub opens");
-        send_directory
-            .send(hub.directory().to_path_buf())
-            .expect("the worker waits for it");
+        send_directory.send(hub.directory().to_path_buf()).expect("the worker waits for it");
         serve(&mut hub);
         let _ = ended.recv();
         close(hub);
@@ -397,10 +376,7 @@ fn a_forgotten_worker_is_refused() {
 fn a_message_over_the_limit_is_refused_before_it_is_sent() {
     let message = vec![0; MESSAGE_BYTES_MAX as usize + 1];
     let result = with_link(|_| {}, |link| link.call(&message, &mut || true));
-    assert!(
-        matches!(result, Err(ChannelError::TooLarge { .. })),
-        "{result:?}"
-    );
+    assert!(matches!(result, Err(ChannelError::TooLarge { .. })), "{result:?}");
 }
 
 #[test]

@@ -28,7 +28,7 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
     // Listened to from here on, so that a signal never leaves half a folder unexplained.
     let signals = Signals::listen().map_err(Failure::system)?;
     let signals = Arc::new(signals);
-    let folder = RunFolder::make(arguments.out.as_deref(), &problem.name, arguments.force)?;
+    let mut folder = RunFolder::make(arguments.out.as_deref(), &problem.name, arguments.force)?;
     let ledger = match LedgerWriter::begin(folder.path(), &problem) {
         Ok(ledger) => ledger,
         Err(failure) => {
@@ -43,10 +43,7 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
             problem.seed,
             folder.path().display()
         );
-        problem
-            .notes
-            .iter()
-            .for_each(|note| eprintln!("{}: {note}", problem.name));
+        problem.notes.iter().for_each(|note| eprintln!("{}: {note}", problem.name));
     }
 
     let setup = Arc::new(Setup::new(problem));
@@ -61,6 +58,7 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
     };
     let (stop, roadmap) = if arguments.threads.is_some() {
         let mut threads = Threads::new(setup.clone(), workers);
+        folder.begun()?;
         let stop = drive(&mut core, &mut threads, &mut watch)?;
         (stop, threads.into_roadmap())
     } else {
@@ -72,6 +70,7 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
                 return Err(Failure::system(error));
             }
         };
+        folder.begun()?;
         let stop = drive(&mut core, &mut pool, &mut watch)?;
         (stop, pool.close().map_err(Failure::system)?)
     };
@@ -90,15 +89,9 @@ fn end(
     let problem = &watch.setup.problem;
     let stopped = Stopped::new(stop, problem);
     watch.ledger.stopped(&stopped)?;
-    let answers = watch
-        .verdicts
-        .iter()
-        .filter_map(|verdict| verdict.answer.as_ref());
+    let answers = watch.verdicts.iter().filter_map(|verdict| verdict.answer.as_ref());
     if let Some(path) = answers.filter_map(|answer| answer.path.as_ref()).next() {
-        write_whole(
-            &folder.file("path.csv"),
-            &path_csv(&watch.setup.cx.space, path),
-        )?;
+        write_whole(&folder.file("path.csv"), &path_csv(&watch.setup.cx.space, path))?;
     }
     let coordinator_cpu_seconds = cpu::own_seconds();
     let times = Times {
@@ -106,14 +99,7 @@ fn end(
         coordinator_cpu_seconds,
         wall_seconds: watch.reporter.seconds(),
     };
-    let summary = Summary::new(
-        problem,
-        folder.path(),
-        roadmap,
-        &watch.verdicts,
-        &stopped,
-        times,
-    );
+    let summary = Summary::new(problem, folder.path(), roadmap, &watch.verdicts, &stopped, times);
     let json = serde_json::to_string_pretty(&summary).map_err(Failure::system)?;
     write_whole(&folder.file("summary.json"), &(json + "\n"))?;
     if arguments.json {
@@ -162,17 +148,12 @@ fn workers(arguments: &BuildArguments) -> Result<usize, Failure> {
         (Some(workers), _) => ("--workers", workers),
         (None, Some(threads)) => ("--threads", threads),
         // Knows the process's affinity and its group's quota.
-        (None, None) => (
-            "",
-            std::thread::available_parallelism().map_or(1, usize::from),
-        ),
+        (None, None) => ("", std::thread::available_parallelism().map_or(1, usize::from)),
     };
     if (1..=WORKERS_MAX).contains(&workers) {
         Ok(workers)
     } else {
-        Err(Failure::usage(format!(
-            "{option}: {workers} found, 1 to {WORKERS_MAX} expected"
-        )))
+        Err(Failure::usage(format!("{option}: {workers} found, 1 to {WORKERS_MAX} expected")))
     }
 }
 
@@ -200,8 +181,7 @@ impl Observer for Watch {
 
     fn tick(&mut self, progress: &Progress, roadmap: &Roadmap, alive: usize) -> Option<Cut> {
         let workers = (alive, self.workers);
-        self.reporter
-            .report(&self.setup.problem, progress, roadmap, workers);
+        self.reporter.report(&self.setup.problem, progress, roadmap, workers);
         let seconds = self.setup.problem.limits.seconds;
         if self.signals.came() {
             Some(Cut::Interrupted)

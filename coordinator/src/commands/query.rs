@@ -12,6 +12,10 @@ use std::io::Write;
 /// Asks a roadmap for a path.
 pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let ledger = Ledger::read(&arguments.run)?;
+    match &ledger.stopped {
+        None => eprintln!("the build has not ended; its complete rounds are searched"),
+        Some(stopped) => eprintln!("the build ended: {}", stopped.reason),
+    }
     let cx = ledger.problem.context();
     let given = ledger.problem.query.as_ref();
     let end = |name: &str, text: &Option<String>, given: Option<&Vec<f64>>| match (text, given) {
@@ -19,20 +23,14 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
             configuration(&cx, text).map_err(|error| Failure::usage(format!("--{name}: {error}")))
         }
         (None, Some(q)) => Ok(q.clone()),
-        (None, None) => Err(Failure::usage(format!(
-            "--{name} expected: the problem has no query"
-        ))),
+        (None, None) => Err(Failure::usage(format!("--{name} expected: the problem has no query"))),
     };
     let start = end("start", &arguments.start, given.map(|query| &query.start))?;
     let goal = end("goal", &arguments.goal, given.map(|query| &query.goal))?;
 
-    let attachment = ledger
-        .problem
-        .evaluators
-        .iter()
-        .find_map(|evaluator| match evaluator {
-            EvaluatorKind::Query(query) => Some(query.attachment()),
-        });
+    let attachment = ledger.problem.evaluators.iter().find_map(|evaluator| match evaluator {
+        EvaluatorKind::Query(query) => Some(query.attachment()),
+    });
     let attachment = attachment.unwrap_or_else(|| Query::default().attachment());
     let ends = (&start[..], &goal[..]);
     let answer = solve(&cx, &ledger.roadmap, ends, &attachment, &mut Scratch::new());
@@ -58,10 +56,6 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
         // Whoever closes the pipe has read enough.
         None => drop(std::io::stdout().write_all(csv.as_bytes())),
     }
-    eprintln!(
-        "path of {} configurations, length {:.6}",
-        path.configs.len(),
-        path.length
-    );
+    eprintln!("path of {} configurations, length {:.6}", path.configs.len(), path.length);
     Ok(Code::Done)
 }

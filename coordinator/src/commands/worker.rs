@@ -17,9 +17,6 @@ pub fn worker(arguments: &WorkerArguments) -> Result<Code, Failure> {
             WorkerError::Orphaned
             | WorkerError::Channel(ChannelError::HubGone | ChannelError::Abandoned),
         ) => Ok(Code::Done),
-        Err(error) => Err(Failure::system(format!(
-            "worker {}: {error}",
-            arguments.worker
-        ))),
+        Err(error) => Err(Failure::system(format!("worker {}: {error}", arguments.worker))),
     }
 }

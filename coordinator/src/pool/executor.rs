@@ -52,13 +52,14 @@ pub struct Pool {
     setup: Arc<Setup>,
     replica: Replica,
     log: Log,
+    /// Dropped before the hub, whose files they use.
+    workers: BTreeMap<WorkerId, Worker>,
     hub: Hub,
     executable: Executable,
     build: Digest,
     canary: Digest,
     problem: Arc<Vec<u8>>,
     wanted: usize,
-    workers: BTreeMap<WorkerId, Worker>,
     next_worker: u64,
     /// Deaths since a job was last finished.
     fruitless_deaths: usize,
@@ -112,31 +113,18 @@ impl Pool {
     ///
     /// # Errors
     /// When a file could not be removed.
-    pub fn close(mut self) -> Result<Roadmap, PoolError> {
-        self.dismiss();
+    pub fn close(self) -> Result<Roadmap, PoolError> {
+        drop(self.workers);
         let roadmap = Arc::unwrap_or_clone(self.replica.roadmap().clone());
         self.hub.close()?;
         Ok(roadmap)
-    }
-
-    fn dismiss(&mut self) {
-        for (_, mut worker) in std::mem::take(&mut self.workers) {
-            worker.process.end();
-        }
     }
 
     fn hire(&mut self) -> std::io::Result<()> {
         let id = WorkerId(self.next_worker);
         self.next_worker += 1;
         let process = WorkerProcess::start(&self.executable, self.hub.directory(), id)?;
-        self.workers.insert(
-            id,
-            Worker {
-                process,
-                state: State::Starting,
-                place: 0,
-            },
-        );
+        self.workers.insert(id, Worker { process, state: State::Starting, place: 0 });
         Ok(())
     }
 
@@ -159,9 +147,7 @@ impl Pool {
             ));
         } else if let Err(error) = self.hire() {
             if self.workers.is_empty() {
-                self.fail(format!(
-                    "no worker is left and none can be started: {error}"
-                ));
+                self.fail(format!("no worker is left and none can be started: {error}"));
             }
         }
     }
@@ -250,25 +236,20 @@ impl Pool {
                 worker.state = State::Idle;
             }
             (State::CatchingUp, FromWorker::More) => worker.state = State::Idle,
-            (
-                State::Busy(job),
-                FromWorker::Finished {
-                    job: finished,
-                    outcome,
-                },
-            ) if job == finished => match wire::decode::<Outcome>(&outcome) {
-                Ok(decoded) => {
-                    worker.state = State::Idle;
-                    self.fruitless_deaths = 0;
-                    let digest = Digest::of(&outcome);
-                    let finished = Finished {
-                        outcome: decoded,
-                        digest,
-                    };
-                    self.events.push_back(Event::Done(job, finished));
+            (State::Busy(job), FromWorker::Finished { job: finished, outcome })
+                if job == finished =>
+            {
+                match wire::decode::<Outcome>(&outcome) {
+                    Ok(decoded) => {
+                        worker.state = State::Idle;
+                        self.fruitless_deaths = 0;
+                        let digest = Digest::of(&outcome);
+                        let finished = Finished { outcome: decoded, digest };
+                        self.events.push_back(Event::Done(job, finished));
+                    }
+                    Err(error) => self.replace(id, &error.to_string()),
                 }
-                Err(error) => self.replace(id, &error.to_string()),
-            },
+            }
             _ => self.replace(id, "a message out of turn"),
         }
     }
@@ -280,19 +261,13 @@ impl Pool {
 
     /// Sleeps until a worker says or becomes something, a signal comes or the time is over.
     fn sleep(&mut self, wait: Duration) {
-        let wait = Timespec {
-            tv_sec: wait.as_secs() as i64,
-            tv_nsec: wait.subsec_nanos().into(),
-        };
+        let wait = Timespec { tv_sec: wait.as_secs() as i64, tv_nsec: wait.subsec_nanos().into() };
         let hub = self.hub.as_fd();
         let signals = self.signals.as_fd();
         let mut fds = vec![PollFd::from_borrowed_fd(hub, PollFlags::IN)];
         fds.push(PollFd::from_borrowed_fd(signals, PollFlags::IN));
         for worker in self.workers.values() {
-            fds.push(PollFd::from_borrowed_fd(
-                worker.process.as_fd(),
-                PollFlags::IN,
-            ));
+            fds.push(PollFd::from_borrowed_fd(worker.process.as_fd(), PollFlags::IN));
         }
         // An interrupted sleep is a short one.
         let _ = poll(&mut fds, Some(&wait));
@@ -354,8 +329,7 @@ impl Executor for Pool {
         self.replica.roadmap()
     }
 
-    fn into_roadmap(mut self) -> Roadmap {
-        self.dismiss();
+    fn into_roadmap(self) -> Roadmap {
         Arc::unwrap_or_clone(self.replica.roadmap().clone())
     }
 }

@@ -16,17 +16,12 @@ pub struct Log {
 impl Log {
     /// Appends an increment.
     pub fn publish(&mut self, increment: &Increment) {
-        self.entries
-            .push(wire::encode(&Entry::Increment(increment.clone())));
+        self.entries.push(wire::encode(&Entry::Increment(increment.clone())));
     }
 
     /// Appends the end of a round.
     pub fn fold(&mut self, round: &Round) {
-        let joins = round
-            .sets
-            .iter()
-            .map(|set| set.joined.edges.clone())
-            .collect();
+        let joins = round.sets.iter().map(|set| set.joined.edges.clone()).collect();
         self.entries.push(wire::encode(&Entry::Fold(joins)));
     }
 
@@ -38,11 +33,7 @@ impl Log {
             bytes += entry.len();
             bytes <= PART_BYTES_MAX || bytes == entry.len()
         };
-        let part: Vec<_> = self.entries[place..]
-            .iter()
-            .take_while(fits)
-            .cloned()
-            .collect();
+        let part: Vec<_> = self.entries[place..].iter().take_while(fits).cloned().collect();
         let next = place + part.len();
         (part, next)
     }
@@ -60,9 +51,7 @@ mod tests {
     #[test]
     fn parts_are_whole_entries_and_together_the_log() {
         let sizes = [1, PART_BYTES_MAX - 1, 1, PART_BYTES_MAX + 5, 7, 9];
-        let log = Log {
-            entries: sizes.iter().map(|size| vec![0; *size]).collect(),
-        };
+        let log = Log { entries: sizes.iter().map(|size| vec![0; *size]).collect() };
         let (mut place, mut parts) = (0, Vec::new());
         while place < log.end() {
             let (part, next) = log.part(place);

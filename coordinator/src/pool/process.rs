@@ -1,6 +1,5 @@
 use roadmill_workers::channel::WorkerId;
 use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
-use rustix::process::{Pid, Signal, kill_process};
 use std::fs::File;
 use std::io::Read;
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd};
@@ -61,12 +60,7 @@ impl WorkerProcess {
             .spawn()?;
         let heart = child.stdout.take().ok_or(std::io::ErrorKind::BrokenPipe)?;
         fcntl_setfl(&heart, fcntl_getfl(&heart)? | OFlags::NONBLOCK)?;
-        Ok(WorkerProcess {
-            child,
-            heart,
-            last_beat: Instant::now(),
-            gone: false,
-        })
+        Ok(WorkerProcess { child, heart, last_beat: Instant::now(), gone: false })
     }
 
     /// Readable when the heart has beaten or the process has ended.
@@ -98,11 +92,14 @@ impl WorkerProcess {
 
     /// Ends the process, if it has not ended, and waits for it.
     pub fn end(&mut self) -> Option<ExitStatus> {
-        // A stopped process ends by SIGKILL too.
-        if let Some(pid) = Pid::from_raw(self.child.id().cast_signed()) {
-            // It may have ended by itself; until it is waited for its id is not used again.
-            let _ = kill_process(pid, Signal::KILL);
-        }
+        // By SIGKILL, which ends a stopped process too; one that has ended cannot be ended.
+        let _ = self.child.kill();
         self.child.wait().ok()
+    }
+}
+
+impl Drop for WorkerProcess {
+    fn drop(&mut self) {
+        self.end();
     }
 }

@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct RunFolder {
     path: PathBuf,
+    /// Where the run that is being replaced waits until the new one has begun.
+    replaced: Option<PathBuf>,
 }
 
 /// The file that makes a folder a run folder.
@@ -24,12 +26,10 @@ impl RunFolder {
             Some(path) => path.to_owned(),
             None => return Self::make_numbered(name),
         };
-        if force {
-            remove_run(&path)?;
-        }
+        let replaced = if force { set_run_aside(&path)? } else { None };
         make_parents(&path)?;
         match DirBuilder::new().mode(0o700).create(&path) {
-            Ok(()) => Ok(RunFolder { path }),
+            Ok(()) => Ok(RunFolder { path, replaced }),
             Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Failure::usage(format!(
                 "{}: exists already; a new folder expected, or --force to replace a run",
                 path.display()
@@ -47,7 +47,7 @@ impl RunFolder {
             };
             make_parents(&path)?;
             match DirBuilder::new().mode(0o700).create(&path) {
-                Ok(()) => return Ok(RunFolder { path }),
+                Ok(()) => return Ok(RunFolder { path, replaced: None }),
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => number += 1,
                 Err(error) => return Err(cannot_make(&path, &error)),
             }
@@ -64,10 +64,26 @@ impl RunFolder {
         self.path.join(name)
     }
 
-    /// Removes the folder again: the build could not begin.
+    /// The build has begun: what it replaces is removed.
+    ///
+    /// # Errors
+    /// Exit code 1: it cannot be removed.
+    pub fn begun(&mut self) -> Result<(), Failure> {
+        match self.replaced.take() {
+            None => Ok(()),
+            Some(old) => fs::remove_dir_all(&old).map_err(|error| {
+                Failure::system(format!("{}: cannot remove it: {error}", old.display()))
+            }),
+        }
+    }
+
+    /// The build could not begin: all is as it was before.
     pub fn discard(self) {
-        // What cannot be removed is no worse than the failure that led here.
+        // What cannot be put right is no worse than the failure that led here.
         let _ = fs::remove_dir_all(&self.path);
+        if let Some(old) = &self.replaced {
+            let _ = fs::rename(old, &self.path);
+        }
     }
 }
 
@@ -79,22 +95,16 @@ fn make_parents(path: &Path) -> Result<(), Failure> {
 }
 
 fn cannot_make(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::usage(format!(
-        "{}: cannot make the run folder: {error}",
-        path.display()
-    ))
+    Failure::usage(format!("{}: cannot make the run folder: {error}", path.display()))
 }
 
-/// Removes a run, and refuses anything else.
-fn remove_run(path: &Path) -> Result<(), Failure> {
+/// Renames a run, if there is one, to a name beside it; refuses anything else.
+fn set_run_aside(path: &Path) -> Result<Option<PathBuf>, Failure> {
     let refuse = |what: &str| {
-        Err(Failure::usage(format!(
-            "{}: {what}; --force replaces runs only",
-            path.display()
-        )))
+        Err(Failure::usage(format!("{}: {what}; --force replaces runs only", path.display())))
     };
     match fs::symlink_metadata(path) {
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return refuse(&error.to_string()),
         Ok(metadata) if !metadata.is_dir() => return refuse("not a folder"),
         Ok(_) => {}
@@ -102,6 +112,10 @@ fn remove_run(path: &Path) -> Result<(), Failure> {
     if !path.join(LEDGER).is_file() {
         return refuse("holds no ledger");
     }
-    fs::remove_dir_all(path)
-        .map_err(|error| Failure::usage(format!("{}: cannot remove it: {error}", path.display())))
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".replaced-{}", std::process::id()));
+    let aside = path.with_file_name(name);
+    fs::rename(path, &aside)
+        .map_err(|error| Failure::usage(format!("{}: cannot move it: {error}", path.display())))?;
+    Ok(Some(aside))
 }

@@ -60,34 +60,24 @@ pub struct EvaluatorValue {
 impl EvaluatorValue {
     /// The values of the problem's evaluators; none before the first judgement.
     pub fn all(problem: &Problem, verdicts: &[Verdict]) -> Vec<EvaluatorValue> {
-        let values = problem
-            .evaluators
-            .iter()
-            .zip(verdicts)
-            .map(|(evaluator, verdict)| {
-                let answer = verdict.answer.as_ref();
-                EvaluatorValue {
-                    name: evaluator.method().name(),
-                    value: verdict.value,
-                    threshold: verdict.threshold,
-                    satisfied: verdict.satisfied,
-                    dropped_edges: answer.map(|answer| answer.dropped_edges),
-                    path_length: answer
-                        .and_then(|answer| answer.path.as_ref())
-                        .map(|path| path.length),
-                }
-            });
+        let values = problem.evaluators.iter().zip(verdicts).map(|(evaluator, verdict)| {
+            let answer = verdict.answer.as_ref();
+            EvaluatorValue {
+                name: evaluator.method().name(),
+                value: verdict.value,
+                threshold: verdict.threshold,
+                satisfied: verdict.satisfied,
+                dropped_edges: answer.map(|answer| answer.dropped_edges),
+                path_length: answer.and_then(|answer| answer.path.as_ref()).map(|path| path.length),
+            }
+        });
         values.collect()
     }
 }
 
 impl fmt::Display for EvaluatorValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} {:.3} of {:.3}",
-            self.name, self.value, self.threshold
-        )?;
+        write!(f, "{} {:.3} of {:.3}", self.name, self.value, self.threshold)?;
         if let Some(length) = self.path_length {
             write!(f, ", path of length {length:.3}")?;
         }

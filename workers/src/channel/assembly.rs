@@ -13,11 +13,7 @@ pub(super) struct Assembly {
 impl Assembly {
     /// An empty message, as announced by the header of its first chunk.
     pub fn new(first: &Header) -> Assembly {
-        Assembly {
-            sequence: first.sequence,
-            total_bytes: first.total_bytes,
-            bytes: Vec::new(),
-        }
+        Assembly { sequence: first.sequence, total_bytes: first.total_bytes, bytes: Vec::new() }
     }
 
     /// Bytes that have come so far.
@@ -47,9 +43,7 @@ impl Assembly {
             return Err(Fault::Bounds);
         }
         let before = self.bytes.len();
-        self.bytes
-            .try_reserve(chunk.len())
-            .map_err(|_| Fault::Memory)?;
+        self.bytes.try_reserve(chunk.len()).map_err(|_| Fault::Memory)?;
         self.bytes.extend_from_slice(chunk);
         // the other process could still write into the chunk: only the copy can be trusted
         verify(words, &self.bytes[before..]).inspect_err(|_| self.bytes.truncate(before))
@@ -73,9 +67,7 @@ mod tests {
                 let (header, chunk) =
                     Header::data(WorkerId(3), 1, &message, assembly.len() as usize);
                 let words = header.encode(chunk);
-                assembly
-                    .push(&header, &words, chunk)
-                    .expect("the chunk is right");
+                assembly.push(&header, &words, chunk).expect("the chunk is right");
                 if assembly.is_complete() {
                     break;
                 }
@@ -91,9 +83,7 @@ mod tests {
         header.total_bytes = super::super::MESSAGE_BYTES_MAX;
         let words = header.encode(chunk);
         let mut assembly = Assembly::new(&header);
-        assembly
-            .push(&header, &words, chunk)
-            .expect("the chunk is right");
+        assembly.push(&header, &words, chunk).expect("the chunk is right");
         assert!(assembly.bytes.capacity() <= 2 * CHUNK_BYTES);
     }
 

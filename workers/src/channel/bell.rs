@@ -84,10 +84,8 @@ impl Bell {
 
     /// Sleeps until rung, but no longer than `timeout`; may wake early. Takes the rings.
     pub fn wait(&self, timeout: Duration) -> io::Result<()> {
-        let timeout = Timespec {
-            tv_sec: timeout.as_secs() as i64,
-            tv_nsec: timeout.subsec_nanos().into(),
-        };
+        let timeout =
+            Timespec { tv_sec: timeout.as_secs() as i64, tv_nsec: timeout.subsec_nanos().into() };
         let mut sockets = [PollFd::new(&self.socket, PollFlags::IN)];
         match poll(&mut sockets, Some(&timeout)) {
             Ok(_) | Err(rustix::io::Errno::INTR) => {

@@ -87,20 +87,13 @@ impl ChannelError {
         path: impl Into<PathBuf>,
     ) -> impl FnOnce(io::Error) -> ChannelError {
         let path = path.into();
-        move |source| ChannelError::Io {
-            action,
-            path,
-            source,
-        }
+        move |source| ChannelError::Io { action, path, source }
     }
 
     /// Puts the attempt beside the library's failure, whose only text is its name.
     pub(super) fn shared<E: std::fmt::Debug>(
         action: &'static str,
     ) -> impl FnOnce(E) -> ChannelError {
-        move |error| ChannelError::SharedMemory {
-            action,
-            detail: format!("{error:?}"),
-        }
+        move |error| ChannelError::SharedMemory { action, detail: format!("{error:?}") }
     }
 }

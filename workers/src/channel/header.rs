@@ -102,14 +102,7 @@ impl Header {
         total_bytes: u64,
         offset: u64,
     ) -> Header {
-        Header {
-            kind,
-            worker,
-            sequence,
-            total_bytes,
-            offset,
-            chunk_bytes: 0,
-        }
+        Header { kind, worker, sequence, total_bytes, offset, chunk_bytes: 0 }
     }
 
     /// The words of this header before `chunk`.
@@ -149,11 +142,7 @@ impl Header {
             offset: words[4],
             chunk_bytes: words[5],
         };
-        if header.is_bounded() {
-            Ok(header)
-        } else {
-            Err(Fault::Bounds)
-        }
+        if header.is_bounded() { Ok(header) } else { Err(Fault::Bounds) }
     }
 
     /// Every chunk of a message but the last is full, and only an empty message has an empty one.
@@ -176,11 +165,7 @@ impl Header {
 
 /// Checks the bytes of a chunk, and the fields before them, against the checksum in `words`.
 pub(super) fn verify(words: &Words, chunk: &[u8]) -> Result<(), Fault> {
-    if words[FIELD_WORDS..] == checksum(words, chunk) {
-        Ok(())
-    } else {
-        Err(Fault::Checksum)
-    }
+    if words[FIELD_WORDS..] == checksum(words, chunk) { Ok(()) } else { Err(Fault::Checksum) }
 }
 
 fn checksum(words: &Words, chunk: &[u8]) -> [u64; HEADER_WORDS - FIELD_WORDS] {
@@ -190,10 +175,7 @@ fn checksum(words: &Words, chunk: &[u8]) -> [u64; HEADER_WORDS - FIELD_WORDS] {
     }
     hasher.update(chunk);
     let mut sum = [0; HEADER_WORDS - FIELD_WORDS];
-    for (word, bytes) in sum
-        .iter_mut()
-        .zip(hasher.finalize().as_bytes().as_chunks().0)
-    {
+    for (word, bytes) in sum.iter_mut().zip(hasher.finalize().as_bytes().as_chunks().0) {
         *word = u64::from_le_bytes(*bytes);
     }
     sum

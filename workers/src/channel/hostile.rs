@@ -29,18 +29,11 @@ impl Raw {
     fn open(hub: &Hub, worker: WorkerId) -> Raw {
         let node = open_node(hub.directory()).expect("the node opens");
         let (service, port) = open_service(&node, worker).expect("the port opens");
-        Raw {
-            port,
-            _service: service,
-            _node: node,
-        }
+        Raw { port, _service: service, _node: node }
     }
 
     fn send(&self, words: Words, chunk: &[u8]) -> Pending {
-        let mut request = self
-            .port
-            .loan_slice_uninit(chunk.len())
-            .expect("there are chunks");
+        let mut request = self.port.loan_slice_uninit(chunk.len()).expect("there are chunks");
         *request.user_header_mut() = words;
         let request = request.write_from_slice(chunk);
         request.send().expect("the hub is there")
@@ -57,10 +50,7 @@ fn receive(hub: &mut Hub) -> Option<Received> {
 }
 
 fn broken(reason: Fault) -> Option<Received> {
-    Some(Received::Broken {
-        worker: HOSTILE,
-        reason,
-    })
+    Some(Received::Broken { worker: HOSTILE, reason })
 }
 
 /// What the hub says to one chunk of a fresh hostile worker.
@@ -84,23 +74,14 @@ fn each_kind_of_nonsense_is_named() {
     let (good, chunk) = Header::data(HOSTILE, 1, &message, 0);
     let mut flipped = good.encode(chunk);
     flipped[9] ^= 1;
-    let other_worker = Header {
-        worker: WorkerId(1),
-        ..good
-    };
-    let second = Header {
-        sequence: 2,
-        ..good
-    };
+    let other_worker = Header { worker: WorkerId(1), ..good };
+    let second = Header { sequence: 2, ..good };
     let go_on = Header::go_on(Kind::Continue, HOSTILE, 1, 9, 4).encode(&[]);
     let ack = Header::go_on(Kind::Ack, HOSTILE, 1, 9, 4).encode(&[]);
     assert_eq!(said_to([0; 10], &[]), broken(Fault::Magic));
     assert_eq!(said_to(flipped, chunk), broken(Fault::Checksum));
     assert_eq!(said_to(good.encode(chunk), &[1]), broken(Fault::Bounds));
-    assert_eq!(
-        said_to(other_worker.encode(chunk), chunk),
-        broken(Fault::Worker)
-    );
+    assert_eq!(said_to(other_worker.encode(chunk), chunk), broken(Fault::Worker));
     assert_eq!(said_to(second.encode(chunk), chunk), broken(Fault::Turn));
     assert_eq!(said_to(go_on, &[]), broken(Fault::Turn));
     assert_eq!(said_to(ack, &[]), broken(Fault::Turn));
@@ -119,10 +100,7 @@ fn a_second_message_before_the_reply_breaks_only_its_sender() {
     let pending = honest.send_message(WorkerId(1), 1, &[3]);
     assert_eq!(
         receive(&mut hub),
-        Some(Received::Message {
-            worker: WorkerId(1),
-            message: vec![3]
-        })
+        Some(Received::Message { worker: WorkerId(1), message: vec![3] })
     );
     let _ = hub.reply(WorkerId(1), vec![4]).expect("the hub can reply");
     let answer = pending.receive().expect("the port works");

@@ -212,15 +212,7 @@ impl Hub {
     ///
     /// [`ChannelError::Io`] if something could not be removed; the next hub tries again.
     pub fn close(self) -> Result<(), ChannelError> {
-        let Hub {
-            peers,
-            port,
-            service,
-            node,
-            bell,
-            folder,
-            ..
-        } = self;
+        let Hub { peers, port, service, node, bell, folder, .. } = self;
         drop((peers, port, service, node, bell));
         folder.remove()
     }
@@ -270,10 +262,7 @@ impl Hub {
         if self.ignored.contains(&worker) {
             return None;
         }
-        let peer = self
-            .peers
-            .entry(worker)
-            .or_insert_with(|| Peer::new(worker));
+        let peer = self.peers.entry(worker).or_insert_with(|| Peer::new(worker));
         match peer.take(question) {
             Ok(Step::Answered) => {
                 self.wake(worker);
@@ -314,10 +303,7 @@ impl Received {
 pub(super) fn check_length(bytes: usize) -> Result<(), ChannelError> {
     let bytes = bytes as u64;
     if bytes > MESSAGE_BYTES_MAX {
-        return Err(ChannelError::TooLarge {
-            bytes,
-            bytes_max: MESSAGE_BYTES_MAX,
-        });
+        return Err(ChannelError::TooLarge { bytes, bytes_max: MESSAGE_BYTES_MAX });
     }
     Ok(())
 }

@@ -116,9 +116,7 @@ impl Link {
         let mut header = self.read(&words, Kind::Data)?;
         let mut assembly = Assembly::new(&header);
         loop {
-            assembly
-                .push(&header, &words, answer.payload())
-                .map_err(ChannelError::BrokenReply)?;
+            assembly.push(&header, &words, answer.payload()).map_err(ChannelError::BrokenReply)?;
             if assembly.is_complete() {
                 return Ok(assembly.into_bytes());
             }
@@ -163,9 +161,8 @@ impl Link {
             }
             // asked before the answer is looked for, which may come in between
             let is_connected = pending.is_connected();
-            let answer = pending
-                .receive()
-                .map_err(ChannelError::shared("could not receive a chunk"))?;
+            let answer =
+                pending.receive().map_err(ChannelError::shared("could not receive a chunk"))?;
             match answer {
                 Some(answer) => return Ok(answer),
                 None if rung == Rung::Gone => return Err(ChannelError::HubGone),
@@ -175,9 +172,7 @@ impl Link {
             if !keep_waiting() {
                 return Err(ChannelError::Abandoned);
             }
-            self.bell
-                .wait(NAP)
-                .map_err(ChannelError::io("could not wait at", &self.hub_socket))?;
+            self.bell.wait(NAP).map_err(ChannelError::io("could not wait at", &self.hub_socket))?;
         }
     }
 

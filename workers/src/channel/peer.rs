@@ -37,11 +37,7 @@ pub(super) enum Step {
 impl Peer {
     /// A worker that has not said anything.
     pub fn new(worker: WorkerId) -> Peer {
-        Peer {
-            worker,
-            sequence: 0,
-            stage: Stage::Idle,
-        }
+        Peer { worker, sequence: 0, stage: Stage::Idle }
     }
 
     /// Takes a chunk from this worker. After a fault the peer is not to be used any more.
@@ -140,12 +136,7 @@ impl Peer {
 }
 
 fn answer(question: &Question, header: &Header, chunk: &[u8]) -> Result<(), Fault> {
-    let mut response = question
-        .loan_slice_uninit(chunk.len())
-        .map_err(|_| Fault::Undeliverable)?;
+    let mut response = question.loan_slice_uninit(chunk.len()).map_err(|_| Fault::Undeliverable)?;
     *response.user_header_mut() = header.encode(chunk);
-    response
-        .write_from_slice(chunk)
-        .send()
-        .map_err(|_| Fault::Undeliverable)
+    response.write_from_slice(chunk).send().map_err(|_| Fault::Undeliverable)
 }

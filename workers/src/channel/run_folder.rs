@@ -39,10 +39,7 @@ impl RunFolder {
         reap(&parent);
         let path = parent.path().join(new_run_name());
         let io = |action| ChannelError::io(action, &path);
-        DirBuilder::new()
-            .mode(0o700)
-            .create(&path)
-            .map_err(io("could not create"))?;
+        DirBuilder::new().mode(0o700).create(&path).map_err(io("could not create"))?;
         let create = |name| {
             File::options()
                 .write(true)
@@ -56,11 +53,7 @@ impl RunFolder {
         let owner = try_lock(&path.join(OWNER), FlockOperation::NonBlockingLockExclusive)
             .map_err(io("could not lock"))?
             .ok_or_else(|| ChannelError::Busy { path: path.clone() })?;
-        Ok(RunFolder {
-            path,
-            _owner: owner,
-            is_removed: false,
-        })
+        Ok(RunFolder { path, _owner: owner, is_removed: false })
     }
 
     /// Where the folder is.
@@ -141,16 +134,11 @@ fn parent_path() -> Result<PathBuf, ChannelError> {
 /// The process id, for people, and digits that no other run has.
 fn new_run_name() -> String {
     let process = std::process::id();
-    let now = SystemTime::now()
-        .duration_since(SystemTime::UNIX_EPOCH)
-        .unwrap_or_default();
+    let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
     // keyed by the system's randomness: other containers may share the memory file system and
     // have the same process ids
     let unique = RandomState::new().hash_one((process, now));
-    format!(
-        "{process}-{:0UNIQUE_DIGITS$x}",
-        unique >> (64 - 4 * UNIQUE_DIGITS)
-    )
+    format!("{process}-{:0UNIQUE_DIGITS$x}", unique >> (64 - 4 * UNIQUE_DIGITS))
 }
 
 fn is_run_name(name: &str) -> bool {
@@ -210,15 +198,7 @@ mod tests {
         assert!(names.iter().all(|name| is_run_name(name)));
         assert!(names.iter().all(|name| name.len() <= RUN_NAME_BYTES_MAX));
         assert_ne!(names[0], names[1]);
-        for other in [
-            "",
-            "-",
-            "12-",
-            "12-abc",
-            "x-0123456789ab",
-            "12-0123456789ag",
-            "..",
-        ] {
+        for other in ["", "-", "12-", "12-abc", "x-0123456789ab", "12-0123456789ag", ".."] {
             assert!(!is_run_name(other), "{other}");
         }
     }

@@ -41,10 +41,7 @@ impl LockedParent {
         let deadline = Instant::now() + PATIENCE;
         loop {
             if let Some(directory) = LockedParent::try_lock(path)? {
-                return Ok(LockedParent {
-                    path: path.to_path_buf(),
-                    _directory: directory,
-                });
+                return Ok(LockedParent { path: path.to_path_buf(), _directory: directory });
             }
             if Instant::now() > deadline {
                 return Err(ChannelError::Busy { path: path.into() });
@@ -73,9 +70,7 @@ impl LockedParent {
             }
             Err(error) => return Err(ChannelError::io("could not open", path)(error.into())),
         };
-        let opened = directory
-            .metadata()
-            .map_err(ChannelError::io("could not inspect", path))?;
+        let opened = directory.metadata().map_err(ChannelError::io("could not inspect", path))?;
         let fault = if opened.uid() != rustix::process::geteuid().as_raw() {
             Some("it belongs to another user")
         } else if opened.mode() & 0o077 != 0 {
@@ -84,10 +79,7 @@ impl LockedParent {
             None
         };
         if let Some(reason) = fault {
-            return Err(ChannelError::Unsafe {
-                path: path.into(),
-                reason,
-            });
+            return Err(ChannelError::Unsafe { path: path.into(), reason });
         }
         match flock(&directory, FlockOperation::NonBlockingLockExclusive) {
             Ok(()) => {}

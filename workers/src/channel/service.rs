@@ -53,10 +53,8 @@ fn clients_max(workers_max: usize) -> usize {
 pub(super) fn open_node(folder: &Path) -> Result<RunNode, ChannelError> {
     // the library tells about things it then copes with; failures come back as errors anyway
     set_log_level(LogLevel::Fatal);
-    let unusable = || ChannelError::Unsafe {
-        path: folder.into(),
-        reason: "it is not the folder of a run",
-    };
+    let unusable =
+        || ChannelError::Unsafe { path: folder.into(), reason: "it is not the folder of a run" };
     let prefix = shared_memory_prefix(folder).ok_or_else(unusable)?;
     let root = iceoryx2::prelude::Path::new(folder.as_os_str().as_bytes());
     let mut config = Config::default();
@@ -66,10 +64,7 @@ pub(super) fn open_node(folder: &Path) -> Result<RunNode, ChannelError> {
     config.global.node.cleanup_dead_nodes_on_creation = false;
     config.global.node.cleanup_dead_nodes_on_destruction = false;
     config.global.service.cleanup_dead_nodes_on_open = false;
-    config
-        .defaults
-        .request_response
-        .server_expired_connection_buffer = EXPIRED_CONNECTIONS_MAX;
+    config.defaults.request_response.server_expired_connection_buffer = EXPIRED_CONNECTIONS_MAX;
     NodeBuilder::new()
         .config(&config)
         .signal_handling_mode(SignalHandlingMode::Disabled)
@@ -115,9 +110,8 @@ pub(super) fn open_service(
     node: &RunNode,
     worker: WorkerId,
 ) -> Result<(RunService, WorkerPort), ChannelError> {
-    let service = builder(node)?
-        .open()
-        .map_err(ChannelError::shared("could not open the service"))?;
+    let service =
+        builder(node)?.open().map_err(ChannelError::shared("could not open the service"))?;
     let name = PortName::new(&worker.to_string())
         .map_err(ChannelError::shared("could not name the worker's port"))?;
     let port = service

@@ -1,0 +1,139 @@
+//! Boxes that touch are drawn as one: what lies against another box is not seen.
+
+use super::solid::{Edge, Solid};
+use super::view::dot;
+
+/// Of more boxes each is drawn whole.
+const BOXES_MAX: usize = 300;
+/// Pieces into which an edge is cut; each is drawn or not.
+const PIECES: usize = 32;
+
+/// A box as its six faces: outward normals and their offsets.
+type Planes = [([f64; 3], f64)];
+
+/// Takes from boxes the parts of their faces and edges that lie inside or against another box.
+/// Solids of other kinds stay as they are.
+pub(super) fn join(solids: &mut [Solid]) {
+    let boxes: Vec<usize> = (0..solids.len()).filter(|i| solids[*i].is_box).collect();
+    if boxes.len() < 2 || boxes.len() > BOXES_MAX {
+        return;
+    }
+    let all: Vec<Vec<([f64; 3], f64)>> =
+        boxes.iter().map(|index| solids[*index].planes.clone()).collect();
+    for (own, index) in boxes.iter().enumerate() {
+        let solid = &mut solids[*index];
+        let size = solid.extent();
+        let beside = 1e-6 * size;
+        let near: Vec<&Vec<_>> = all
+            .iter()
+            .enumerate()
+            .filter(|(other, planes)| *other != own && meets(solid, planes, beside))
+            .map(|(_, planes)| planes)
+            .collect();
+        if near.is_empty() {
+            continue;
+        }
+        for patch in &mut solid.patches {
+            for planes in &near {
+                let polygons = std::mem::take(&mut patch.polygons);
+                for polygon in polygons {
+                    subtract(
+                        polygon,
+                        patch.normal.map(|v| v * beside),
+                        planes,
+                        &mut patch.polygons,
+                    );
+                }
+            }
+        }
+        solid.patches.retain(|patch| !patch.polygons.is_empty());
+        let planes = &all[own];
+        let occupied = |p: [f64; 3]| holds(planes, p) || near.iter().any(|planes| holds(planes, p));
+        let edges = std::mem::take(&mut solid.edges);
+        solid.edges = edges.iter().flat_map(|edge| bare(edge, 2.0 * beside, occupied)).collect();
+    }
+}
+
+/// Whether no face of the box separates the solid from it, with a margin.
+fn meets(solid: &Solid, planes: &Planes, margin: f64) -> bool {
+    planes.iter().all(|(normal, offset)| {
+        solid.points.iter().any(|point| dot(*normal, *point) <= offset + margin)
+    })
+}
+
+fn holds(planes: &Planes, point: [f64; 3]) -> bool {
+    planes.iter().all(|(normal, offset)| dot(*normal, point) <= *offset)
+}
+
+/// The parts of a convex polygon that, moved by `outward`, lie outside the box.
+fn subtract(
+    polygon: Vec<[f64; 3]>,
+    outward: [f64; 3],
+    planes: &Planes,
+    out: &mut Vec<Vec<[f64; 3]>>,
+) {
+    let mut left = polygon;
+    let mut outside = Vec::new();
+    for (normal, offset) in planes {
+        let beyond = |p: &[f64; 3]| dot(*normal, *p) + dot(*normal, outward) - offset;
+        let cut = |sign: f64| {
+            let mut part = Vec::new();
+            for (i, p) in left.iter().enumerate() {
+                let next = left[(i + 1) % left.len()];
+                let (here, there) = (sign * beyond(p), sign * beyond(&next));
+                if here >= 0.0 {
+                    part.push(*p);
+                }
+                if here * there < 0.0 {
+                    let t = here / (here - there);
+                    part.push([0, 1, 2].map(|axis| p[axis] + (next[axis] - p[axis]) * t));
+                }
+            }
+            part
+        };
+        let (far, near) = (cut(1.0), cut(-1.0));
+        if far.len() >= 3 && near.len() < 3 {
+            // All of what is left is outside: cutting it up further would only leave seams.
+            outside.push(left);
+            out.append(&mut outside);
+            return;
+        }
+        if far.len() >= 3 {
+            outside.push(far);
+        }
+        left = near;
+        if left.len() < 3 {
+            break;
+        }
+    }
+    out.append(&mut outside);
+}
+
+/// The stretches of an edge along which the surface bends: of the four places around it one,
+/// three or two across from one another are occupied.
+fn bare(edge: &Edge, beside: f64, occupied: impl Fn([f64; 3]) -> bool) -> Vec<Edge> {
+    let Some([u, v]) = edge.normals else { return vec![*edge] };
+    let [from, to] = edge.ends;
+    let on = |t: f64| [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * t);
+    let mut stretches: Vec<Edge> = Vec::new();
+    let mut open = false;
+    for piece in 0..PIECES {
+        let middle = on((piece as f64 + 0.5) / PIECES as f64);
+        let around = |su: f64, sv: f64| {
+            occupied([0, 1, 2].map(|i| middle[i] + beside * (su * u[i] + sv * v[i])))
+        };
+        let places = [around(-1.0, -1.0), around(1.0, -1.0), around(1.0, 1.0), around(-1.0, 1.0)];
+        let count = places.iter().filter(|place| **place).count();
+        let bends = count % 2 == 1 || count == 2 && places[0] == places[2];
+        if bends {
+            let (start, end) =
+                (on(piece as f64 / PIECES as f64), on((piece + 1) as f64 / PIECES as f64));
+            match stretches.last_mut() {
+                Some(last) if open => last.ends[1] = end,
+                _ => stretches.push(Edge { ends: [start, end], normals: edge.normals }),
+            }
+        }
+        open = bends;
+    }
+    stretches
+}
