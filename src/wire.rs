@@ -32,10 +32,10 @@ pub fn decode<T: Decode<()>>(bytes: &[u8]) -> Result<T, WireError> {
     // bincode's limit is a constant of the type, so the input's length picks one of a few. A value
     // takes at most four times its bytes in memory (padding).
     match bytes.len() {
-        0..=0x4_0000 => decode_within::<T, { 1 << 20 }>(bytes),
-        0..=0x40_0000 => decode_within::<T, { 1 << 24 }>(bytes),
-        0..=0x400_0000 => decode_within::<T, { 1 << 28 }>(bytes),
-        0..=0x4000_0000 => decode_within::<T, { 1 << 32 }>(bytes),
+        length if length <= 1 << 18 => decode_within::<T, { 1 << 20 }>(bytes),
+        length if length <= 1 << 22 => decode_within::<T, { 1 << 24 }>(bytes),
+        length if length <= 1 << 26 => decode_within::<T, { 1 << 28 }>(bytes),
+        length if length <= 1 << 30 => decode_within::<T, { 1 << 32 }>(bytes),
         length => Err(WireError(format!("{length} bytes, at most 1 GiB expected"))),
     }
 }

@@ -16,7 +16,7 @@ pub use query::Query;
 
 use crate::context::Context;
 use crate::methods::{Complaint, methods};
-use crate::query::Answer;
+use crate::query::{Answer, Attachment};
 use crate::roadmap::Roadmap;
 use crate::seed::Seed;
 use crate::validity::{Asked, Scratch};
@@ -39,6 +39,11 @@ pub trait Evaluator {
     /// Whether the criterion needs the problem to have a query.
     fn needs_query(&self) -> bool {
         false
+    }
+
+    /// Of an evaluator that attaches configurations to the roadmap: how it does.
+    fn attachment(&self) -> Option<Attachment> {
+        None
     }
 
     /// What is wrong with the settings.

@@ -27,11 +27,11 @@ pub struct Query {
 }
 
 fn default_neighbors() -> u32 {
-    10
+    Attachment::default().neighbors
 }
 
 fn default_planners() -> Vec<Planner> {
-    vec![Planner::StraightLine]
+    Attachment::default().planners
 }
 
 impl Default for Query {
@@ -41,8 +41,7 @@ impl Default for Query {
 }
 
 impl Query {
-    /// How the two ends are attached to the roadmap.
-    pub fn attachment(&self) -> Attachment {
+    fn how(&self) -> Attachment {
         Attachment { neighbors: self.neighbors, planners: self.planners.clone() }
     }
 }
@@ -62,7 +61,8 @@ impl Evaluator for Query {
         scratch.take_asked();
         let query = cx.query.as_ref().expect("a checked problem has the query");
         let ends = (&query.start[..], &query.goal[..]);
-        let answer = solve(cx, roadmap, ends, &self.attachment(), scratch);
+        let attachment = self.how();
+        let answer = solve(cx, roadmap, ends, &attachment, scratch);
         let satisfied = answer.path.is_some();
         Verdict {
             satisfied,
@@ -75,6 +75,10 @@ impl Evaluator for Query {
 
     fn needs_query(&self) -> bool {
         true
+    }
+
+    fn attachment(&self) -> Option<Attachment> {
+        Some(self.how())
     }
 
     fn complaint(&self) -> Option<Complaint> {

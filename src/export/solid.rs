@@ -120,7 +120,8 @@ pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
     }
 }
 
-/// The triangles of each piece of a mesh that is connected by edges.
+/// The triangles of each piece of a mesh. Pieces hang together by edges of two triangles: where
+/// more meet, pieces merely touch.
 fn pieces(mesh: &Mesh) -> Vec<Vec<[u32; 3]>> {
     let mut label: Vec<usize> = (0..mesh.triangles.len()).collect();
     fn root(label: &mut [usize], mut i: usize) -> usize {
@@ -130,11 +131,9 @@ fn pieces(mesh: &Mesh) -> Vec<Vec<[u32; 3]>> {
         }
         i
     }
-    let mut first_of: BTreeMap<(u32, u32), usize> = BTreeMap::new();
-    for (index, [a, b, c]) in mesh.triangles.iter().enumerate() {
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            let other = *first_of.entry((*from.min(to), *from.max(to))).or_insert(index);
-            let roots = (root(&mut label, index), root(&mut label, other));
+    for sides in sides_of(&mesh.triangles).values() {
+        if let [one, other] = sides[..] {
+            let roots = (root(&mut label, one), root(&mut label, other));
             label[roots.0.max(roots.1)] = roots.0.min(roots.1);
         }
     }
@@ -143,6 +142,17 @@ fn pieces(mesh: &Mesh) -> Vec<Vec<[u32; 3]>> {
         pieces.entry(root(&mut label, index)).or_default().push(*corners);
     }
     pieces.into_values().collect()
+}
+
+/// The triangles at each edge.
+fn sides_of(triangles: &[[u32; 3]]) -> BTreeMap<(u32, u32), Vec<usize>> {
+    let mut sides_of: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
+    for (index, [a, b, c]) in triangles.iter().enumerate() {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            sides_of.entry((*from.min(to), *from.max(to))).or_default().push(index);
+        }
+    }
+    sides_of
 }
 
 /// What the eye sees of a surface of triangles.
@@ -168,12 +178,7 @@ fn polyhedron(
     // Six times the volume; negative where the triangles are listed inside out.
     let volume: f64 = corners_of.iter().map(|[a, b, c]| dot(*a, cross(*b, *c))).sum();
     let outward = if volume < 0.0 { -1.0 } else { 1.0 };
-    let mut sides_of: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
-    for (index, [a, b, c]) in triangles.iter().enumerate() {
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            sides_of.entry((*from.min(to), *from.max(to))).or_default().push(index);
-        }
-    }
+    let sides_of = sides_of(triangles);
     let closed = sides_of.values().all(|sides| sides.len() % 2 == 0);
     let normals: Vec<[f64; 3]> = corners_of
         .iter()

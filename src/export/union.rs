@@ -5,11 +5,11 @@ use super::view::dot;
 
 /// Of more boxes each is drawn whole.
 const BOXES_MAX: usize = 300;
-/// Pieces into which an edge is cut; each is drawn or not.
-const PIECES: usize = 32;
 
-/// A box as its six faces: outward normals and their offsets.
-type Planes = [([f64; 3], f64)];
+/// A face of a box: its outward normal and offset.
+type Plane = ([f64; 3], f64);
+/// Whether some box holds a point.
+type Occupied<'a> = dyn Fn([f64; 3]) -> bool + 'a;
 
 /// Takes from boxes the parts of their faces and edges that lie inside or against another box.
 /// Solids of other kinds stay as they are.
@@ -18,13 +18,12 @@ pub(super) fn join(solids: &mut [Solid]) {
     if boxes.len() < 2 || boxes.len() > BOXES_MAX {
         return;
     }
-    let all: Vec<Vec<([f64; 3], f64)>> =
-        boxes.iter().map(|index| solids[*index].planes.clone()).collect();
+    let all: Vec<Vec<Plane>> = boxes.iter().map(|index| solids[*index].planes.clone()).collect();
     for (own, index) in boxes.iter().enumerate() {
         let solid = &mut solids[*index];
         let size = solid.extent();
         let beside = 1e-6 * size;
-        let near: Vec<&Vec<_>> = all
+        let near: Vec<&Vec<Plane>> = all
             .iter()
             .enumerate()
             .filter(|(other, planes)| *other != own && meets(solid, planes, beside))
@@ -50,18 +49,19 @@ pub(super) fn join(solids: &mut [Solid]) {
         let planes = &all[own];
         let occupied = |p: [f64; 3]| holds(planes, p) || near.iter().any(|planes| holds(planes, p));
         let edges = std::mem::take(&mut solid.edges);
-        solid.edges = edges.iter().flat_map(|edge| bare(edge, 2.0 * beside, occupied)).collect();
+        solid.edges =
+            edges.iter().flat_map(|edge| bare(edge, &near, 2.0 * beside, &occupied)).collect();
     }
 }
 
 /// Whether no face of the box separates the solid from it, with a margin.
-fn meets(solid: &Solid, planes: &Planes, margin: f64) -> bool {
+fn meets(solid: &Solid, planes: &[Plane], margin: f64) -> bool {
     planes.iter().all(|(normal, offset)| {
         solid.points.iter().any(|point| dot(*normal, *point) <= offset + margin)
     })
 }
 
-fn holds(planes: &Planes, point: [f64; 3]) -> bool {
+fn holds(planes: &[Plane], point: [f64; 3]) -> bool {
     planes.iter().all(|(normal, offset)| dot(*normal, point) <= *offset)
 }
 
@@ -69,7 +69,7 @@ fn holds(planes: &Planes, point: [f64; 3]) -> bool {
 fn subtract(
     polygon: Vec<[f64; 3]>,
     outward: [f64; 3],
-    planes: &Planes,
+    planes: &[Plane],
     out: &mut Vec<Vec<[f64; 3]>>,
 ) {
     let mut left = polygon;
@@ -110,30 +110,31 @@ fn subtract(
 }
 
 /// The stretches of an edge along which the surface bends: of the four places around it one,
-/// three or two across from one another are occupied.
-fn bare(edge: &Edge, beside: f64, occupied: impl Fn([f64; 3]) -> bool) -> Vec<Edge> {
+/// three or two across from one another are occupied. It may change where a box begins or ends.
+fn bare(edge: &Edge, near: &[&Vec<Plane>], beside: f64, occupied: &Occupied) -> Vec<Edge> {
     let Some([u, v]) = edge.normals else { return vec![*edge] };
     let [from, to] = edge.ends;
-    let on = |t: f64| [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * t);
-    let mut stretches: Vec<Edge> = Vec::new();
-    let mut open = false;
-    for piece in 0..PIECES {
-        let middle = on((piece as f64 + 0.5) / PIECES as f64);
+    let along = [0, 1, 2].map(|i| to[i] - from[i]);
+    let crossing = |(normal, offset): &Plane| {
+        let t = (offset - dot(*normal, from)) / dot(*normal, along);
+        (t > 0.0 && t < 1.0).then_some(t)
+    };
+    let mut cuts: Vec<f64> =
+        near.iter().flat_map(|box_| box_.iter().filter_map(crossing)).collect();
+    cuts.extend([0.0, 1.0]);
+    cuts.sort_by(f64::total_cmp);
+    let on = |t: f64| [0, 1, 2].map(|i| from[i] + along[i] * t);
+    let bends = |middle: [f64; 3]| {
         let around = |su: f64, sv: f64| {
             occupied([0, 1, 2].map(|i| middle[i] + beside * (su * u[i] + sv * v[i])))
         };
         let places = [around(-1.0, -1.0), around(1.0, -1.0), around(1.0, 1.0), around(-1.0, 1.0)];
         let count = places.iter().filter(|place| **place).count();
-        let bends = count % 2 == 1 || count == 2 && places[0] == places[2];
-        if bends {
-            let (start, end) =
-                (on(piece as f64 / PIECES as f64), on((piece + 1) as f64 / PIECES as f64));
-            match stretches.last_mut() {
-                Some(last) if open => last.ends[1] = end,
-                _ => stretches.push(Edge { ends: [start, end], normals: edge.normals }),
-            }
-        }
-        open = bends;
-    }
+        count % 2 == 1 || count == 2 && places[0] == places[2]
+    };
+    let stretches = cuts.windows(2).map(|pair| (pair[0], pair[1]));
     stretches
+        .filter(|(start, end)| end - start > 1e-9 && bends(on((start + end) / 2.0)))
+        .map(|(start, end)| Edge { ends: [on(start), on(end)], normals: edge.normals })
+        .collect()
 }

@@ -25,6 +25,12 @@ pub struct Attachment {
     pub planners: Vec<Planner>,
 }
 
+impl Default for Attachment {
+    fn default() -> Attachment {
+        Attachment { neighbors: 10, planners: vec![Planner::StraightLine] }
+    }
+}
+
 /// What a query came to.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Answer {

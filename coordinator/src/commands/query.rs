@@ -2,7 +2,6 @@ use super::write_whole;
 use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
 use crate::run::Ledger;
-use roadmill::evaluate::{EvaluatorKind, Query};
 use roadmill::export::path_csv;
 use roadmill::problem::configuration;
 use roadmill::query::{PATH_REFINEMENT, solve};
@@ -28,10 +27,9 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let start = end("start", &arguments.start, given.map(|query| &query.start))?;
     let goal = end("goal", &arguments.goal, given.map(|query| &query.goal))?;
 
-    let attachment = ledger.problem.evaluators.iter().find_map(|evaluator| match evaluator {
-        EvaluatorKind::Query(query) => Some(query.attachment()),
-    });
-    let attachment = attachment.unwrap_or_else(|| Query::default().attachment());
+    let evaluators = &ledger.problem.evaluators;
+    let attachment = evaluators.iter().find_map(|evaluator| evaluator.method().attachment());
+    let attachment = attachment.unwrap_or_default();
     let ends = (&start[..], &goal[..]);
     let answer = solve(&cx, &ledger.roadmap, ends, &attachment, &mut Scratch::new());
     let dropped = answer.dropped_edges;

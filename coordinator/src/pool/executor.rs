@@ -145,10 +145,10 @@ impl Pool {
                 "{} workers died one after the other without finishing a job; the last: {why}{status}",
                 self.fruitless_deaths
             ));
-        } else if let Err(error) = self.hire() {
-            if self.workers.is_empty() {
-                self.fail(format!("no worker is left and none can be started: {error}"));
-            }
+        } else if let Err(error) = self.hire()
+            && self.workers.is_empty()
+        {
+            self.fail(format!("no worker is left and none can be started: {error}"));
         }
     }
 

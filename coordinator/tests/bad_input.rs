@@ -1,0 +1,366 @@
+//! What cannot be used is refused by file, line and reason, before anything is made; and what
+//! every exit code stands for.
+
+mod support;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use support::{Done, Scratch};
+
+/// Sound, and satisfied within a round or two.
+const BASE: &str = r#"name = "base"
+[space]
+motion = "rigid-3d"
+min = [0.0, 0.0, 0.0]
+max = [8.0, 4.0, 4.0]
+bounds = "body"
+
+[robot]
+bodies = [{ shape = { box = { size = [0.5, 0.2, 0.2] } } }]
+
+[[obstacles]]
+shape = { box = { size = [0.2, 2.0, 2.0] } }
+position = [4.0, 2.0, 2.0]
+orientation = [1.0, 0.0, 0.0, 0.0]
+
+[query]
+start = [1.0, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]
+goal = [7.0, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]
+
+[img]
+sets_per_round = 2
+
+[[strategies]]
+label = "a"
+nodes = 30
+sampler = { uniform = { attempts = 1000 } }
+within = { nearest = { neighbors = 5 } }
+
+[limits]
+nodes = 3000
+"#;
+
+/// A wall from one end to the other is between start and goal.
+const SEALED: (&str, &str) = ("size = [0.2, 2.0, 2.0]", "size = [0.2, 4.0, 4.0]");
+
+/// [`BASE`] with a replacement, which must be possible.
+fn changed((from, to): (&str, &str)) -> String {
+    assert_eq!(BASE.matches(from).count(), 1, "{from}");
+    BASE.replace(from, to)
+}
+
+fn line_of(text: &str, part: &str) -> usize {
+    let at = text.find(part).expect("the part is there");
+    1 + text[..at].matches('\n').count()
+}
+
+/// Files in a folder and below, with their contents.
+fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    for entry in fs::read_dir(folder).expect("the folder is there").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            files.extend(contents(&path));
+        } else {
+            files.insert(path.clone(), fs::read(&path).expect("it can be read"));
+        }
+    }
+    files
+}
+
+#[test]
+fn the_problem_that_the_others_spoil_is_sound() {
+    let scratch = Scratch::new();
+    scratch.write("base.toml", BASE);
+    scratch.build("run", &["base.toml", "--workers", "2"], 0);
+    assert_eq!(scratch.summary("run").stop, "satisfied");
+    assert!(scratch.path("run/path.csv").is_file());
+}
+
+#[test]
+fn unusable_problems_are_refused_at_their_line() {
+    const SIZE: &str = "shape = { box = { size = [0.2, 2.0, 2.0] } }";
+    const POSITION: &str = "position = [4.0, 2.0, 2.0]";
+    const ORIENTATION: &str = "orientation = [1.0, 0.0, 0.0, 0.0]";
+    const START: &str = "start = [1.0, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]";
+    const MAX: &str = "max = [8.0, 4.0, 4.0]";
+    const SAMPLER: &str = "sampler = { uniform = { attempts = 1000 } }";
+    let cases = [
+        // unknown keys and words
+        (SAMPLER, "sampler = { uniform = { attempt = 1000 } }", "attempt"),
+        (SAMPLER, "sampler = { unform = {} }", "unform"),
+        ("sets_per_round = 2", "set_per_round = 2", "set_per_round"),
+        ("name = \"base\"", "nam = \"base\"", "nam"),
+        ("motion = \"rigid-3d\"", "motion = \"rigid\"", "rigid"),
+        // broken syntax
+        (MAX, "max = [8.0, 4.0, 4.0", "array"),
+        ("label = \"a\"", "label = \"a", "string"),
+        // meshes
+        (SIZE, "shape = { mesh = { file = \"missing.obj\" } }", "missing.obj: cannot read"),
+        (SIZE, "shape = { mesh = { file = \"empty.obj\" } }", "empty.obj: no faces"),
+        (SIZE, "shape = { mesh = { file = \"flat.obj\" } }", "flat.obj: all 2 triangles have zero"),
+        (SIZE, "shape = { mesh = { file = \"cut.obj\" } }", "cut.obj:2: "),
+        // numbers
+        (MAX, "max = [nan, 4.0, 4.0]", "NaN"),
+        (MAX, "max = [inf, 4.0, 4.0]", "inf"),
+        (MAX, "max = [8.0, -4.0, 4.0]", "more than min"),
+        (MAX, "max = [8.0, 4.0]", "2 values found"),
+        (SIZE, "shape = { box = { size = [0.2, nan, 2.0] } }", "NaN"),
+        (SIZE, "shape = { sphere = { radius = 0.0 } }", "positive"),
+        (POSITION, "position = [4.0, inf, 2.0]", "inf"),
+        (ORIENTATION, "orientation = [0.0, 0.0, 0.0, 0.0]", "quaternion"),
+        (ORIENTATION, "orientation = [nan, 0.0, 0.0, 0.0]", "quaternion"),
+        // configurations
+        (START, "start = [1.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0]", "quaternion"),
+        (START, "start = [nan, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "NaN"),
+        (START, "start = [4.0, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "collides"),
+        (START, "start = [9.0, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "bounds"),
+        (START, "start = [0.1, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "leaves the bounds"),
+        (START, "start = [1.0, 2.0, 2.0]", "7 expected: x y z qw qx qy qz"),
+        // counts
+        ("sets_per_round = 2", "sets_per_round = 0", "0 found"),
+        ("neighbors = 5", "neighbors = 0", "neighbors = 0 found"),
+        ("attempts = 1000", "attempts = 0", "attempts = 0 found"),
+        ("nodes = 30", "nodes = 1000000000000", "1000000000000 found"),
+        ("nodes = 3000", "nodes = 1000000000000", "1000000000000 found"),
+        ("nodes = 30\n", "nodes = -1\n", "-1"),
+    ];
+    let scratch = Scratch::new();
+    scratch.write("empty.obj", "v 0 0 0\nv 1 0 0\n");
+    scratch.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n");
+    scratch.write("cut.obj", "v 0 0 0\nv 1 0");
+    for (from, to, reason) in cases {
+        let text = changed((from, to));
+        scratch.write("bad.toml", &text);
+        let place = format!("bad.toml:{}: ", line_of(&text, to));
+        for arguments in
+            [&["build", "bad.toml", "--workers", "1", "--out", "run"][..], &["check", "bad.toml"]]
+        {
+            let done = scratch.run(arguments);
+            done.assert_code(2);
+            done.assert_stderr(&[&place, reason]);
+            assert_eq!(done.stdout, "");
+        }
+        assert!(!scratch.path("run").exists(), "{to}");
+        assert!(scratch.temporary_files().is_empty(), "{to}: something was started");
+    }
+}
+
+#[test]
+fn unusable_command_lines_are_refused() {
+    let scratch = Scratch::new();
+    scratch.write("base.toml", BASE);
+    scratch.write("file", "a file, no folder");
+    fs::create_dir(scratch.path("no-run")).expect("a folder can be made");
+    scratch.write("no-run/notes.txt", "mine");
+    scratch.build("run", &["base.toml", "--threads", "1"], 0);
+    let before = contents(&scratch.path("."));
+    let cases: [(&[&str], &[&str]); 16] = [
+        (
+            &["build", "base.toml", "--max-nodes", "1000000000000"],
+            &["--max-nodes", "1000000000000"],
+        ),
+        (&["build", "base.toml", "--max-nodes", "0"], &["--max-nodes", "0 found"]),
+        (&["build", "base.toml", "--max-sets", "0"], &["--max-sets", "0 found"]),
+        (&["build", "base.toml", "--max-time", "-1"], &["--max-time"]),
+        (&["build", "base.toml", "--workers", "0"], &["--workers", "0 found"]),
+        (&["build", "base.toml", "--threads", "0"], &["--threads", "0 found"]),
+        (&["build", "base.toml", "--workers", "1", "--threads", "1"], &["--threads"]),
+        (&["build", "base.toml", "--force"], &["--out"]),
+        (&["build", "missing.toml"], &["missing.toml", "cannot read"]),
+        (&["build", "base.toml", "--out", "file/run"], &["file/run", "cannot make"]),
+        (&["build", "base.toml", "--out", "/proc/run"], &["/proc/run", "cannot make"]),
+        (&["build", "base.toml", "--out", "run"], &["run: exists already", "--force"]),
+        (&["build", "base.toml", "--out", "no-run"], &["no-run: exists already"]),
+        (&["build", "base.toml", "--out", "no-run", "--force"], &["no-run: holds no ledger"]),
+        (&["build", "base.toml", "--out", "file", "--force"], &["file: not a folder"]),
+        (&["query", "no-run"], &["no-run", "no run here"]),
+    ];
+    for (arguments, fragments) in cases {
+        let done = scratch.run(arguments);
+        done.assert_code(2);
+        done.assert_stderr(fragments);
+        let mut now = contents(&scratch.path("."));
+        now.retain(|path, _| !is_output(path));
+        let mut before = before.clone();
+        before.retain(|path, _| !is_output(path));
+        assert!(now == before, "{arguments:?} changed a file");
+        assert!(!scratch.path("runs").exists(), "{arguments:?}");
+    }
+}
+
+/// Where the support module keeps what the processes say.
+fn is_output(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "stdout" || extension == "stderr")
+}
+
+#[test]
+fn force_replaces_a_run() {
+    let scratch = Scratch::new();
+    scratch.write("base.toml", BASE);
+    scratch.build("run", &["base.toml", "--threads", "1"], 0);
+    scratch.write("run/old", "of the old run");
+    let digest = scratch.build("run", &["base.toml", "--threads", "1", "--force"], 0);
+    assert!(!scratch.path("run/old").exists());
+    // A problem that cannot be used replaces nothing.
+    scratch.write("bad.toml", "nonsense");
+    scratch.run(&["build", "bad.toml", "--out", "run", "--force"]).assert_code(2);
+    assert_eq!(scratch.summary("run").digest, digest);
+}
+
+#[test]
+fn without_success_the_exit_code_is_3() {
+    let scratch = Scratch::new();
+    scratch.write("sealed.toml", &changed(SEALED));
+    let limit = ["build", "sealed.toml", "--out", "run", "--workers", "2", "--max-nodes", "100"];
+    let done = scratch.run(&limit);
+    done.assert_code(3);
+    done.assert_stderr(&["limit of 100 nodes", "before all criteria are met"]);
+    assert!(!scratch.path("run/path.csv").exists());
+    let done = scratch.run(&["query", "run"]);
+    done.assert_code(3);
+    done.assert_stderr(&["no path"]);
+    assert_eq!(done.stdout, "");
+}
+
+fn ask(scratch: &Scratch, ledger: &[u8]) -> Done {
+    fs::write(scratch.path("run/ledger"), ledger).expect("it can be written");
+    scratch.run(&["query", "run"])
+}
+
+#[test]
+fn damage_to_a_ledger_is_found_wherever_it_is() {
+    let scratch = Scratch::new();
+    scratch.write("base.toml", BASE);
+    let small = ["base.toml", "--threads", "1", "--max-nodes", "60"];
+    let done = scratch.run(&[&["build", "--out", "run"], &small[..]].concat());
+    assert!(matches!(done.status.code(), Some(0 | 3)), "{done:?}");
+    let ledger = scratch.ledger("run");
+    let whole = ask(&scratch, &ledger);
+    assert!(matches!(whole.status.code(), Some(0 | 3)), "{whole:?}");
+
+    // Heading, the head of the first record, its payload; then all over.
+    let places = (0..64).step_by(3).chain((64..ledger.len()).step_by(ledger.len() / 40));
+    for place in places {
+        let mut damaged = ledger.clone();
+        damaged[place] ^= 0x10;
+        let done = ask(&scratch, &damaged);
+        assert_eq!(done.status.code(), Some(4), "byte {place}: {done:?}");
+        done.assert_stderr(&["run/ledger: record ", " at byte "]);
+    }
+}
+
+/// The length of each record has a checksum of its own: were it only compared with the length of
+/// the file, damage to it would pass for a record that was cut off.
+#[test]
+fn damage_to_the_length_of_any_record_is_found() {
+    const HEADING: usize = 16;
+    const HEAD: usize = 48;
+    let scratch = Scratch::new();
+    scratch.write("base.toml", BASE);
+    scratch.build("run", &["base.toml", "--threads", "1"], 0);
+    let ledger = scratch.ledger("run");
+    let (mut at, mut records) = (HEADING, 0);
+    while at < ledger.len() {
+        for byte in [at, at + 2, at + 9] {
+            let mut damaged = ledger.clone();
+            damaged[byte] ^= 1;
+            let done = ask(&scratch, &damaged);
+            assert_eq!(done.status.code(), Some(4), "byte {byte}: {done:?}");
+            done.assert_stderr(&[&format!("record {records} at byte {at}: ")]);
+        }
+        let length = ledger[at..at + 8].try_into().expect("8 bytes");
+        at += HEAD + u64::from_le_bytes(length) as usize;
+        records += 1;
+    }
+    assert_eq!(at, ledger.len(), "the records fill the file");
+    assert!(records >= 5, "a beginning, two sets, a round's end and a judgement");
+}
+
+/// A build that was killed leaves a last record that is not complete.
+#[test]
+fn a_ledger_cut_off_anywhere_is_read_up_to_its_last_round() {
+    let scratch = Scratch::new();
+    scratch.write("sealed.toml", &changed(SEALED));
+    scratch.build("run", &["sealed.toml", "--threads", "1", "--max-nodes", "150"], 3);
+    let ledger = scratch.ledger("run");
+    let beginning = 16 + 48 + u64::from_le_bytes(ledger[16..24].try_into().expect("8 bytes"));
+    let beginning = beginning as usize;
+    for length in (beginning..ledger.len()).step_by(ledger.len() / 25) {
+        ask(&scratch, &ledger[..length]).assert_code(3);
+    }
+    for length in [0, 7, 16, 30, beginning - 1] {
+        ask(&scratch, &ledger[..length]).assert_code(4);
+    }
+}
+
+#[test]
+fn check_shows_the_grammar_of_configurations() {
+    let scratch = Scratch::new();
+    scratch.write("base.toml", BASE);
+    let done = scratch.run(&["check", "base.toml"]);
+    done.assert_code(0);
+    assert!(done.stdout.contains("x y z qw qx qy qz"), "{}", done.stdout);
+}
+
+#[test]
+fn help_lists_every_exit_code() {
+    let scratch = Scratch::new();
+    for arguments in [&["--help"][..], &["build", "--help"], &["query", "--help"]] {
+        let done = scratch.run(arguments);
+        done.assert_code(0);
+        let (_, table) = done.stdout.split_once("Exit codes:").expect("there is a table");
+        let codes = table.lines().filter_map(|line| line.split_whitespace().next());
+        let codes: Vec<&str> = codes.filter(|word| word.parse::<u8>().is_ok()).collect();
+        assert_eq!(codes, ["0", "1", "2", "3", "4", "5", "6"]);
+    }
+}
+
+#[test]
+fn run_folders_are_private() {
+    let scratch = Scratch::new();
+    scratch.write("base.toml", BASE);
+    scratch.build("run", &["base.toml", "--workers", "1"], 0);
+    let mode = |name: &str| {
+        let metadata = fs::metadata(scratch.path(name)).expect("it is there");
+        metadata.permissions().mode() & 0o777
+    };
+    assert_eq!(mode("run"), 0o700);
+    for file in ["run/ledger", "run/summary.json", "run/path.csv"] {
+        assert_eq!(mode(file), 0o600, "{file}");
+    }
+}
+
+#[test]
+fn json_is_an_object_per_line_and_the_last_is_the_summary() {
+    let scratch = Scratch::new();
+    scratch.write("endless.toml", support::ENDLESS);
+    // Long enough for a progress report on most machines; the lines are checked on all.
+    let limits = ["--max-time", "1.5s", "--workers", "2"];
+    let arguments = [&["build", "endless.toml", "--out", "run", "--json"], &limits[..]].concat();
+    let done = scratch.run(&arguments);
+    done.assert_code(0);
+    let lines = done.stdout.lines().map(|line| {
+        serde_json::from_str::<serde_json::Value>(line).unwrap_or_else(|e| panic!("{e}: {line}"))
+    });
+    let lines: Vec<_> = lines.collect();
+    let (last, others) = lines.split_last().expect("there are lines");
+    assert_eq!(last["event"], "summary");
+    assert_eq!(last["stop"], "time-limit");
+    assert_eq!(last["digest"], scratch.summary("run").digest);
+    assert!(others.iter().all(|line| line["event"] == "progress"), "{others:?}");
+}
+
+#[test]
+fn unnamed_run_folders_are_numbered() {
+    let scratch = Scratch::new();
+    scratch.write("other-name.toml", BASE);
+    for expected in ["runs/base", "runs/base-2", "runs/base-3"] {
+        let done = scratch.run(&["build", "other-name.toml", "--threads", "1"]);
+        done.assert_code(0);
+        assert!(done.stdout.contains(&format!("run         {expected}\n")), "{}", done.stdout);
+        assert!(scratch.path(expected).join("ledger").is_file(), "{expected}");
+    }
+}

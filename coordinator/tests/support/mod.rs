@@ -1,0 +1,333 @@
+//! The binary, run in a folder of its own with temporary files of its own.
+
+#![allow(dead_code, reason = "every test file uses another part")]
+
+use rustix::process::{Pid, Signal, kill_process};
+use serde_json::Value;
+use std::cell::Cell;
+use std::fs::{self, File};
+use std::os::unix::process::ExitStatusExt;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// Whatever takes longer hangs. Nothing else is ever concluded from a time.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A build without end, in small steps: whoever starts it stops it when enough has happened to
+/// it, however fast the machine is, and then compares it with an undisturbed one of that size.
+pub const ENDLESS: &str = r#"
+seed = 11
+
+[space]
+motion = "rigid-3d"
+min = [0.0, 0.0, 0.0]
+max = [8.0, 4.0, 4.0]
+bounds = "body"
+
+[robot]
+bodies = [{ shape = { box = { size = [1.0, 0.25, 0.25] } } }]
+
+[[obstacles]]
+shape = { box = { size = [0.2, 2.6, 4.0] } }
+position = [2.0, 2.7, 2.0]
+[[obstacles]]
+shape = { box = { size = [0.2, 2.6, 4.0] } }
+position = [4.0, 1.3, 2.0]
+[[obstacles]]
+shape = { cylinder = { radius = 0.6, height = 4.0 } }
+position = [6.0, 2.0, 2.0]
+
+[img]
+sets_per_round = 4
+schedule = ["a", "b", "a"]
+
+[[strategies]]
+label = "a"
+nodes = 12
+sampler = { uniform = {} }
+
+[[strategies]]
+label = "b"
+nodes = 7
+sampler = { uniform = {} }
+within = { nearest = { neighbors = 4 } }
+
+[limits]
+nodes = 4000000
+"#;
+
+/// Polls until something has become true.
+pub fn wait_until(what: &str, mut is_true: impl FnMut() -> bool) {
+    let begun = Instant::now();
+    while !is_true() {
+        assert!(begun.elapsed() < PATIENCE, "still waiting for this: {what}");
+        thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// A folder in which the binary is run. When it is dropped the runs must have tidied up.
+pub struct Scratch {
+    folder: TempDir,
+    started: Cell<usize>,
+}
+
+impl Scratch {
+    pub fn new() -> Scratch {
+        let folder = tempfile::tempdir().expect("a folder can be made");
+        let scratch = Scratch { folder, started: Cell::new(0) };
+        fs::create_dir(scratch.temporary()).expect("a folder can be made");
+        scratch
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, contents: &str) {
+        fs::write(self.path(name), contents).expect("a file can be written");
+    }
+
+    /// The `TMPDIR` of the processes.
+    pub fn temporary(&self) -> PathBuf {
+        self.path("temporary")
+    }
+
+    /// Files and folders in `TMPDIR`, at any depth.
+    pub fn temporary_files(&self) -> Vec<PathBuf> {
+        let mut found = Vec::new();
+        let mut folders = vec![self.temporary()];
+        while let Some(folder) = folders.pop() {
+            for path in children(&folder) {
+                if path.is_dir() {
+                    folders.push(path.clone());
+                }
+                found.push(path);
+            }
+        }
+        found
+    }
+
+    /// Starts the binary with these arguments; relative paths are in this folder.
+    pub fn start(&self, arguments: &[&str]) -> Running {
+        self.start_with_faults(arguments, "")
+    }
+
+    /// The same with faults in its workers (see `roadmill-workers`, `faults.rs`).
+    pub fn start_with_faults(&self, arguments: &[&str], faults: &str) -> Running {
+        let number = self.started.replace(self.started.get() + 1);
+        let [stdout, stderr] =
+            ["stdout", "stderr"].map(|stream| self.path(&format!("{number}.{stream}")));
+        let file = |path: &Path| Stdio::from(File::create(path).expect("a file can be made"));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_roadmill"));
+        command
+            .args(arguments)
+            .current_dir(self.folder.path())
+            .env("TMPDIR", self.temporary())
+            .env_remove("ROADMILL_FAULTS")
+            .stdin(Stdio::null())
+            // Files take any amount without a reader.
+            .stdout(file(&stdout))
+            .stderr(file(&stderr));
+        if !faults.is_empty() {
+            command.env("ROADMILL_FAULTS", faults);
+        }
+        let child = command.spawn().expect("the binary starts");
+        Running { child, stdout, stderr, temporary: self.temporary() }
+    }
+
+    /// Runs the binary to its end.
+    pub fn run(&self, arguments: &[&str]) -> Done {
+        self.start(arguments).finish()
+    }
+
+    /// Builds into the folder `run` and expects this exit code; the roadmap's digest.
+    pub fn build(&self, run: &str, arguments: &[&str], code: i32) -> String {
+        let done = self.run(&[&["build", "--out", run], arguments].concat());
+        done.assert_code(code);
+        self.summary(run).digest
+    }
+
+    /// What the summary in a run folder says.
+    pub fn summary(&self, run: &str) -> Summary {
+        let text = fs::read(self.path(run).join("summary.json")).expect("there is a summary");
+        let json: Value = serde_json::from_slice(&text).expect("it is JSON");
+        let text = |key: &str| json[key].as_str().expect("a text is there").to_owned();
+        Summary {
+            sets: json["sets"].as_u64().expect("a number is there"),
+            stop: text("stop"),
+            digest: text("digest"),
+        }
+    }
+
+    pub fn ledger(&self, run: &str) -> Vec<u8> {
+        fs::read(self.path(run).join("ledger")).unwrap_or_default()
+    }
+
+    /// Waits until the ledger has grown a number of times.
+    pub fn wait_for_rounds(&self, run: &str, rounds: usize) {
+        let path = self.path(run).join("ledger");
+        let length = || fs::metadata(&path).map_or(0, |metadata| metadata.len());
+        for _ in 0..rounds {
+            let before = length();
+            wait_until("the next round", || length() > before);
+        }
+    }
+
+    /// The digest of an undisturbed build of [`ENDLESS`], in a single process, with `sets` sets.
+    pub fn undisturbed_digest(&self, sets: u64) -> String {
+        self.write("endless.toml", ENDLESS);
+        let sets = sets.to_string();
+        let run = format!("undisturbed-{sets}");
+        self.build(&run, &["endless.toml", "--threads", "2", "--max-sets", &sets], 0)
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        if !thread::panicking() {
+            assert_eq!(self.temporary_files(), [] as [PathBuf; 0], "left in TMPDIR");
+        }
+    }
+}
+
+/// What the tests read of a `summary.json`.
+#[derive(Debug, PartialEq)]
+pub struct Summary {
+    pub sets: u64,
+    pub stop: String,
+    pub digest: String,
+}
+
+/// The binary at work. Ended when dropped.
+pub struct Running {
+    child: Child,
+    stdout: PathBuf,
+    stderr: PathBuf,
+    temporary: PathBuf,
+}
+
+impl Running {
+    pub fn pid(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// The worker processes in ascending order of their ids.
+    pub fn workers(&self) -> Vec<u32> {
+        let is_worker = |process: &Process| process.parent == self.pid() && process.state != 'Z';
+        let mut workers: Vec<u32> =
+            processes().filter(is_worker).map(|process| process.id).collect();
+        workers.sort_unstable();
+        workers
+    }
+
+    pub fn signal(&self, signal: Signal) {
+        send(self.pid(), signal);
+    }
+
+    /// Waits for the end. Unless the process was killed, nothing of it may be left.
+    pub fn finish(mut self) -> Done {
+        let begun = Instant::now();
+        let status = loop {
+            if let Some(status) = self.child.try_wait().expect("it can be waited for") {
+                break status;
+            }
+            if begun.elapsed() > PATIENCE {
+                let [stdout, stderr] = self.output();
+                panic!("it hangs\n{stdout}\n{stderr}");
+            }
+            thread::sleep(Duration::from_millis(2));
+        };
+        let [stdout, stderr] = self.output();
+        assert!(!stderr.contains("panicked"), "{stderr}");
+        if status.signal() != Some(Signal::KILL.as_raw()) {
+            assert_eq!(left_of(self.pid(), &self.temporary), [] as [PathBuf; 0]);
+        }
+        Done { status, stdout, stderr }
+    }
+
+    fn output(&self) -> [String; 2] {
+        [&self.stdout, &self.stderr]
+            .map(|path| String::from_utf8_lossy(&fs::read(path).unwrap_or_default()).into_owned())
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // Both fail after `finish`, as they should.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// What came out.
+#[derive(Debug)]
+pub struct Done {
+    pub status: ExitStatus,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl Done {
+    #[track_caller]
+    pub fn assert_code(&self, code: i32) {
+        assert_eq!(self.status.code(), Some(code), "{}\n{}", self.stdout, self.stderr);
+    }
+
+    #[track_caller]
+    pub fn assert_stderr(&self, fragments: &[&str]) {
+        for fragment in fragments {
+            assert!(self.stderr.contains(fragment), "no `{fragment}` in\n{}", self.stderr);
+        }
+    }
+}
+
+/// The channel's files of a run by the coordinator `pid`, on disk and in shared memory.
+pub fn left_of(pid: u32, temporary: &Path) -> Vec<PathBuf> {
+    let named = |path: &PathBuf, start: &str| {
+        path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(start))
+    };
+    let run = format!("{pid}-");
+    let shared = format!("roadmill-{pid}-");
+    let on_disk = children(temporary).into_iter().flat_map(|user| children(&user));
+    let mut left: Vec<PathBuf> = on_disk.filter(|path| named(path, &run)).collect();
+    let in_memory = children(Path::new("/dev/shm")).into_iter();
+    left.extend(in_memory.filter(|path| named(path, &shared)));
+    left
+}
+
+fn children(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| entry.path()).collect()
+}
+
+pub fn send(pid: u32, signal: Signal) {
+    let pid = Pid::from_raw(pid.cast_signed()).expect("a process id");
+    // One that has just ended by itself needs no signal.
+    let _ = kill_process(pid, signal);
+}
+
+/// A process, as `/proc` describes it.
+pub struct Process {
+    pub id: u32,
+    pub state: char,
+    pub parent: u32,
+}
+
+impl Process {
+    pub fn of(id: u32) -> Option<Process> {
+        let stat = fs::read_to_string(format!("/proc/{id}/stat")).ok()?;
+        // The name before the last parenthesis may hold anything.
+        let mut fields = stat.rsplit(')').next()?.split_whitespace();
+        let state = fields.next()?.chars().next()?;
+        let parent = fields.next()?.parse().ok()?;
+        Some(Process { id, state, parent })
+    }
+}
+
+fn processes() -> impl Iterator<Item = Process> {
+    let entries = fs::read_dir("/proc").expect("there is /proc").flatten();
+    entries.filter_map(|entry| entry.file_name().to_str()?.parse().ok()).filter_map(Process::of)
+}
