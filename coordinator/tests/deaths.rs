@@ -62,9 +62,12 @@ fn workers_killed_at_any_moment_are_replaced_and_change_nothing() {
     let build = start_endless(&scratch, "run", "3");
     let mut random = Random(0x5eed);
     let mut killed = BTreeSet::new();
-    for kill in 1..=15 {
-        wait_until("a worker to kill", || !build.workers().is_empty());
-        let workers = build.workers();
+    for kill in 1..=24 {
+        let mut workers = Vec::new();
+        wait_until("a worker to kill", || {
+            workers = build.workers();
+            !workers.is_empty()
+        });
         let victim = workers[random.below(workers.len())];
         send(victim, Signal::KILL);
         killed.insert(victim);
@@ -166,4 +169,16 @@ fn workers_that_never_start_end_the_build() {
     done.assert_code(5);
     done.assert_stderr(&["ROADMILL_FAULTS", "without finishing a job"]);
     assert_eq!(scratch.summary("run").stop, "workers-lost");
+}
+
+#[test]
+fn a_ledger_that_cannot_be_written_ends_the_build() {
+    let scratch = Scratch::new();
+    scratch.write("endless.toml", ENDLESS);
+    let arguments = ["build", "endless.toml", "--out", "run", "--workers", "2"];
+    // More than the channel's files need.
+    let done = scratch.start_with_file_limit(&arguments, 4096).finish();
+    done.assert_code(1);
+    done.assert_stderr(&["run/ledger: cannot write the ledger"]);
+    assert_readable(&scratch, "run");
 }

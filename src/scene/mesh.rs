@@ -1,12 +1,8 @@
 //! Triangle meshes: what is kept of a file, and whether it encloses anything.
 
-use super::{obj, stl};
+use super::raw::RawMesh;
 use bincode::{Decode, Encode};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-
-/// The most vertices or triangles a mesh may have.
-pub const MESH_ITEMS_MAX: usize = 1 << 26;
 
 /// A triangle mesh: welded vertices and unique triangles with an area.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
@@ -17,69 +13,10 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// A mesh file that cannot be used.
-#[derive(Debug, thiserror::Error)]
-#[error("{}{place}: {message}", path.display())]
-pub struct MeshError {
-    /// The file.
-    pub path: PathBuf,
-    /// `:LINE` of a text file, ` byte N` of a binary one, or nothing for the file as a whole.
-    pub place: String,
-    /// What was found and what is expected.
-    pub message: String,
-}
-
-impl MeshError {
-    pub(super) fn whole(path: &Path, message: impl Into<String>) -> MeshError {
-        MeshError { path: path.to_owned(), place: String::new(), message: message.into() }
-    }
-
-    pub(super) fn line(path: &Path, line: usize, message: impl Into<String>) -> MeshError {
-        MeshError { path: path.to_owned(), place: format!(":{line}"), message: message.into() }
-    }
-}
-
-/// Triangles as a file stores them: corners index `vertices`, which the reader has checked.
-pub(super) struct RawMesh {
-    pub vertices: Vec<[f64; 3]>,
-    pub triangles: Vec<[u32; 3]>,
-}
-
-/// Reads a `.obj` or `.stl` file and multiplies its coordinates by `scale`.
-///
-/// # Errors
-/// Names the file and the line or byte: unreadable, cut off, an index out of range, a number that
-/// is not finite, no face at all, or none with an area.
-pub fn read_mesh(path: &Path, scale: f64) -> Result<Mesh, MeshError> {
-    let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-    let read = match extension.as_deref() {
-        Some("obj") => obj::read,
-        Some("stl") => stl::read,
-        _ => {
-            return Err(MeshError::whole(path, "unknown kind of mesh; .obj or .stl expected"));
-        }
-    };
-    let bytes = std::fs::read(path)
-        .map_err(|error| MeshError::whole(path, format!("cannot read the mesh: {error}")))?;
-    let raw = read(path, &bytes)?;
-    if raw.triangles.is_empty() {
-        return Err(MeshError::whole(path, "no faces found; at least one triangle expected"));
-    }
-    let found = raw.triangles.len();
-    let mesh = Mesh::weld(raw, scale);
-    if mesh.triangles.is_empty() {
-        return Err(MeshError::whole(
-            path,
-            format!("all {found} triangles have zero area; at least one with an area expected"),
-        ));
-    }
-    Ok(mesh)
-}
-
 impl Mesh {
     /// Joins equal vertices, drops triangles without area and all but the first of triangles
     /// with the same corners (many files store both sides).
-    fn weld(raw: RawMesh, scale: f64) -> Mesh {
+    pub(super) fn weld(raw: RawMesh, scale: f64) -> Mesh {
         let mut index_of = BTreeMap::new();
         let mut vertices: Vec<[f64; 3]> = Vec::new();
         let welded: Vec<u32> = raw

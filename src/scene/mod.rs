@@ -7,11 +7,15 @@
 mod mesh;
 mod obj;
 mod pose;
+mod raw;
+mod read;
 mod shape;
 mod stl;
 
-pub use mesh::{Mesh, MeshError, read_mesh};
+pub use mesh::Mesh;
 pub use pose::Pose;
+pub use raw::MeshError;
+pub use read::read_mesh;
 pub use shape::Shape;
 
 use bincode::{Decode, Encode};

@@ -4,7 +4,7 @@
 //! Written here because the published readers report neither the line of an error nor an index
 //! out of range, and a user with a broken CAD export needs both.
 
-use super::mesh::{MESH_ITEMS_MAX, MeshError, RawMesh};
+use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
 use std::path::Path;
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {

@@ -2,7 +2,7 @@
 //!
 //! Written here for the same reason as the `.obj` reader: an error must name its line or byte.
 
-use super::mesh::{MESH_ITEMS_MAX, MeshError, RawMesh};
+use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
 use std::path::Path;
 
 const HEADER_BYTES: usize = 84;

@@ -117,13 +117,26 @@ impl Scratch {
 
     /// The same with faults in its workers (see `roadmill-workers`, `faults.rs`).
     pub fn start_with_faults(&self, arguments: &[&str], faults: &str) -> Running {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_roadmill"));
+        command.args(arguments);
+        self.start_command(command, faults)
+    }
+
+    /// The same where no file may grow beyond this size: as a full disk does, the system refuses.
+    pub fn start_with_file_limit(&self, arguments: &[&str], kibibytes: u64) -> Running {
+        let mut command = Command::new("sh");
+        // The limit is in blocks of 512 or of 1024 bytes, as the shell likes.
+        let script = format!("trap '' XFSZ; ulimit -f {kibibytes} && exec \"$0\" \"$@\"");
+        command.arg("-c").arg(script).arg(env!("CARGO_BIN_EXE_roadmill")).args(arguments);
+        self.start_command(command, "")
+    }
+
+    fn start_command(&self, mut command: Command, faults: &str) -> Running {
         let number = self.started.replace(self.started.get() + 1);
         let [stdout, stderr] =
             ["stdout", "stderr"].map(|stream| self.path(&format!("{number}.{stream}")));
         let file = |path: &Path| Stdio::from(File::create(path).expect("a file can be made"));
-        let mut command = Command::new(env!("CARGO_BIN_EXE_roadmill"));
         command
-            .args(arguments)
             .current_dir(self.folder.path())
             .env("TMPDIR", self.temporary())
             .env_remove("ROADMILL_FAULTS")
@@ -166,10 +179,11 @@ impl Scratch {
         fs::read(self.path(run).join("ledger")).unwrap_or_default()
     }
 
-    /// Waits until the ledger has grown a number of times.
+    /// Waits until the ledger has been begun and has then grown a number of times.
     pub fn wait_for_rounds(&self, run: &str, rounds: usize) {
         let path = self.path(run).join("ledger");
         let length = || fs::metadata(&path).map_or(0, |metadata| metadata.len());
+        wait_until("the ledger", || length() > 0);
         for _ in 0..rounds {
             let before = length();
             wait_until("the next round", || length() > before);
@@ -256,9 +270,14 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // Both fail after `finish`, as they should.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        if !matches!(self.child.try_wait(), Ok(Some(_))) {
+            // A test has failed. It leaves nothing behind either.
+            let _ = self.child.kill();
+            let _ = self.child.wait();
+            for path in left_of(self.pid(), &self.temporary) {
+                let _ = fs::remove_file(path);
+            }
+        }
     }
 }
 

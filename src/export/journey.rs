@@ -1,0 +1,222 @@
+//! Obstacles, the robot on its way, and the path.
+
+use super::drawing::{Drawing, INK, PAPER, STONE, WARM, WAY, blend};
+use super::solid::{Solid, solids};
+use super::union::join;
+use crate::math;
+use crate::query;
+use crate::scene::{Body, Pose};
+use crate::space::{Motion, Space};
+use std::fmt::Write;
+
+/// Poses of the robot drawn along a path, both ends included.
+const POSES: usize = 18;
+/// Metric length of a path is summed over this many steps of each of its motions.
+const STEPS: usize = 32;
+/// Pieces that a path is cut into so that walls can hide parts of it.
+const CUTS: usize = 160;
+
+/// The robot's frame in the world's.
+pub(super) fn pose_of(motion: Motion, q: &[f64]) -> Pose {
+    let translation = reference_point(motion, q);
+    let rotation = match motion {
+        Motion::Translation2d | Motion::Translation3d => Pose::IDENTITY.rotation,
+        Motion::Rigid2d => [math::cos(q[2] / 2.0), 0.0, 0.0, math::sin(q[2] / 2.0)],
+        Motion::Rigid3d => [q[3], q[4], q[5], q[6]],
+    };
+    Pose { translation, rotation }
+}
+
+pub(super) fn reference_point(motion: Motion, q: &[f64]) -> [f64; 3] {
+    [q[0], q[1], if motion.translations() == 3 { q[2] } else { 0.0 }]
+}
+
+/// The configurations at these fractions of a path's length, ascending from 0 to 1.
+fn along(space: &Space, path: &query::Path, fractions: &[f64]) -> Vec<Vec<f64>> {
+    let mut fine = vec![(0.0, path.configs.get(0).to_vec())];
+    for i in 1..path.configs.len() {
+        let (a, b) = (path.configs.get(i - 1), path.configs.get(i));
+        for step in 1..=STEPS {
+            let mut q = vec![0.0; space.len()];
+            space.interpolate(a, b, step as f64 / STEPS as f64, &mut q);
+            let (before, last) = &fine[fine.len() - 1];
+            let length = before + space.distance(last, &q);
+            fine.push((length, q));
+        }
+    }
+    let whole = fine[fine.len() - 1].0;
+    fractions
+        .iter()
+        .map(|fraction| {
+            let place = fine.partition_point(|(length, _)| *length < fraction * whole);
+            fine[place.min(fine.len() - 1)].1.clone()
+        })
+        .collect()
+}
+
+impl Drawing<'_> {
+    pub(super) fn obstacles(&mut self) {
+        for solid in self.stand(&self.problem.obstacles, &Pose::IDENTITY) {
+            let text = self.obstacle(&solid);
+            self.put(format_args!("{text}"));
+        }
+    }
+
+    /// Bodies whose owner stands at a pose; boxes that touch become one.
+    pub(super) fn stand(&self, bodies: &[Body], pose: &Pose) -> Vec<Solid> {
+        let mut standing: Vec<Solid> =
+            bodies.iter().flat_map(|body| solids(body, pose, &self.view)).collect();
+        join(&mut standing);
+        standing
+    }
+
+    fn obstacle(&self, solid: &Solid) -> String {
+        match self.planar {
+            true => self.solid(solid, "obstacle", STONE, ("1", "1"), &blend(STONE, 0.0)),
+            false => self.solid(solid, "obstacle", STONE, ("0.6", "0.9"), INK),
+        }
+    }
+
+    /// A solid, lighter where it faces the light, with its edges on top.
+    fn solid(
+        &self,
+        solid: &Solid,
+        class: &str,
+        shades: [[f64; 3]; 2],
+        (opacity, width): (&str, &str),
+        stroke: &str,
+    ) -> String {
+        let mut text = format!("<g class=\"{class}\">");
+        for patch in &solid.patches {
+            let mut outline = String::new();
+            for polygon in &patch.polygons {
+                outline.push_str(&self.line(polygon.iter().copied()));
+                outline.push('Z');
+            }
+            // The light comes from the upper left, behind the eye.
+            let view = &self.view;
+            let light: f64 = (0..3)
+                .map(|i| {
+                    let toward = 0.5 * view.toward[i] - 0.35 * view.right[i] + 0.75 * view.up[i];
+                    toward * patch.normal[i]
+                })
+                .sum();
+            let share = if self.planar { 0.0 } else { light.clamp(0.0, 1.0) };
+            let fill = blend(shades, share);
+            write!(text, "<path d=\"{outline}\" fill=\"{fill}\" fill-opacity=\"{opacity}\"/>")
+                .expect("writing to memory cannot fail");
+        }
+        let edges: String = solid.edges.iter().map(|edge| self.line(edge.ends)).collect();
+        write!(
+            text,
+            "<path d=\"{edges}\" stroke=\"{stroke}\" stroke-width=\"{width}\" fill=\"none\"/></g>"
+        )
+        .expect("writing to memory cannot fail");
+        text
+    }
+
+    /// The robot at poses along the path, or at the query's ends where there is no path.
+    fn poses(&self, path: Option<&query::Path>) -> Vec<(f64, Pose)> {
+        let motion = self.problem.motion;
+        match (path, &self.problem.query) {
+            (Some(path), _) => {
+                let fractions: Vec<f64> =
+                    (0..POSES).map(|i| i as f64 / (POSES - 1) as f64).collect();
+                let configs = along(&self.problem.space(), path, &fractions);
+                fractions.iter().zip(&configs).map(|(f, q)| (*f, pose_of(motion, q))).collect()
+            }
+            (None, Some(ends)) => {
+                vec![(0.0, pose_of(motion, &ends.start)), (1.0, pose_of(motion, &ends.goal))]
+            }
+            (None, None) => Vec::new(),
+        }
+    }
+
+    fn robot(&self, share: f64, pose: &Pose) -> Vec<(Solid, String)> {
+        let full = blend(WARM, share);
+        let tone = [0, 1, 2].map(|i| WARM[0][i] + (WARM[1][i] - WARM[0][i]) * share);
+        let shades =
+            [tone.map(|value| value * 0.86), tone.map(|value| value + (255.0 - value) * 0.35)];
+        let ends = share == 0.0 || share == 1.0;
+        let look = match (self.planar, ends) {
+            (true, true) => ("0.9", "1.6"),
+            (true, false) => ("0.22", "1.3"),
+            (false, true) => ("0.92", "1"),
+            (false, false) => ("0.5", "0.8"),
+        };
+        let stroke = if ends { INK } else { &full };
+        let parts = self.stand(&self.problem.robot, pose);
+        parts
+            .into_iter()
+            .map(|solid| {
+                let shades = if self.planar { [tone; 2] } else { shades };
+                let text = self.solid(&solid, "robot", shades, look, stroke);
+                (solid, text)
+            })
+            .collect()
+    }
+
+    /// The path of a planar problem: poses, then the line on top.
+    pub(super) fn journey(&mut self, path: Option<&query::Path>) {
+        for (share, pose) in self.poses(path) {
+            for (_, text) in self.robot(share, &pose) {
+                self.put(format_args!("{text}"));
+            }
+        }
+        let Some(path) = path else { return };
+        let motion = self.problem.motion;
+        let line = self.line(path.configs.iter().map(|q| reference_point(motion, q)));
+        for (class, colour, width) in [("casing", PAPER, "6.5"), ("way", WAY, "3.2")] {
+            self.put(format_args!(
+                "<path class=\"{class}\" d=\"{line}\" fill=\"none\" stroke=\"{colour}\" \
+                 stroke-width=\"{width}\"/>"
+            ));
+        }
+    }
+
+    /// Obstacles, poses and the path of a 3D problem, what is hidden first.
+    pub(super) fn solids_and_journey(&mut self, path: Option<&query::Path>) {
+        let motion = self.problem.motion;
+        let mut items: Vec<(Solid, String)> = Vec::new();
+        // The whole path, faint, on top of what hides it.
+        let mut through = String::new();
+        for solid in self.stand(&self.problem.obstacles, &Pose::IDENTITY) {
+            let text = self.obstacle(&solid);
+            items.push((solid, text));
+        }
+        for (share, pose) in self.poses(path) {
+            items.extend(self.robot(share, &pose));
+        }
+        if let Some(path) = path {
+            let fractions: Vec<f64> = (0..=CUTS).map(|i| i as f64 / CUTS as f64).collect();
+            let way: Vec<[f64; 3]> = along(&self.problem.space(), path, &fractions)
+                .iter()
+                .map(|q| reference_point(motion, q))
+                .collect();
+            // Its shadow on the floor tells how far away it is.
+            let floor = self.problem.bounds.min[2];
+            let shadow = self.line(way.iter().map(|p| [p[0], p[1], floor]));
+            self.put(format_args!(
+                "<path class=\"shadow\" d=\"{shadow}\" fill=\"none\" stroke=\"{INK}\" \
+                 stroke-opacity=\"0.18\" stroke-width=\"5\"/>"
+            ));
+            for pair in way.windows(2) {
+                let line = self.line(pair.iter().copied());
+                let text = format!(
+                    "<path d=\"{line}\" fill=\"none\" stroke=\"{WAY}\" stroke-width=\"3.4\"/>"
+                );
+                items.push((Solid::thread(pair), text));
+            }
+            let line = self.line(way.iter().copied());
+            through = format!(
+                "<path class=\"way\" d=\"{line}\" fill=\"none\" stroke=\"{WAY}\" \
+                 stroke-opacity=\"0.55\" stroke-width=\"2\"/>"
+            );
+        }
+        let solids: Vec<&Solid> = items.iter().map(|(solid, _)| solid).collect();
+        for index in self.view.paint_order(&solids) {
+            self.put(format_args!("{}", items[index].1));
+        }
+        self.put(format_args!("{through}"));
+    }
+}

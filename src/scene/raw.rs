@@ -1,0 +1,34 @@
+//! What readers of mesh files have in common.
+
+use std::path::{Path, PathBuf};
+
+/// The most vertices or triangles a mesh may have.
+pub const MESH_ITEMS_MAX: usize = 1 << 26;
+
+/// A mesh file that cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[error("{}{place}: {message}", path.display())]
+pub struct MeshError {
+    /// The file.
+    pub path: PathBuf,
+    /// `:LINE` of a text file, ` byte N` of a binary one, or nothing for the file as a whole.
+    pub place: String,
+    /// What was found and what is expected.
+    pub message: String,
+}
+
+impl MeshError {
+    pub(super) fn whole(path: &Path, message: impl Into<String>) -> MeshError {
+        MeshError { path: path.to_owned(), place: String::new(), message: message.into() }
+    }
+
+    pub(super) fn line(path: &Path, line: usize, message: impl Into<String>) -> MeshError {
+        MeshError { path: path.to_owned(), place: format!(":{line}"), message: message.into() }
+    }
+}
+
+/// Triangles as a file stores them: corners index `vertices`, which the reader has checked.
+pub(super) struct RawMesh {
+    pub vertices: Vec<[f64; 3]>,
+    pub triangles: Vec<[u32; 3]>,
+}
