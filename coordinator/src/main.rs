@@ -14,8 +14,6 @@ use exit::Failure;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    // Run folders and shared memory are their owner's business.
-    roadmill_workers::channel::private_umask();
     let result = match cli::Arguments::parse().command {
         cli::Command::Build(arguments) => commands::build(&arguments),
         cli::Command::Query(arguments) => commands::query(&arguments),

@@ -177,7 +177,7 @@ fn a_ledger_that_cannot_be_written_ends_the_build() {
     scratch.write("endless.toml", ENDLESS);
     let arguments = ["build", "endless.toml", "--out", "run", "--workers", "2"];
     // More than the channel's files need.
-    let done = scratch.start_with_file_limit(&arguments, 4096).finish();
+    let done = scratch.start_with_file_limit(&arguments, 6144).finish();
     done.assert_code(1);
     done.assert_stderr(&["run/ledger: cannot write the ledger"]);
     assert_readable(&scratch, "run");

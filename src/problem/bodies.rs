@@ -5,7 +5,7 @@ use super::file::{BodyTable, ShapeTable, Solid};
 use super::source::Source;
 use super::source::Step::{self, Index, Key};
 use crate::math;
-use crate::scene::{Body, Pose, Shape, read_mesh};
+use crate::scene::{Body, LENGTH_MAX, Pose, Shape, read_mesh};
 use crate::space::canonical;
 use std::path::Path;
 
@@ -55,8 +55,9 @@ pub(super) fn bodies(
 }
 
 fn pose_of(table: &BodyTable) -> Result<Pose, (&'static str, String)> {
-    if table.position.iter().any(|value| !value.is_finite()) {
-        let message = format!("{:?} found; finite numbers expected", table.position);
+    // Written so that NaN fails it.
+    if !table.position.iter().all(|value| value.abs() <= LENGTH_MAX) {
+        let message = format!("{:?} found; finite lengths expected", table.position);
         return Err(("position", message));
     }
     let rotation = match (&table.orientation, &table.turn) {
@@ -93,7 +94,7 @@ fn rotation_about(axis: [f64; 3], degrees: f64) -> [f64; 4] {
 
 fn shape_of(source: &Source, table: &BodyTable) -> Result<Shape, String> {
     let length = |key: &str, value: f64| {
-        if value.is_finite() && value > 0.0 {
+        if value > 0.0 && value <= LENGTH_MAX {
             Ok(value)
         } else {
             Err(format!("{key} = {value} found; a positive length expected"))

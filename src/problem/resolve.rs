@@ -9,13 +9,15 @@ use super::source::Source;
 use super::source::Step::Key;
 use super::{DEFAULT_SEED, Problem};
 use crate::context::Ends;
-use crate::scene::Body;
+use crate::scene::{Body, LENGTH_MAX};
 use crate::space::Motion;
 use crate::validity::{Bounds, robot_radius};
 use std::path::Path;
 
 /// The finest resolution, as a fraction of the diagonal of the bounds.
 const FINEST: f64 = 1e-7;
+/// The farthest robot point, as a multiple of the same: with it a motion has at most 10¹⁵ steps.
+const RADIUS_MAX: f64 = 1e6;
 
 pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> {
     let source = Source::new(path, text)?;
@@ -86,7 +88,7 @@ fn bounds_of(source: &Source, file: &File) -> Result<Bounds, ProblemError> {
             return Err(source.error(&place, message));
         }
         for (axis, value) in values.iter().enumerate() {
-            if !value.is_finite() || value.abs() > 1e100 {
+            if value.abs() > LENGTH_MAX || value.is_nan() {
                 let message = format!("{value} found; a finite number expected");
                 return Err(source.error(&place, message));
             }
@@ -117,6 +119,14 @@ fn resolution_of(
         edge * edge
     };
     let diagonal = (0..axes).map(square).sum::<f64>().sqrt();
+    let radius = robot_radius(robot);
+    if radius > RADIUS_MAX * diagonal {
+        let message = format!(
+            "robot points {radius} away from its reference point found; at most {RADIUS_MAX:e} times \
+             the diagonal of the bounds expected"
+        );
+        return Err(source.error(&[Key("robot")], message));
+    }
     if let Some(resolution) = file.space.resolution {
         if !(resolution.is_finite() && resolution >= FINEST * diagonal) {
             let expected = format!("a length of at least {:e} expected", FINEST * diagonal);

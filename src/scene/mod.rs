@@ -20,6 +20,10 @@ pub use shape::Shape;
 
 use bincode::{Decode, Encode};
 
+/// The largest length or coordinate that a scene may have: far beyond any use, and small enough for
+/// its powers to stay finite.
+pub const LENGTH_MAX: f64 = 1e30;
+
 /// A shape at a pose: an obstacle in the world's frame, or a part of the robot in the robot's.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Body {

@@ -1,5 +1,5 @@
 use super::raw::MeshError;
-use super::{Mesh, obj, stl};
+use super::{LENGTH_MAX, Mesh, obj, stl};
 use std::path::Path;
 
 /// Reads a `.obj` or `.stl` file and multiplies its coordinates by `scale`.
@@ -21,6 +21,12 @@ pub fn read_mesh(path: &Path, scale: f64) -> Result<Mesh, MeshError> {
     let raw = read(path, &bytes)?;
     if raw.triangles.is_empty() {
         return Err(MeshError::whole(path, "no faces found; at least one triangle expected"));
+    }
+    let farthest = raw.vertices.iter().flatten().fold(0.0f64, |most, value| most.max(value.abs()));
+    if farthest * scale > LENGTH_MAX {
+        let message =
+            format!("coordinates up to {farthest:e} found; at most {LENGTH_MAX:e} expected");
+        return Err(MeshError::whole(path, message));
     }
     let found = raw.triangles.len();
     let mesh = Mesh::weld(raw, scale);

@@ -13,6 +13,7 @@ use roadmill::img::{
 };
 use roadmill::problem::Problem;
 use roadmill::roadmap::Roadmap;
+use roadmill_workers::channel::private_umask;
 use std::io::Write;
 use std::sync::Arc;
 
@@ -23,6 +24,8 @@ const LOOKAHEAD_PER_WORKER: u64 = 4;
 
 /// Grows a roadmap.
 pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
+    // Run folders and shared memory are their owner's business.
+    private_umask();
     let problem = problem(arguments)?;
     let workers = workers(arguments)?;
     // Listened to from here on, so that a signal never leaves half a folder unexplained.

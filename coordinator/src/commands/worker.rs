@@ -1,10 +1,11 @@
 use crate::cli::WorkerArguments;
 use crate::exit::{Code, Failure};
 use roadmill_workers::WorkerError;
-use roadmill_workers::channel::{ChannelError, WorkerId};
+use roadmill_workers::channel::{ChannelError, WorkerId, private_umask};
 
 /// Runs a worker process.
 pub fn worker(arguments: &WorkerArguments) -> Result<Code, Failure> {
+    private_umask();
     let arguments = roadmill_workers::WorkerArguments {
         directory: arguments.channel.clone(),
         worker: WorkerId(arguments.worker),

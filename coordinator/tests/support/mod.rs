@@ -4,7 +4,7 @@
 
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
-use std::cell::Cell;
+use std::cell::RefCell;
 use std::fs::{self, File};
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
@@ -71,13 +71,14 @@ pub fn wait_until(what: &str, mut is_true: impl FnMut() -> bool) {
 /// A folder in which the binary is run. When it is dropped the runs must have tidied up.
 pub struct Scratch {
     folder: TempDir,
-    started: Cell<usize>,
+    /// Process ids.
+    started: RefCell<Vec<u32>>,
 }
 
 impl Scratch {
     pub fn new() -> Scratch {
         let folder = tempfile::tempdir().expect("a folder can be made");
-        let scratch = Scratch { folder, started: Cell::new(0) };
+        let scratch = Scratch { folder, started: RefCell::default() };
         fs::create_dir(scratch.temporary()).expect("a folder can be made");
         scratch
     }
@@ -123,16 +124,17 @@ impl Scratch {
     }
 
     /// The same where no file may grow beyond this size: as a full disk does, the system refuses.
-    pub fn start_with_file_limit(&self, arguments: &[&str], kibibytes: u64) -> Running {
+    pub fn start_with_file_limit(&self, arguments: &[&str], blocks: u64) -> Running {
         let mut command = Command::new("sh");
         // The limit is in blocks of 512 or of 1024 bytes, as the shell likes.
-        let script = format!("trap '' XFSZ; ulimit -f {kibibytes} && exec \"$0\" \"$@\"");
+        let script = format!("trap '' XFSZ; ulimit -f {blocks} && exec \"$0\" \"$@\"");
         command.arg("-c").arg(script).arg(env!("CARGO_BIN_EXE_roadmill")).args(arguments);
         self.start_command(command, "")
     }
 
     fn start_command(&self, mut command: Command, faults: &str) -> Running {
-        let number = self.started.replace(self.started.get() + 1);
+        let mut started = self.started.borrow_mut();
+        let number = started.len();
         let [stdout, stderr] =
             ["stdout", "stderr"].map(|stream| self.path(&format!("{number}.{stream}")));
         let file = |path: &Path| Stdio::from(File::create(path).expect("a file can be made"));
@@ -148,6 +150,7 @@ impl Scratch {
             command.env("ROADMILL_FAULTS", faults);
         }
         let child = command.spawn().expect("the binary starts");
+        started.push(child.id());
         Running { child, stdout, stderr, temporary: self.temporary() }
     }
 
@@ -203,6 +206,12 @@ impl Drop for Scratch {
     fn drop(&mut self) {
         if !thread::panicking() {
             assert_eq!(self.temporary_files(), [] as [PathBuf; 0], "left in TMPDIR");
+        }
+        // A test that has failed leaves no shared memory behind either.
+        for pid in self.started.borrow().iter() {
+            for path in left_of(*pid, &self.temporary()) {
+                let _ = fs::remove_file(path);
+            }
         }
     }
 }
@@ -270,14 +279,9 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
-        if !matches!(self.child.try_wait(), Ok(Some(_))) {
-            // A test has failed. It leaves nothing behind either.
-            let _ = self.child.kill();
-            let _ = self.child.wait();
-            for path in left_of(self.pid(), &self.temporary) {
-                let _ = fs::remove_file(path);
-            }
-        }
+        // Both fail after `finish`, as they should.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 }
 
