@@ -17,6 +17,7 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Grow a roadmap until the problem's criteria are met
+    #[command(allow_negative_numbers = true)]
     Build(BuildArguments),
     /// Ask a roadmap for a path
     #[command(allow_negative_numbers = true)]

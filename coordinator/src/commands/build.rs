@@ -74,8 +74,13 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
             }
         };
         folder.begun()?;
-        let stop = drive(&mut core, &mut pool, &mut watch)?;
-        (stop, pool.close().map_err(Failure::system)?)
+        let stop = drive(&mut core, &mut pool, &mut watch);
+        // Also where the ledger cannot be written: the workers end before their channel does.
+        let (roadmap, closed) = pool.close();
+        if let Err(error) = closed {
+            eprintln!("{}: {error}; the next run tries again", watch.setup.problem.name);
+        }
+        (stop?, roadmap)
     };
     watch.reporter.finish();
     end(arguments, &folder, watch, &stop, &roadmap)

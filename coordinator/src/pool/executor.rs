@@ -109,15 +109,12 @@ impl Pool {
         Ok(pool)
     }
 
-    /// Ends the workers and removes every trace of the channel.
-    ///
-    /// # Errors
-    /// When a file could not be removed.
-    pub fn close(self) -> Result<Roadmap, PoolError> {
+    /// Ends the workers and removes every trace of the channel. The roadmap, and what could not be
+    /// removed: the next run will try again.
+    pub fn close(self) -> (Roadmap, Result<(), PoolError>) {
         drop(self.workers);
-        let roadmap = Arc::unwrap_or_clone(self.replica.roadmap().clone());
-        self.hub.close()?;
-        Ok(roadmap)
+        let closed = self.hub.close().map_err(PoolError::from);
+        (Arc::unwrap_or_clone(self.replica.roadmap().clone()), closed)
     }
 
     fn hire(&mut self) -> std::io::Result<()> {
