@@ -14,8 +14,10 @@ mod serial;
 mod simulated;
 mod threads;
 
-pub use self::core::{Command, Core, Cut, Event, Judgement, Progress, Round, RoundSet, Stop};
-pub use drive::{Executor, Observer, drive};
+pub use self::core::{
+    Command, Core, Cut, Event, Judgement, LOSSES_MAX, Progress, Round, RoundSet, Stop,
+};
+pub use drive::{Executor, Observer, TICK, drive};
 pub use job::{Finished, Job, Joined, Outcome, Task};
 pub use plan::Plan;
 pub use replica::Replica;
