@@ -42,6 +42,7 @@ pub mod neighbor;
 pub mod problem;
 pub mod query;
 pub mod roadmap;
+pub mod robot;
 pub mod sampler;
 pub mod scene;
 pub mod seed;

@@ -3,10 +3,9 @@
 use super::drawing::{Drawing, INK, PAPER, STONE, WARM, WAY, blend};
 use super::solid::{Solid, solids};
 use super::union::join;
-use crate::math;
 use crate::query;
 use crate::scene::{Body, Pose};
-use crate::space::{Motion, Space};
+use crate::space::Space;
 use std::fmt::Write;
 
 /// Poses of the robot drawn along a path, both ends included.
@@ -15,21 +14,6 @@ const POSES: usize = 18;
 const STEPS: usize = 32;
 /// Pieces that a path is cut into so that walls can hide parts of it.
 const CUTS: usize = 160;
-
-/// The robot's frame in the world's.
-pub(super) fn pose_of(motion: Motion, q: &[f64]) -> Pose {
-    let translation = reference_point(motion, q);
-    let rotation = match motion {
-        Motion::Translation2d | Motion::Translation3d => Pose::IDENTITY.rotation,
-        Motion::Rigid2d => [math::cos(q[2] / 2.0), 0.0, 0.0, math::sin(q[2] / 2.0)],
-        Motion::Rigid3d => [q[3], q[4], q[5], q[6]],
-    };
-    Pose { translation, rotation }
-}
-
-pub(super) fn reference_point(motion: Motion, q: &[f64]) -> [f64; 3] {
-    [q[0], q[1], if motion.translations() == 3 { q[2] } else { 0.0 }]
-}
 
 /// The configurations at these fractions of a path's length, ascending from 0 to 1.
 fn along(space: &Space, path: &query::Path, fractions: &[f64]) -> Vec<Vec<f64>> {
@@ -56,16 +40,16 @@ fn along(space: &Space, path: &query::Path, fractions: &[f64]) -> Vec<Vec<f64>> 
 
 impl Drawing<'_> {
     pub(super) fn obstacles(&mut self) {
-        for solid in self.stand(&self.problem.obstacles, &Pose::IDENTITY) {
+        for solid in self.stand(&self.problem.obstacles) {
             let text = self.obstacle(&solid);
             self.put(format_args!("{text}"));
         }
     }
 
     /// Bodies whose owner stands at a pose; boxes that touch become one.
-    pub(super) fn stand(&self, bodies: &[Body], pose: &Pose) -> Vec<Solid> {
+    pub(super) fn stand(&self, bodies: &[Body]) -> Vec<Solid> {
         let mut standing: Vec<Solid> =
-            bodies.iter().flat_map(|body| solids(body, pose, &self.view)).collect();
+            bodies.iter().flat_map(|body| solids(body, &Pose::IDENTITY, &self.view)).collect();
         join(&mut standing);
         standing
     }
@@ -116,23 +100,22 @@ impl Drawing<'_> {
     }
 
     /// The robot at poses along the path, or at the query's ends where there is no path.
-    fn poses(&self, path: Option<&query::Path>) -> Vec<(f64, Pose)> {
-        let motion = self.problem.motion;
+    fn poses(&self, path: Option<&query::Path>) -> Vec<(f64, Vec<f64>)> {
         match (path, &self.problem.query) {
             (Some(path), _) => {
                 let fractions: Vec<f64> =
                     (0..POSES).map(|i| i as f64 / (POSES - 1) as f64).collect();
                 let configs = along(&self.problem.space(), path, &fractions);
-                fractions.iter().zip(&configs).map(|(f, q)| (*f, pose_of(motion, q))).collect()
+                fractions.into_iter().zip(configs).collect()
             }
             (None, Some(ends)) => {
-                vec![(0.0, pose_of(motion, &ends.start)), (1.0, pose_of(motion, &ends.goal))]
+                vec![(0.0, ends.start.clone()), (1.0, ends.goal.clone())]
             }
             (None, None) => Vec::new(),
         }
     }
 
-    fn robot(&self, share: f64, pose: &Pose) -> Vec<(Solid, String)> {
+    fn robot(&self, share: f64, q: &[f64]) -> Vec<(Solid, String)> {
         let full = blend(WARM, share);
         let tone = [0, 1, 2].map(|i| WARM[0][i] + (WARM[1][i] - WARM[0][i]) * share);
         let shades =
@@ -145,7 +128,7 @@ impl Drawing<'_> {
             (false, false) => ("0.5", "0.8"),
         };
         let stroke = if ends { INK } else { &full };
-        let parts = self.stand(&self.problem.robot, pose);
+        let parts = self.stand(&self.problem.robot.bodies_at(q));
         parts
             .into_iter()
             .map(|solid| {
@@ -158,14 +141,13 @@ impl Drawing<'_> {
 
     /// The path of a planar problem: poses, then the line on top.
     pub(super) fn journey(&mut self, path: Option<&query::Path>) {
-        for (share, pose) in self.poses(path) {
-            for (_, text) in self.robot(share, &pose) {
+        for (share, q) in self.poses(path) {
+            for (_, text) in self.robot(share, &q) {
                 self.put(format_args!("{text}"));
             }
         }
         let Some(path) = path else { return };
-        let motion = self.problem.motion;
-        let line = self.line(path.configs.iter().map(|q| reference_point(motion, q)));
+        let line = self.line(path.configs.iter().map(|q| self.problem.robot.marker(q)));
         for (class, colour, width) in [("casing", PAPER, "6.5"), ("way", WAY, "3.2")] {
             self.put(format_args!(
                 "<path class=\"{class}\" d=\"{line}\" fill=\"none\" stroke=\"{colour}\" \
@@ -176,22 +158,21 @@ impl Drawing<'_> {
 
     /// Obstacles, poses and the path of a 3D problem, what is hidden first.
     pub(super) fn solids_and_journey(&mut self, path: Option<&query::Path>) {
-        let motion = self.problem.motion;
         let mut items: Vec<(Solid, String)> = Vec::new();
         // The whole path, faint, on top of what hides it.
         let mut through = String::new();
-        for solid in self.stand(&self.problem.obstacles, &Pose::IDENTITY) {
+        for solid in self.stand(&self.problem.obstacles) {
             let text = self.obstacle(&solid);
             items.push((solid, text));
         }
-        for (share, pose) in self.poses(path) {
-            items.extend(self.robot(share, &pose));
+        for (share, q) in self.poses(path) {
+            items.extend(self.robot(share, &q));
         }
         if let Some(path) = path {
             let fractions: Vec<f64> = (0..=CUTS).map(|i| i as f64 / CUTS as f64).collect();
             let way: Vec<[f64; 3]> = along(&self.problem.space(), path, &fractions)
                 .iter()
-                .map(|q| reference_point(motion, q))
+                .map(|q| self.problem.robot.marker(q))
                 .collect();
             // Its shadow on the floor tells how far away it is.
             let floor = self.problem.bounds.min[2];

@@ -1,9 +1,9 @@
 use super::drawing::{Drawing, FLOOR, INK, PAPER, RULE, WARM, blend, decimal};
-use super::journey::{pose_of, reference_point};
 use super::view::{MARGIN_PX, View};
 use crate::problem::Problem;
 use crate::query;
 use crate::roadmap::Roadmap;
+use crate::scene::Pose;
 use crate::validity::BoundsMeaning;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -30,7 +30,7 @@ const OTHERS: [&str; 8] =
 /// what is nearer to the eye covers what it hides. Meshes of more than 4000 triangles are drawn as
 /// their convex outline.
 pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> String {
-    let planar = problem.motion.translations() == 2;
+    let planar = problem.robot.motion.bounded_axes() == 2;
     let view = View::new(planar, &points_to_hold(problem, path));
     let mut drawing = Drawing { problem, view, planar, out: String::new() };
     drawing.head();
@@ -53,15 +53,14 @@ pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> 
 fn points_to_hold(problem: &Problem, path: Option<&query::Path>) -> Vec<[f64; 3]> {
     let mut points = bounds_corners(problem).to_vec();
     if problem.bounds.meaning == BoundsMeaning::Reference {
-        let axes = problem.motion.translations();
+        let axes = problem.robot.motion.bounded_axes();
         let ends = problem.query.iter().flat_map(|ends| [&ends.start[..], &ends.goal[..]]);
         for q in ends.chain(path.iter().flat_map(|path| path.configs.iter())) {
-            let pose = pose_of(problem.motion, q);
-            for body in &problem.robot {
-                let reach = body.shape.reach(&body.pose);
+            for body in problem.robot.bodies_at(q) {
+                let reach = body.shape.reach(&Pose::IDENTITY);
                 for axis in 0..axes {
                     for side in [-reach, reach] {
-                        let mut point = pose.translation;
+                        let mut point = body.pose.translation;
                         point[axis] += side;
                         points.push(point);
                     }
@@ -76,7 +75,7 @@ fn points_to_hold(problem: &Problem, path: Option<&query::Path>) -> Vec<[f64; 3]
 /// z = 0.
 fn bounds_corners(problem: &Problem) -> [[f64; 3]; 8] {
     let bounds = &problem.bounds;
-    let axes = problem.motion.translations();
+    let axes = problem.robot.motion.bounded_axes();
     [0, 1, 2, 3, 4, 5, 6, 7].map(|i: usize| {
         [0, 1, 2].map(|axis| match (axis < axes, i >> axis & 1) {
             (false, _) => 0.0,
@@ -157,8 +156,7 @@ impl Drawing<'_> {
             }
             drawn.insert(node);
         }
-        let motion = self.problem.motion;
-        let place = |node: u32| reference_point(motion, roadmap.configs().get(node as usize));
+        let place = |node: u32| self.problem.robot.marker(roadmap.configs().get(node as usize));
         let mut layers = vec![(String::new(), String::new()); ranked.len()];
         let rank_of = |node: u32| {
             let component = components.of_node(node);
@@ -200,8 +198,8 @@ impl Drawing<'_> {
             return;
         };
         for (name, q, share) in [("start", &ends.start, 0.0), ("goal", &ends.goal, 1.0)] {
-            let [x, y] = self.view.px(reference_point(self.problem.motion, q));
-            let standing = self.stand(&self.problem.robot, &pose_of(self.problem.motion, q));
+            let [x, y] = self.view.px(self.problem.robot.marker(q));
+            let standing = self.stand(&self.problem.robot.bodies_at(q));
             let points = standing.iter().flat_map(|solid| &solid.points);
             let top = points.map(|point| self.view.px(*point)[1]).fold(y - 6.0, f64::min);
             let (x, y, above) = (decimal(x), decimal(y), decimal(top - 8.0));

@@ -1,10 +1,11 @@
 //! The robot's bodies and the obstacles.
 
 use super::error::ProblemError;
-use super::file::{BodyTable, ShapeTable, Solid};
+use super::file::{BodyTable, ShapeTable, Solid, TurnTable};
 use super::source::Source;
 use super::source::Step::{self, Index, Key};
 use crate::math;
+use crate::robot::Robot;
 use crate::scene::{Body, LENGTH_MAX, Pose, Shape, read_mesh};
 use crate::space::canonical;
 use std::path::Path;
@@ -19,7 +20,8 @@ pub(super) fn bodies(
     let mut bodies = Vec::new();
     for (index, table) in tables.iter().enumerate() {
         let at = |key| [place, &[Index(index), Key(key)]].concat();
-        let pose = pose_of(table).map_err(|(key, message)| source.error(&at(key), message))?;
+        let frame = (&table.position, &table.orientation, &table.turn);
+        let pose = pose_of(frame).map_err(|(key, message)| source.error(&at(key), message))?;
         let shape =
             shape_of(source, table).map_err(|message| source.error(&at("shape"), message))?;
         let solid = match (&shape, table.solid) {
@@ -54,13 +56,19 @@ pub(super) fn bodies(
     Ok(bodies)
 }
 
-fn pose_of(table: &BodyTable) -> Result<Pose, (&'static str, String)> {
+/// A frame as a file writes it: position, and orientation or turn.
+type Frame<'a> = (&'a [f64; 3], &'a Option<[f64; 4]>, &'a Option<TurnTable>);
+
+/// Reads a frame, or says which key is wrong and how.
+pub(super) fn pose_of(
+    (position, orientation, turn): Frame,
+) -> Result<Pose, (&'static str, String)> {
     // Written so that NaN fails it.
-    if !table.position.iter().all(|value| value.abs() <= LENGTH_MAX) {
-        let message = format!("{:?} found; finite lengths expected", table.position);
+    if !position.iter().all(|value| value.abs() <= LENGTH_MAX) {
+        let message = format!("{position:?} found; finite lengths expected");
         return Err(("position", message));
     }
-    let rotation = match (&table.orientation, &table.turn) {
+    let rotation = match (orientation, turn) {
         (Some(_), Some(_)) => {
             return Err(("turn", "given beside orientation; one of the two expected".to_owned()));
         }
@@ -69,19 +77,22 @@ fn pose_of(table: &BodyTable) -> Result<Pose, (&'static str, String)> {
             ("orientation", format!("{quaternion:?} found; {expected}"))
         })?,
         (None, Some(turn)) => {
-            let [x, y, z] = turn.axis;
-            let length = (x * x + y * y + z * z).sqrt();
-            if !(length.is_finite() && length > 1e-100 && turn.degrees.is_finite()) {
+            let axis = unit(turn.axis).filter(|_| turn.degrees.is_finite());
+            let axis = axis.ok_or_else(|| {
                 let expected = "an axis other than zero and finite degrees expected";
-                let message =
-                    format!("axis {:?} by {}° found; {expected}", turn.axis, turn.degrees);
-                return Err(("turn", message));
-            }
-            rotation_about(turn.axis.map(|value| value / length), turn.degrees)
+                ("turn", format!("axis {:?} by {}° found; {expected}", turn.axis, turn.degrees))
+            })?;
+            rotation_about(axis, turn.degrees)
         }
         (None, None) => Pose::IDENTITY.rotation,
     };
-    Ok(Pose { translation: table.position, rotation })
+    Ok(Pose { translation: *position, rotation })
+}
+
+/// The vector at unit length, if it has a direction.
+pub(super) fn unit([x, y, z]: [f64; 3]) -> Option<[f64; 3]> {
+    let length = (x * x + y * y + z * z).sqrt();
+    (length.is_finite() && length > 1e-100).then(|| [x / length, y / length, z / length])
 }
 
 /// The rotation by `degrees` about a unit axis.
@@ -126,22 +137,22 @@ fn shape_of(source: &Source, table: &BodyTable) -> Result<Shape, String> {
     })
 }
 
-/// Checks the bodies against one another.
+/// Checks the robot and the obstacles against one another.
 pub(super) fn check_bodies(
     source: &Source,
-    robot: &[Body],
+    robot: &Robot,
     obstacles: &[Body],
 ) -> Result<(), ProblemError> {
-    let place = [Key("robot"), Key("bodies")];
-    if robot.is_empty() {
-        return Err(source.error(&place, "[] found; at least one body expected".to_owned()));
+    if robot.bodies().next().is_none() {
+        let message = "no bodies found; at least one expected".to_owned();
+        return Err(source.error(&[Key("robot"), Key("bodies")], message));
     }
     if let Some(index) = obstacles.iter().position(|body| body.shape == Shape::Point) {
         let message = "a point cannot be an obstacle; a shape with an extent expected";
         let place = [Key("obstacles"), Index(index), Key("shape")];
         return Err(source.error(&place, message.to_owned()));
     }
-    let pointlike = robot.iter().any(|body| body.shape == Shape::Point);
+    let pointlike = robot.bodies().any(|body| body.shape == Shape::Point);
     if pointlike && let Some(index) = obstacles.iter().position(|body| !body.solid) {
         let message = "a point robot never touches a surface without inside at the configurations \
                        that are checked; a solid obstacle or a robot with an extent expected";

@@ -1,5 +1,5 @@
 use super::Problem;
-use crate::scene::Shape;
+use crate::scene::{Body, Shape};
 use crate::validity::BoundsMeaning;
 use std::fmt::Write;
 
@@ -22,7 +22,7 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     };
     writeln!(out, "                 the pose of the robot's frame in the world's{turns}")?;
     writeln!(out, "                 lengths in the unit of the file")?;
-    let axes = problem.motion.translations();
+    let axes = problem.robot.motion.bounded_axes();
     let meaning = match bounds.meaning {
         BoundsMeaning::Body => "hold every robot point and the reference point",
         BoundsMeaning::Reference => "hold the reference point, the origin of the robot's frame",
@@ -38,14 +38,15 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         "resolution       {}: no robot point moves farther between two checks",
         problem.resolution
     )?;
-    if problem.motion.rotates() {
+    if problem.robot.motion.rotates() {
         writeln!(
             out,
             "rotation_length  {}: what a radian counts for in the metric",
             problem.rotation_length
         )?;
     }
-    for (what, bodies) in [("robot", &problem.robot), ("obstacles", &problem.obstacles)] {
+    let robot: Vec<Body> = problem.robot.bodies().cloned().collect();
+    for (what, bodies) in [("robot", &robot), ("obstacles", &problem.obstacles)] {
         let triangles: usize = bodies
             .iter()
             .map(|body| if let Shape::Mesh(mesh) = &body.shape { mesh.triangles.len() } else { 0 })

@@ -41,7 +41,51 @@ pub(super) struct SpaceTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RobotTable {
+    #[serde(default)]
     pub bodies: Vec<BodyTable>,
+    pub base: Option<FrameTable>,
+    #[serde(default)]
+    pub links: Vec<LinkTable>,
+    #[serde(default)]
+    pub may_touch: Vec<[String; 2]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LinkTable {
+    pub name: String,
+    #[serde(default)]
+    pub bodies: Vec<BodyTable>,
+    pub joint: JointTable,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct JointTable {
+    pub name: Option<String>,
+    pub parent: Option<String>,
+    pub kind: JointKindTable,
+    #[serde(default)]
+    pub before: FrameTable,
+    #[serde(default)]
+    pub after: FrameTable,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub(super) enum JointKindTable {
+    Fixed {},
+    Revolute { axis: [f64; 3], degrees: Option<[f64; 2]> },
+    Prismatic { axis: [f64; 3], range: [f64; 2] },
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FrameTable {
+    #[serde(default)]
+    pub position: [f64; 3],
+    pub orientation: Option<[f64; 4]>,
+    pub turn: Option<TurnTable>,
 }
 
 #[derive(Deserialize)]

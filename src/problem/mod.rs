@@ -8,6 +8,7 @@ mod configuration;
 mod describe;
 mod error;
 mod file;
+mod linkage;
 mod resolve;
 mod source;
 
@@ -17,10 +18,11 @@ pub use error::ProblemError;
 use crate::context::{Context, Ends};
 use crate::evaluate::EvaluatorKind;
 use crate::roadmap::Digest;
+use crate::robot::Robot;
 use crate::scene::Body;
-use crate::space::{Motion, Space, rigid_space};
+use crate::space::Space;
 use crate::strategy::Strategy;
-use crate::validity::{Bounds, RigidValidity};
+use crate::validity::{BodyValidity, Bounds};
 use bincode::{Decode, Encode};
 use std::path::Path;
 
@@ -35,16 +37,14 @@ pub struct Problem {
     pub name: String,
     /// The base seed.
     pub seed: u64,
-    /// How the robot moves.
-    pub motion: Motion,
     /// The box that holds it.
     pub bounds: Bounds,
     /// The farthest that any robot point moves between two checks of a motion; a length.
     pub resolution: f64,
     /// Length that one radian of rotation counts for in the metric.
     pub rotation_length: f64,
-    /// The robot's bodies in its own frame.
-    pub robot: Vec<Body>,
+    /// The robot.
+    pub robot: Robot,
     /// The obstacles in the world's frame.
     pub obstacles: Vec<Body>,
     /// Start and goal.
@@ -100,7 +100,7 @@ impl Problem {
     pub fn digest(&self) -> Digest {
         let determining = (
             crate::BITS_VERSION,
-            (self.seed, self.motion, self.bounds),
+            (self.seed, self.bounds),
             (self.resolution, self.rotation_length),
             (&self.robot, &self.obstacles),
             (&self.strategies, &self.schedule, self.sets_per_round),
@@ -111,18 +111,17 @@ impl Problem {
     /// The configuration space.
     pub fn space(&self) -> Space {
         let Bounds { min, max, .. } = self.bounds;
-        rigid_space(self.motion, min, max, self.rotation_length)
+        self.robot.space(min, max, self.rotation_length)
     }
 
     /// Makes the problem ready for work.
     pub fn context(&self) -> Context {
         let space = self.space();
-        let validity = RigidValidity::new(
+        let validity = BodyValidity::new(
             space.clone(),
-            self.motion,
+            &self.robot,
             self.bounds,
             self.resolution,
-            &self.robot,
             &self.obstacles,
         );
         Context {

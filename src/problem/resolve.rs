@@ -5,13 +5,15 @@ use super::building::{evaluators_of, limits_of, strategies_of};
 use super::configuration::settle;
 use super::error::ProblemError;
 use super::file::{File, QueryTable};
+use super::linkage::robot_of;
 use super::source::Source;
 use super::source::Step::Key;
 use super::{DEFAULT_SEED, Problem};
 use crate::context::Ends;
+use crate::robot::Robot;
 use crate::scene::{Body, LENGTH_MAX};
 use crate::space::Motion;
-use crate::validity::{Bounds, robot_radius};
+use crate::validity::Bounds;
 use std::path::Path;
 
 /// The finest resolution, as a fraction of the diagonal of the bounds.
@@ -26,10 +28,9 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
 
     let name = name_of(&source, &file)?;
     let bounds = bounds_of(&source, &file)?;
-    let robot = bodies(&source, &[Key("robot"), Key("bodies")], &file.robot.bodies, &mut notes)?;
+    let robot = robot_of(&source, &file.robot, file.space.motion, &mut notes)?;
     let obstacles = bodies(&source, &[Key("obstacles")], &file.obstacles, &mut notes)?;
     check_bodies(&source, &robot, &obstacles)?;
-    let motion = file.space.motion;
     let resolution = resolution_of(&source, &file, &bounds, &robot, &mut notes)?;
     let rotation_length = rotation_length_of(&source, &file, &robot, &mut notes)?;
     let (strategies, schedule, sets_per_round) = strategies_of(&source, &file)?;
@@ -40,7 +41,6 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
     let problem = Problem {
         name,
         seed,
-        motion,
         bounds,
         resolution,
         rotation_length,
@@ -77,7 +77,7 @@ fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {
 }
 
 fn bounds_of(source: &Source, file: &File) -> Result<Bounds, ProblemError> {
-    let axes = file.space.motion.translations();
+    let axes = file.space.motion.bounded_axes();
     let mut box_of = [[0.0; 3]; 2];
     for (corner, (key, values)) in
         box_of.iter_mut().zip([("min", &file.space.min), ("max", &file.space.max)])
@@ -110,16 +110,16 @@ fn resolution_of(
     source: &Source,
     file: &File,
     bounds: &Bounds,
-    robot: &[Body],
+    robot: &Robot,
     notes: &mut Vec<String>,
 ) -> Result<f64, ProblemError> {
-    let axes = file.space.motion.translations();
+    let axes = file.space.motion.bounded_axes();
     let square = |axis: usize| {
         let edge = bounds.max[axis] - bounds.min[axis];
         edge * edge
     };
     let diagonal = (0..axes).map(square).sum::<f64>().sqrt();
-    let radius = robot_radius(robot);
+    let radius = robot.reach();
     if radius > RADIUS_MAX * diagonal {
         let message = format!(
             "robot points {radius} away from its reference point found; at most {RADIUS_MAX:e} times \
@@ -136,7 +136,7 @@ fn resolution_of(
         return Ok(resolution);
     }
     // Fine enough for the scene as a whole and for the thinnest part of the robot.
-    let thinnest = robot.iter().map(thickness).fold(f64::INFINITY, f64::min);
+    let thinnest = robot.bodies().map(thickness).fold(f64::INFINITY, f64::min);
     let mut resolution = diagonal / 200.0;
     let mut reason = "a 200th of the diagonal of the bounds";
     if thinnest > 0.0 && thinnest / 2.0 < resolution {
@@ -157,7 +157,7 @@ fn thickness(body: &Body) -> f64 {
 fn rotation_length_of(
     source: &Source,
     file: &File,
-    robot: &[Body],
+    robot: &Robot,
     notes: &mut Vec<String>,
 ) -> Result<f64, ProblemError> {
     let place = [Key("space"), Key("rotation_length")];
@@ -167,7 +167,7 @@ fn rotation_length_of(
             Err(source.error(&place, format!("{length} found; a length of at least 0 expected")))
         }
         None => {
-            let radius = robot_radius(robot);
+            let radius = robot.reach();
             if matches!(file.space.motion, Motion::Rigid2d | Motion::Rigid3d) {
                 notes.push(format!(
                     "rotation_length = {radius}, the farthest robot point from the reference point"

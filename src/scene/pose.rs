@@ -14,6 +14,13 @@ impl Pose {
     /// The motion that moves nothing.
     pub const IDENTITY: Pose = Pose { translation: [0.0; 3], rotation: [1.0, 0.0, 0.0, 0.0] };
 
+    /// This motion after `other`: `p ↦ self(other(p))`.
+    pub fn then(&self, other: &Pose) -> Pose {
+        let both = self.to_parry() * other.to_parry();
+        let [x, y, z, w] = both.rotation.to_array();
+        Pose { translation: both.translation.to_array(), rotation: [w, x, y, z] }
+    }
+
     /// Where the motion takes a point.
     pub fn apply(&self, point: [f64; 3]) -> [f64; 3] {
         self.to_parry().transform_point(parry::Vector::from_array(point)).to_array()

@@ -10,7 +10,7 @@ mod quaternion;
 mod rigid;
 
 pub use quaternion::{canonical, slerp, uniform_rotation};
-pub use rigid::{Motion, rigid_space};
+pub use rigid::{Motion, rigid_parts, rigid_space};
 
 use crate::math;
 use crate::seed::Stream;

@@ -1,11 +1,11 @@
 //! What makes a configuration and a motion valid.
 
+mod bodies;
 mod inside;
-mod rigid;
+mod piece;
 mod scratch;
 
-pub(crate) use rigid::robot_radius;
-pub use rigid::{Bounds, BoundsMeaning, RigidValidity};
+pub use bodies::{BodyValidity, Bounds, BoundsMeaning};
 pub use scratch::{Asked, Scratch};
 
 /// Decides which configurations and motions are valid.

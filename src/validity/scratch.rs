@@ -1,3 +1,4 @@
+use crate::scene::Pose;
 use bincode::{Decode, Encode};
 
 /// What was asked of validity checking, counted where it is asked for: a measure of cost that is
@@ -17,13 +18,24 @@ impl std::ops::AddAssign for Asked {
     }
 }
 
+/// A collision.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Hit {
+    /// Of a piece of the robot with an obstacle.
+    Obstacle { piece: usize, obstacle: usize },
+    /// Of two pieces of the robot.
+    Own { pair: usize },
+}
+
 /// Working memory of one thread: buffers, counters, and what blocked last.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     /// What was asked through this scratch since [`Scratch::take_asked`].
     pub(crate) asked: Asked,
-    /// The pair (robot body, obstacle) that collided last, tried first the next time.
-    pub(crate) last_hit: Option<(usize, usize)>,
+    /// What collided last, tried first the next time.
+    pub(super) last_hit: Option<Hit>,
+    /// Where the links stand.
+    pub(super) poses: Vec<Pose>,
     /// A configuration between two others.
     pub(crate) between: Vec<f64>,
 }
@@ -44,9 +56,15 @@ impl Scratch {
     pub fn poison(&mut self, rubbish: u64) {
         self.last_hit = match rubbish % 4 {
             0 => None,
-            1 => Some((usize::MAX, usize::MAX)),
-            _ => Some((rubbish as usize / 4 % 2, rubbish as usize / 8 % 16)),
+            1 => Some(Hit::Obstacle { piece: usize::MAX, obstacle: usize::MAX }),
+            2 => Some(Hit::Own { pair: rubbish as usize / 8 % 16 }),
+            _ => Some(Hit::Obstacle {
+                piece: rubbish as usize / 4 % 2,
+                obstacle: rubbish as usize / 8 % 16,
+            }),
         };
+        let nowhere = Pose { translation: [f64::NAN; 3], rotation: [0.0; 4] };
+        self.poses = vec![nowhere; rubbish as usize % 5];
         self.between = vec![f64::NAN; rubbish as usize % 13];
     }
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::robot::{Joint, JointKind, Limits, Link, Robot};
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::seed::{Purpose, Seed};
 use crate::space::{Motion, Space, rigid_space};
@@ -32,14 +33,20 @@ fn validity(
     meaning: BoundsMeaning,
     robot: &[Body],
     obstacles: &[Body],
-) -> (Space, RigidValidity) {
+) -> (Space, BodyValidity) {
     let bounds = Bounds { min: [-5.0; 3], max: [5.0; 3], meaning };
     let space = rigid_space(motion, bounds.min, bounds.max, 1.0);
-    let validity = RigidValidity::new(space.clone(), motion, bounds, 0.05, robot, obstacles);
+    let validity = BodyValidity::new(
+        space.clone(),
+        &Robot::rigid(motion, robot.to_vec()),
+        bounds,
+        0.05,
+        obstacles,
+    );
     (space, validity)
 }
 
-fn valid(validity: &RigidValidity, q: &[f64]) -> bool {
+fn valid(validity: &BodyValidity, q: &[f64]) -> bool {
     validity.valid(q, &mut Scratch::new())
 }
 
@@ -186,6 +193,95 @@ fn steps_keep_the_promise_of_the_resolution() {
                 assert!(moved.sqrt() <= 0.05 * (1.0 + 1e-9));
             }
             before = Some(end);
+        }
+    }
+}
+
+/// A chain in the plane: links of length 1 along x, each turning about z at its near end.
+fn chain(links: usize, motion: Motion) -> Robot {
+    let rod = || cuboid([0.9, 0.1, 0.1], [0.5, 0.0, 0.0]);
+    let mut robot = Robot::rigid(motion, vec![rod()]);
+    for i in 1..links {
+        let limits = Some(Limits { min: -3.0, max: 3.0 });
+        robot.links.push(Link {
+            name: format!("link {i}"),
+            bodies: vec![rod()],
+            joint: Some(Joint {
+                name: format!("joint {i}"),
+                parent: i as u32 - 1,
+                kind: JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits },
+                before: Pose { translation: [1.0, 0.0, 0.0], ..Pose::IDENTITY },
+                after: Pose::IDENTITY,
+            }),
+        });
+    }
+    robot
+}
+
+#[test]
+fn links_that_are_not_neighbours_must_not_touch_unless_they_may() {
+    let bounds = Bounds { min: [-9.0; 3], max: [9.0; 3], meaning: BoundsMeaning::Body };
+    let mut robot = chain(4, Motion::Fixed);
+    assert_eq!(robot.self_pairs(), [(0, 2), (0, 3), (1, 3)]);
+    // Turns of 2π/3 close a triangle: the fourth link comes to lie on the first.
+    let turn = 2.0 * std::f64::consts::FRAC_PI_3;
+    let straight = [0.0, 0.0, 0.0];
+    let closed = [turn, turn, turn];
+    let space = robot.space(bounds.min, bounds.max, 1.0);
+    let validity = BodyValidity::new(space.clone(), &robot, bounds, 0.05, &[]);
+    assert!(valid(&validity, &straight));
+    assert!(!valid(&validity, &closed));
+    assert!(!validity.motion(&straight, &[2.9, 2.9, 2.9], 1, &mut Scratch::new()));
+    robot.may_touch = vec![(0, 2), (0, 3), (1, 3)];
+    let validity = BodyValidity::new(space, &robot, bounds, 0.05, &[]);
+    assert!(valid(&validity, &closed));
+}
+
+#[test]
+fn a_linkage_collides_with_obstacles_and_leaves_the_bounds_by_any_link() {
+    let robot = chain(3, Motion::Fixed);
+    let bounds = Bounds { min: [-4.0, -1.5, -1.0], max: [4.0; 3], meaning: BoundsMeaning::Body };
+    let space = robot.space(bounds.min, bounds.max, 1.0);
+    let obstacle = [cuboid([0.5; 3], [2.5, 0.0, 0.0])];
+    let validity = BodyValidity::new(space, &robot, bounds, 0.05, &obstacle);
+    assert!(!valid(&validity, &[0.0, 0.0]), "the last link lies in the obstacle");
+    assert!(valid(&validity, &[0.0, 1.5]));
+    assert!(valid(&validity, &[1.0, 0.0]));
+    assert!(valid(&validity, &[0.0, -1.5]), "inside by a little");
+    assert!(!valid(&validity, &[-1.5, 0.0]), "the last link is out of bounds");
+}
+
+proptest! {
+    /// The law of the resolution holds for linkages: no vertex of any link moves farther than the
+    /// resolution between two checks.
+    #[test]
+    fn steps_of_linkages_keep_the_promise_of_the_resolution(ordinal in any::<u64>()) {
+        for motion in [Motion::Fixed, Motion::Rigid2d, Motion::Rigid3d] {
+            let robot = chain(4, motion);
+            let bounds = Bounds { min: [-9.0; 3], max: [9.0; 3], meaning: BoundsMeaning::Reference };
+            let space = robot.space(bounds.min, bounds.max, 1.0);
+            let validity = BodyValidity::new(space.clone(), &robot, bounds, 0.3, &[]);
+            let mut stream = Seed::of_set(5, "linkage steps", ordinal).stream(Purpose::Sampling);
+            let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);
+            let mut q = a.clone();
+            space.sample_uniform(&mut stream, &mut a);
+            space.sample_uniform(&mut stream, &mut b);
+            let steps = validity.steps(&a, &b, 1);
+            let ends = |q: &[f64]| -> Vec<[f64; 3]> {
+                robot.bodies_at(q).iter().flat_map(|body| {
+                    [-0.45, 0.45].map(|x| body.pose.apply([x, 0.05, 0.05]))
+                }).collect()
+            };
+            let mut before = ends(&a);
+            for i in 1..=steps {
+                space.interpolate(&a, &b, i as f64 / steps as f64, &mut q);
+                let now = ends(&q);
+                for (p, r) in before.iter().zip(&now) {
+                    let moved: f64 = (0..3).map(|k| (p[k] - r[k]) * (p[k] - r[k])).sum();
+                    prop_assert!(moved.sqrt() <= 0.3 * (1.0 + 1e-9));
+                }
+                before = now;
+            }
         }
     }
 }

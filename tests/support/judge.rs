@@ -50,7 +50,7 @@ impl<'a> Judge<'a> {
                 })
                 .collect()
         };
-        let robot = parts(&problem.robot);
+        let robot = parts(&problem.robot.links[0].bodies);
         let lengths = robot.iter().flat_map(|part| &part.vertices).map(|v| dot(*v, *v).sqrt());
         let reach = lengths.fold(0.0, f64::max);
         Judge { problem, obstacles: parts(&problem.obstacles), robot, reach }
@@ -94,7 +94,8 @@ impl<'a> Judge<'a> {
     }
 
     fn translations(&self) -> usize {
-        match self.problem.motion {
+        match self.problem.robot.motion {
+            Motion::Fixed => unreachable!("only rigid bodies are judged"),
             Motion::Translation2d | Motion::Rigid2d => 2,
             Motion::Translation3d | Motion::Rigid3d => 3,
         }
@@ -104,7 +105,8 @@ impl<'a> Judge<'a> {
     fn change(&self, a: &[f64], b: &[f64]) -> (f64, f64) {
         let axes = self.translations();
         let shift = (0..axes).map(|i| (b[i] - a[i]) * (b[i] - a[i])).sum::<f64>().sqrt();
-        let angle = match self.problem.motion {
+        let angle = match self.problem.robot.motion {
+            Motion::Fixed => unreachable!("only rigid bodies are judged"),
             Motion::Translation2d | Motion::Translation3d => 0.0,
             Motion::Rigid2d => shortest_turn(a[2], b[2]).abs(),
             // From the chord rather than the arc cosine: |a − b| = 2 sin(angle / 4).
@@ -121,7 +123,8 @@ impl<'a> Judge<'a> {
     fn between(&self, a: &[f64], b: &[f64], t: f64) -> Vec<f64> {
         let axes = self.translations();
         let mut q: Vec<f64> = (0..axes).map(|i| (1.0 - t) * a[i] + t * b[i]).collect();
-        match self.problem.motion {
+        match self.problem.robot.motion {
+            Motion::Fixed => unreachable!("only rigid bodies are judged"),
             Motion::Translation2d | Motion::Translation3d => {}
             Motion::Rigid2d => q.push(a[2] + shortest_turn(a[2], b[2]) * t),
             Motion::Rigid3d => q.extend(slerp(&a[3..7], &b[3..7], t)),
@@ -131,7 +134,8 @@ impl<'a> Judge<'a> {
 
     /// The vertices of every robot part in the world's frame.
     fn placed(&self, q: &[f64]) -> Vec<Vec<Point>> {
-        let (rotation, translation) = match self.problem.motion {
+        let (rotation, translation) = match self.problem.robot.motion {
+            Motion::Fixed => unreachable!("only rigid bodies are judged"),
             Motion::Translation2d => (matrix([1.0, 0.0, 0.0, 0.0]), [q[0], q[1], 0.0]),
             Motion::Translation3d => (matrix([1.0, 0.0, 0.0, 0.0]), [q[0], q[1], q[2]]),
             Motion::Rigid2d => {

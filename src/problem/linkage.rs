@@ -1,0 +1,140 @@
+//! The robot: its base, its links and their joints.
+
+use super::bodies::{bodies, pose_of, unit};
+use super::error::ProblemError;
+use super::file::{FrameTable, JointKindTable, LinkTable, RobotTable};
+use super::source::Source;
+use super::source::Step::{self, Index, Key};
+use crate::robot::{Joint, JointKind, Limits, Link, Robot};
+use crate::scene::{LENGTH_MAX, Pose};
+use crate::space::Motion;
+
+const LINKS_MAX: usize = 1000;
+/// Name of link 0.
+const BASE: &str = "base";
+
+/// Reads the robot.
+pub(super) fn robot_of(
+    source: &Source,
+    table: &RobotTable,
+    motion: Motion,
+    notes: &mut Vec<String>,
+) -> Result<Robot, ProblemError> {
+    let place = [Key("robot"), Key("bodies")];
+    let mut robot = Robot::rigid(motion, bodies(source, &place, &table.bodies, notes)?);
+    robot.links[0].name = BASE.to_owned();
+    if let Some(base) = &table.base {
+        if motion != Motion::Fixed {
+            let message = "given, but the base moves; motion = \"fixed\" expected beside it";
+            return Err(source.error(&[Key("robot"), Key("base")], message.to_owned()));
+        }
+        robot.base = frame(source, &[Key("robot"), Key("base")], base)?;
+    }
+    if table.links.len() > LINKS_MAX {
+        let message = format!("{} found; at most {LINKS_MAX} expected", table.links.len());
+        return Err(source.error(&[Key("robot"), Key("links")], message));
+    }
+    for (index, link) in table.links.iter().enumerate() {
+        let link = link_of(source, &robot, index, link, notes)?;
+        robot.links.push(link);
+    }
+    if motion == Motion::Fixed && robot.links.iter().all(|link| !moves(link)) {
+        let message = "nothing moves: a moving base or a moving joint expected".to_owned();
+        return Err(source.error(&[Key("robot")], message));
+    }
+    for (index, names) in table.may_touch.iter().enumerate() {
+        let mut pair = Vec::new();
+        for name in names {
+            let place = [Key("robot"), Key("may_touch"), Index(index)];
+            let link = robot.links.iter().position(|link| link.name == *name);
+            let link = link.ok_or_else(|| {
+                source.error(&place, format!("`{name}` found; the name of a link expected"))
+            })?;
+            pair.push(link as u32);
+        }
+        robot.may_touch.push((pair[0].min(pair[1]), pair[0].max(pair[1])));
+    }
+    Ok(robot)
+}
+
+fn moves(link: &Link) -> bool {
+    link.joint.as_ref().is_some_and(|joint| joint.kind.moves())
+}
+
+fn link_of(
+    source: &Source,
+    robot: &Robot,
+    index: usize,
+    table: &LinkTable,
+    notes: &mut Vec<String>,
+) -> Result<Link, ProblemError> {
+    let place = [Key("robot"), Key("links"), Index(index)];
+    let at = |keys: &[Step<'static>]| [&place[..], keys].concat();
+    let fits = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
+    let taken = |name: &str| robot.links.iter().any(|link| link.name == name);
+    if table.name.is_empty() || !table.name.chars().all(fits) || taken(&table.name) {
+        let expected = "a name of its own of letters, digits, `-`, `_` and `.` expected";
+        let message = format!("`{}` found; {expected}", table.name);
+        return Err(source.error(&at(&[Key("name")]), message));
+    }
+    let joint = &table.joint;
+    let parent = match &joint.parent {
+        None => robot.links.len() - 1,
+        Some(name) => robot.links.iter().position(|link| link.name == *name).ok_or_else(|| {
+            // This is what keeps the links a tree.
+            let message = format!("`{name}` found; the name of a link before this one expected");
+            source.error(&at(&[Key("joint"), Key("parent")]), message)
+        })?,
+    };
+    let kind = kind_of(&joint.kind)
+        .map_err(|message| source.error(&at(&[Key("joint"), Key("kind")]), message))?;
+    Ok(Link {
+        name: table.name.clone(),
+        bodies: bodies(source, &at(&[Key("bodies")]), &table.bodies, notes)?,
+        joint: Some(Joint {
+            name: joint.name.clone().unwrap_or_else(|| table.name.clone()),
+            parent: parent as u32,
+            kind,
+            before: frame(source, &at(&[Key("joint"), Key("before")]), &joint.before)?,
+            after: frame(source, &at(&[Key("joint"), Key("after")]), &joint.after)?,
+        }),
+    })
+}
+
+fn kind_of(table: &JointKindTable) -> Result<JointKind, String> {
+    let direction = |axis: &[f64; 3]| {
+        unit(*axis).ok_or_else(|| format!("axis {axis:?} found; a direction expected"))
+    };
+    let limits = |[min, max]: [f64; 2], most: f64| {
+        // Written so that NaN fails it.
+        if min < max && -most <= min && max <= most {
+            Ok(Limits { min, max })
+        } else {
+            Err(format!(
+                "{min} to {max} found; a least and a larger value within ±{most:e} expected"
+            ))
+        }
+    };
+    Ok(match table {
+        JointKindTable::Fixed {} => JointKind::Fixed,
+        JointKindTable::Revolute { axis, degrees } => {
+            let limits = match degrees {
+                None => None,
+                Some(degrees) => {
+                    let Limits { min, max } = limits(*degrees, 3600.0)?;
+                    let radians = |degrees: f64| degrees / 180.0 * std::f64::consts::PI;
+                    Some(Limits { min: radians(min), max: radians(max) })
+                }
+            };
+            JointKind::Revolute { axis: direction(axis)?, limits }
+        }
+        JointKindTable::Prismatic { axis, range } => {
+            JointKind::Prismatic { axis: direction(axis)?, limits: limits(*range, LENGTH_MAX)? }
+        }
+    })
+}
+
+fn frame(source: &Source, place: &[Step], table: &FrameTable) -> Result<Pose, ProblemError> {
+    pose_of((&table.position, &table.orientation, &table.turn))
+        .map_err(|(key, message)| source.error(&[place, &[Key(key)]].concat(), message))
+}

@@ -1,0 +1,73 @@
+use crate::math;
+use crate::scene::Pose;
+use bincode::{Decode, Encode};
+
+/// A joint: the child link's frame in the parent's is `before · motion(value) · after`.
+#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+pub struct Joint {
+    /// Its name, and that of its degree of freedom.
+    pub name: String,
+    /// Index of the parent link, less than the child's own.
+    pub parent: u32,
+    /// How it moves.
+    pub kind: JointKind,
+    /// The joint's frame in the parent link's.
+    pub before: Pose,
+    /// The child link's frame in the joint's as moved.
+    pub after: Pose,
+}
+
+/// How a joint moves.
+#[derive(Clone, Copy, Debug, PartialEq, Encode, Decode)]
+pub enum JointKind {
+    /// Not at all: the child is fixed to the parent.
+    Fixed,
+    /// Turns about an axis through the joint's origin, by an angle in radians.
+    Revolute {
+        /// Unit vector in the joint's frame.
+        axis: [f64; 3],
+        /// Least and largest angle; `None` where it may turn on and on.
+        limits: Option<Limits>,
+    },
+    /// Slides along an axis, by a length.
+    Prismatic {
+        /// Unit vector in the joint's frame.
+        axis: [f64; 3],
+        /// Least and largest value.
+        limits: Limits,
+    },
+}
+
+/// Least and largest value of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Encode, Decode)]
+pub struct Limits {
+    /// Least value.
+    pub min: f64,
+    /// Largest value.
+    pub max: f64,
+}
+
+impl JointKind {
+    /// Whether the joint is a degree of freedom.
+    pub fn moves(&self) -> bool {
+        !matches!(self, JointKind::Fixed)
+    }
+}
+
+impl Joint {
+    /// The child link's frame in the parent's at a value of the joint.
+    pub fn pose(&self, value: f64) -> Pose {
+        let motion = match self.kind {
+            JointKind::Fixed => Pose::IDENTITY,
+            JointKind::Revolute { axis: [x, y, z], .. } => {
+                let (sine, cosine) = (math::sin(value / 2.0), math::cos(value / 2.0));
+                Pose { translation: [0.0; 3], rotation: [cosine, x * sine, y * sine, z * sine] }
+            }
+            JointKind::Prismatic { axis, .. } => Pose {
+                translation: axis.map(|component| component * value),
+                rotation: Pose::IDENTITY.rotation,
+            },
+        };
+        self.before.then(&motion).then(&self.after)
+    }
+}

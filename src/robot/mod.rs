@@ -1,0 +1,142 @@
+//! Robots: links, the joints between them, and where they stand at a configuration.
+//!
+//! A robot is a tree of links. The base moves as [`Motion`] says; every other link is moved by a joint
+//! of an earlier one. A rigid body is a robot of one link. A configuration holds the base's values, then
+//! those of the joints in the order of their links.
+
+mod joint;
+mod space;
+
+pub use joint::{Joint, JointKind, Limits};
+pub use space::Speeds;
+
+use crate::math;
+use crate::scene::{Body, Pose};
+use crate::space::Motion;
+use bincode::{Decode, Encode};
+
+/// A robot.
+#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+pub struct Robot {
+    /// How the base, link 0, moves.
+    pub motion: Motion,
+    /// Where the base stands when its motion is [`Motion::Fixed`]: its frame in the world's.
+    pub base: Pose,
+    /// The links. The base comes first, every other link after its parent.
+    pub links: Vec<Link>,
+    /// Pairs of links, the lower index first, that may touch one another although they are not
+    /// neighbours.
+    pub may_touch: Vec<(u32, u32)>,
+}
+
+/// A link: bodies that move as one.
+#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+pub struct Link {
+    /// Its name.
+    pub name: String,
+    /// Its bodies, in the link's frame. A link may have none.
+    pub bodies: Vec<Body>,
+    /// What moves it; `None` of the base alone.
+    pub joint: Option<Joint>,
+}
+
+impl Robot {
+    /// A rigid body.
+    pub fn rigid(motion: Motion, bodies: Vec<Body>) -> Robot {
+        let base = Link { name: "body".to_owned(), bodies, joint: None };
+        Robot { motion, base: Pose::IDENTITY, links: vec![base], may_touch: Vec::new() }
+    }
+
+    /// All bodies, link after link.
+    pub fn bodies(&self) -> impl Iterator<Item = &Body> {
+        self.links.iter().flat_map(|link| &link.bodies)
+    }
+
+    /// The pairs of links, the lower index first, that must not touch: all but neighbours, links fixed
+    /// to one another, and those that may. Links on either side of a link without bodies are neighbours.
+    pub fn self_pairs(&self) -> Vec<(usize, usize)> {
+        // Per link the group of links it is fixed to, and the group that this group hangs on.
+        let mut groups: Vec<(usize, usize)> = Vec::new();
+        for (index, link) in self.links.iter().enumerate() {
+            groups.push(match &link.joint {
+                None => (0, 0),
+                Some(joint) => {
+                    let parent = groups[joint.parent as usize];
+                    let belongs = !joint.kind.moves() || link.bodies.is_empty();
+                    if belongs { parent } else { (index, parent.0) }
+                }
+            });
+        }
+        let mut pairs = Vec::new();
+        for high in 0..groups.len() {
+            for low in 0..high {
+                let ((a, above_a), (b, above_b)) = (groups[low], groups[high]);
+                let neighbors = a == b || above_a == b || above_b == a;
+                let may = self.may_touch.contains(&(low as u32, high as u32));
+                if !neighbors && !may {
+                    pairs.push((low, high));
+                }
+            }
+        }
+        pairs
+    }
+
+    fn base_pose(&self, q: &[f64]) -> Pose {
+        match self.motion {
+            Motion::Fixed => self.base,
+            Motion::Translation2d => Pose { translation: [q[0], q[1], 0.0], ..Pose::IDENTITY },
+            Motion::Rigid2d => {
+                let (sine, cosine) = (math::sin(q[2] / 2.0), math::cos(q[2] / 2.0));
+                Pose { translation: [q[0], q[1], 0.0], rotation: [cosine, 0.0, 0.0, sine] }
+            }
+            Motion::Translation3d => Pose { translation: [q[0], q[1], q[2]], ..Pose::IDENTITY },
+            Motion::Rigid3d => {
+                Pose { translation: [q[0], q[1], q[2]], rotation: [q[3], q[4], q[5], q[6]] }
+            }
+        }
+    }
+
+    /// All bodies where they stand in the world's frame at the configuration `q`.
+    pub fn bodies_at(&self, q: &[f64]) -> Vec<Body> {
+        let mut poses = Vec::new();
+        self.place(q, &mut poses);
+        let placed = self.links.iter().zip(&poses).flat_map(|(link, pose)| {
+            link.bodies.iter().map(|body| Body { pose: pose.then(&body.pose), ..body.clone() })
+        });
+        placed.collect()
+    }
+
+    /// The point by which a configuration is drawn, in the world's frame: the base's reference point,
+    /// or, where the base stands still, the origin of the last link.
+    pub fn marker(&self, q: &[f64]) -> [f64; 3] {
+        let mut poses = Vec::new();
+        self.place(q, &mut poses);
+        let moving = if self.motion == Motion::Fixed { poses.last() } else { poses.first() };
+        moving.map_or([0.0; 3], |pose| pose.translation)
+    }
+
+    /// Places the links: `poses` becomes, for every link, its frame in the world's at the
+    /// configuration `q`.
+    pub fn place(&self, q: &[f64], poses: &mut Vec<Pose>) {
+        poses.clear();
+        let mut at = self.motion.values();
+        for link in &self.links {
+            let pose = match &link.joint {
+                None => self.base_pose(q),
+                Some(joint) => {
+                    let value = if joint.kind.moves() {
+                        at += 1;
+                        q[at - 1]
+                    } else {
+                        0.0
+                    };
+                    poses[joint.parent as usize].then(&joint.pose(value))
+                }
+            };
+            poses.push(pose);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,127 @@
+//! The configuration space of a robot, and how far a motion can carry its points.
+
+use super::{JointKind, Robot};
+use crate::math;
+use crate::scene::Pose;
+use crate::space::{Dof, Part, PartKind, Space, rigid_parts};
+
+impl Robot {
+    /// The configuration space. The base's reference point lies in the box `min`..`max`, and a radian
+    /// of its rotation counts as `rotation_length` in the metric. A radian of a joint counts as the
+    /// distance that the farthest point beyond it can have from its origin; a sliding joint counts by
+    /// its length.
+    pub fn space(&self, min: [f64; 3], max: [f64; 3], rotation_length: f64) -> Space {
+        let (mut parts, mut dofs) = rigid_parts(self.motion, min, max, rotation_length);
+        for (index, link) in self.links.iter().enumerate() {
+            let Some(joint) = &link.joint else { continue };
+            let (kind, weight, unit) = match joint.kind {
+                JointKind::Fixed => continue,
+                JointKind::Revolute { limits: None, .. } => {
+                    (PartKind::Angle, self.reach_of_joint(index), "rad")
+                }
+                JointKind::Revolute { limits: Some(limits), .. } => {
+                    let kind = PartKind::Real { min: limits.min, max: limits.max };
+                    (kind, self.reach_of_joint(index), "rad")
+                }
+                JointKind::Prismatic { limits, .. } => {
+                    (PartKind::Real { min: limits.min, max: limits.max }, 1.0, "length")
+                }
+            };
+            parts.push(Part { kind, at: dofs.len(), weight });
+            dofs.push(Dof { name: joint.name.clone(), unit });
+        }
+        Space::new(parts, dofs)
+    }
+
+    /// A bound on the distance of the robot's points from the base's origin, over all configurations.
+    pub fn reach(&self) -> f64 {
+        self.reach_of_link(0)
+    }
+
+    /// A bound on the distance of all points of a link, and of the links that it carries, from its
+    /// origin.
+    fn reach_of_link(&self, link: usize) -> f64 {
+        let own = self.links[link].bodies.iter();
+        let own = own.fold(0.0f64, |most, body| most.max(body.shape.reach(&body.pose)));
+        self.children(link).fold(own, |most, child| {
+            let joint = self.links[child].joint.as_ref().expect("a child has a joint");
+            most.max(length(&joint.before) + self.reach_of_joint(child))
+        })
+    }
+
+    /// A bound on the distance of all points that the joint of `link` moves from the joint's origin.
+    fn reach_of_joint(&self, link: usize) -> f64 {
+        let joint = self.links[link].joint.as_ref().expect("asked of links with a joint");
+        let slide = match joint.kind {
+            JointKind::Prismatic { limits, .. } => limits.min.abs().max(limits.max.abs()),
+            JointKind::Fixed | JointKind::Revolute { .. } => 0.0,
+        };
+        slide + length(&joint.after) + self.reach_of_link(link)
+    }
+
+    fn children(&self, link: usize) -> impl Iterator<Item = usize> {
+        let parent = link as u32;
+        let is_child = move |index: &usize| {
+            self.links[*index].joint.as_ref().is_some_and(|joint| joint.parent == parent)
+        };
+        (0..self.links.len()).filter(is_child)
+    }
+
+    /// Per value of a configuration after the base's: a bound on the length that any robot point moves
+    /// per unit of it.
+    fn joint_speeds(&self) -> Vec<f64> {
+        let joints = self.links.iter().enumerate().filter_map(|(index, link)| {
+            match link.joint.as_ref()?.kind {
+                JointKind::Fixed => None,
+                JointKind::Revolute { .. } => Some(self.reach_of_joint(index)),
+                JointKind::Prismatic { .. } => Some(1.0),
+            }
+        });
+        joints.collect()
+    }
+
+    /// The bounds by which motions are cut into steps.
+    pub fn speeds(&self) -> Speeds {
+        Speeds { base: self.reach(), joints: self.joint_speeds() }
+    }
+}
+
+/// Bounds on how far robot points move, computed once per robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Speeds {
+    /// Length per radian of the base's rotation.
+    base: f64,
+    /// Length per unit of each joint.
+    joints: Vec<f64>,
+}
+
+impl Speeds {
+    /// A bound on the length of the way of any robot point along the interpolation from `a` to `b`: the
+    /// base's translation, and for every turn its angle times the distance of the farthest point that
+    /// it can move.
+    pub fn farthest(&self, robot: &Robot, a: &[f64], b: &[f64]) -> f64 {
+        let motion = robot.motion;
+        let mut square = 0.0;
+        for i in 0..motion.translations() {
+            square += (b[i] - a[i]) * (b[i] - a[i]);
+        }
+        let mut farthest = square.sqrt() + self.base * motion.angle_between(a, b);
+        let mut at = motion.values();
+        let mut speeds = self.joints.iter();
+        for joint in robot.links.iter().filter_map(|link| link.joint.as_ref()) {
+            let change = match joint.kind {
+                JointKind::Fixed => continue,
+                JointKind::Revolute { limits: None, .. } => math::angle_between(a[at], b[at]),
+                JointKind::Revolute { .. } | JointKind::Prismatic { .. } => (a[at] - b[at]).abs(),
+            };
+            farthest += change * speeds.next().expect("a speed per joint");
+            at += 1;
+        }
+        farthest
+    }
+}
+
+fn length(pose: &Pose) -> f64 {
+    let [x, y, z] = pose.translation;
+    (x * x + y * y + z * z).sqrt()
+}

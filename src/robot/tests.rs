@@ -1,0 +1,84 @@
+use super::*;
+use crate::space::PartKind;
+
+fn pose(translation: [f64; 3]) -> Pose {
+    Pose { translation, ..Pose::IDENTITY }
+}
+
+fn joint(parent: u32, kind: JointKind, before: [f64; 3]) -> Option<Joint> {
+    let name = format!("on {parent}");
+    Some(Joint { name, parent, kind, before: pose(before), after: Pose::IDENTITY })
+}
+
+/// A base with an arm that turns about z, a hand that slides along the arm's x, a fixed tool on the
+/// hand, and a second arm on the base that turns on and on about x.
+fn robot(motion: Motion) -> Robot {
+    let mut robot = Robot::rigid(motion, Vec::new());
+    let limits = Limits { min: -1.0, max: 2.0 };
+    let turning = JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits: Some(limits) };
+    let sliding = JointKind::Prismatic { axis: [1.0, 0.0, 0.0], limits };
+    let spinning = JointKind::Revolute { axis: [1.0, 0.0, 0.0], limits: None };
+    for (name, joint) in [
+        ("arm", joint(0, turning, [1.0, 0.0, 0.0])),
+        ("hand", joint(1, sliding, [2.0, 0.0, 0.0])),
+        ("tool", joint(2, JointKind::Fixed, [0.0, 0.5, 0.0])),
+        ("other", joint(0, spinning, [0.0, 0.0, 3.0])),
+    ] {
+        robot.links.push(Link { name: name.to_owned(), bodies: Vec::new(), joint });
+    }
+    robot
+}
+
+fn close(a: [f64; 3], b: [f64; 3]) -> bool {
+    (0..3).all(|i| (a[i] - b[i]).abs() < 1e-12)
+}
+
+#[test]
+fn links_stand_where_their_joints_put_them() {
+    let robot = robot(Motion::Rigid2d);
+    let mut poses = Vec::new();
+    let quarter = std::f64::consts::FRAC_PI_2;
+    // The base at (10, 20), turned by 90°: its x is the world's y.
+    robot.place(&[10.0, 20.0, quarter, quarter, 1.5, quarter], &mut poses);
+    let origins: Vec<_> = poses.iter().map(|pose| pose.translation).collect();
+    assert!(close(origins[0], [10.0, 20.0, 0.0]));
+    assert!(close(origins[1], [10.0, 21.0, 0.0]));
+    // The arm is turned once more: its x is the world's −x.
+    assert!(close(origins[2], [10.0 - 3.5, 21.0, 0.0]));
+    assert!(close(origins[3], [10.0 - 3.5, 20.5, 0.0]));
+    assert!(close(origins[4], [10.0, 20.0, 3.0]));
+    // The other arm's y, after a quarter turn about its x, is the world's z.
+    assert!(close(poses[4].apply([0.0, 1.0, 0.0]), [10.0, 20.0, 4.0]));
+}
+
+#[test]
+fn the_space_has_the_bases_values_and_then_the_joints() {
+    let robot = robot(Motion::Rigid3d);
+    let space = robot.space([-1.0; 3], [1.0; 3], 0.5);
+    let names: Vec<_> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
+    assert_eq!(names, ["x", "y", "z", "qw", "qx", "qy", "qz", "on 0", "on 1", "on 0"]);
+    let parts: Vec<_> = space.parts()[4..].iter().map(|part| (part.kind, part.weight)).collect();
+    let limited = PartKind::Real { min: -1.0, max: 2.0 };
+    // Beyond the arm's joint: 2 to the hand's, up to 2 along it, 0.5 to the tool.
+    assert_eq!(parts, [(limited, 4.5), (limited, 1.0), (PartKind::Angle, 0.0)]);
+    assert_eq!(robot.reach(), 5.5);
+}
+
+#[test]
+fn neighbours_fixed_links_and_links_across_an_empty_one_may_touch() {
+    let mut robot = robot(Motion::Fixed);
+    let body = crate::scene::Body {
+        shape: crate::scene::Shape::Sphere { radius: 0.1 },
+        pose: Pose::IDENTITY,
+        solid: true,
+    };
+    for link in &mut robot.links {
+        link.bodies = vec![body.clone()];
+    }
+    assert_eq!(robot.self_pairs(), [(0, 2), (0, 3), (1, 4), (2, 4), (3, 4)]);
+    robot.links[1].bodies.clear();
+    // Without the arm's body the hand is the base's neighbour.
+    assert_eq!(robot.self_pairs(), [(2, 4), (3, 4)]);
+    robot.may_touch = vec![(2, 4)];
+    assert_eq!(robot.self_pairs(), [(3, 4)]);
+}
