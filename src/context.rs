@@ -1,5 +1,5 @@
 use crate::space::Space;
-use crate::validity::Validity;
+use crate::validity::{Scratch, Validity};
 use bincode::{Decode, Encode};
 
 /// A problem made ready for work: what everything that samples, joins and evaluates shares.
@@ -12,6 +12,32 @@ pub struct Context {
     pub base_seed: u64,
     /// The query to be solved, if there is one.
     pub query: Option<Ends>,
+}
+
+impl Context {
+    /// Brings a configuration that came from outside into stored form.
+    ///
+    /// # Errors
+    /// Says what is wrong with it: the number of values, a value, or that it is not valid.
+    pub fn settle(&self, q: &mut [f64]) -> Result<(), String> {
+        let space = &self.space;
+        if q.len() != space.len() {
+            let names: Vec<_> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
+            let (found, expected) = (q.len(), space.len());
+            return Err(format!("{found} values found, {expected} expected: {}", names.join(" ")));
+        }
+        space.canonicalize(q)?;
+        if !space.within_bounds(q) {
+            return Err(format!("{q:?} found, a configuration within the bounds expected"));
+        }
+        if !self.validity.valid(q, &mut Scratch::new()) {
+            let expected = "a valid configuration expected";
+            return Err(format!(
+                "{q:?} found, where the robot collides or leaves the bounds; {expected}"
+            ));
+        }
+        Ok(())
+    }
 }
 
 /// The two ends of a query: valid configurations in stored form.

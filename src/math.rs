@@ -25,6 +25,16 @@ pub fn acos(x: f64) -> f64 {
     libm::acos(x.clamp(-1.0, 1.0))
 }
 
+/// Exponential.
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// Natural logarithm.
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+
 /// Angle of the vector `(x, y)` in radians, in `[-π, π]`.
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)

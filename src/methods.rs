@@ -25,6 +25,14 @@ macro_rules! methods {
                     $($name::$variant(method) => method,)+
                 }
             }
+
+            /// The method behind its role, to be changed.
+            #[allow(dead_code)]
+            pub(crate) fn method_mut(&mut self) -> &mut dyn $role {
+                match self {
+                    $($name::$variant(method) => method,)+
+                }
+            }
         }
     };
 }

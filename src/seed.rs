@@ -6,6 +6,7 @@
 //! program, the type of node generation method, and the number of sets completed by that node
 //! generation method so far"*. BLAKE3 derives it, ChaCha8 draws from it.
 
+use crate::math;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -61,6 +62,12 @@ impl Stream {
     /// Uniform in `[0, 1)`, a multiple of 2⁻⁵³.
     pub fn unit(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+    }
+
+    /// Normal with mean 0 and deviation 1 (G. E. P. Box, M. E. Muller 1958), from two draws.
+    pub fn normal(&mut self) -> f64 {
+        let (share, turn) = (1.0 - self.unit(), self.unit());
+        (-2.0 * math::ln(share)).sqrt() * math::cos(math::TURN * turn)
     }
 
     /// Uniform in `[low, high]`.

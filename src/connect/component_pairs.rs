@@ -1,4 +1,4 @@
-use super::{Among, JoinInput, default_planners, planners_complaint};
+use super::{Among, JoinInput, default_planners};
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
@@ -108,7 +108,7 @@ impl Among for ComponentPairs {
         if self.pairs == 0 {
             return Some(("pairs", "0".to_owned(), "at least 1"));
         }
-        planners_complaint(&self.planners)
+        local::complaint(&self.planners)
     }
 }
 

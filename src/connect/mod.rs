@@ -91,7 +91,3 @@ pub struct JoinInput {
 fn default_planners() -> Vec<Planner> {
     vec![Planner::StraightLine]
 }
-
-fn planners_complaint(planners: &[Planner]) -> Option<Complaint> {
-    planners.is_empty().then(|| ("planners", "[]".to_owned(), "at least one local planner"))
-}

@@ -1,4 +1,4 @@
-use super::{Within, default_planners, planners_complaint};
+use super::{Within, default_planners};
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
@@ -65,6 +65,6 @@ impl Within for Nearest {
         if self.neighbors == 0 {
             return Some(("neighbors", "0".to_owned(), "at least 1"));
         }
-        planners_complaint(&self.planners)
+        local::complaint(&self.planners)
     }
 }

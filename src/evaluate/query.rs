@@ -1,10 +1,9 @@
-use super::{Evaluator, Verdict};
+use super::{Evaluator, Verdict, samples};
 use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::query::{Attachment, solve};
 use crate::roadmap::Roadmap;
-use crate::seed::Seed;
 use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
@@ -19,24 +18,17 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Query {
     /// How many nearest nodes start and goal try to connect to.
-    #[serde(default = "default_neighbors")]
+    #[serde(default = "samples::default_neighbors")]
     pub neighbors: u32,
     /// Local planners, tried in this order until one succeeds.
-    #[serde(default = "default_planners")]
+    #[serde(default = "samples::default_planners")]
     pub planners: Vec<Planner>,
-}
-
-fn default_neighbors() -> u32 {
-    Attachment::default().neighbors
-}
-
-fn default_planners() -> Vec<Planner> {
-    Attachment::default().planners
 }
 
 impl Default for Query {
     fn default() -> Query {
-        Query { neighbors: default_neighbors(), planners: default_planners() }
+        let Attachment { neighbors, planners } = Attachment::default();
+        Query { neighbors, planners }
     }
 }
 
@@ -54,7 +46,7 @@ impl Evaluator for Query {
     fn evaluate(
         &self,
         cx: &Context,
-        _seed: &Seed,
+        _path: &str,
         roadmap: &Roadmap,
         scratch: &mut Scratch,
     ) -> Verdict {
@@ -69,6 +61,7 @@ impl Evaluator for Query {
             value: f64::from(u8::from(satisfied)),
             threshold: 1.0,
             answer: Some(answer),
+            parts: Vec::new(),
             asked: scratch.take_asked(),
         }
     }
@@ -82,12 +75,6 @@ impl Evaluator for Query {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        if self.neighbors == 0 {
-            return Some(("neighbors", "0".to_owned(), "at least 1"));
-        }
-        if self.planners.is_empty() {
-            return Some(("planners", "[]".to_owned(), "at least one local planner"));
-        }
-        None
+        self.how().complaint()
     }
 }

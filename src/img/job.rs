@@ -3,7 +3,6 @@ use crate::connect::JoinInput;
 use crate::evaluate::Verdict;
 use crate::roadmap::{Digest, Edge, Increment, Roadmap};
 use crate::sampler::GaveUp;
-use crate::seed::Seed;
 use crate::validity::{Asked, Scratch};
 use bincode::{Decode, Encode};
 use std::sync::Arc;
@@ -110,9 +109,8 @@ impl Task {
                 Outcome::Joined(Joined { edges, asked: scratch.take_asked() })
             }
             Task::Evaluate { evaluator, roadmap } => {
-                let seed = Seed::of_evaluator(cx.base_seed, &evaluator.to_string());
                 let method = setup.problem.evaluators[*evaluator as usize].method();
-                Outcome::Verdict(method.evaluate(cx, &seed, roadmap, scratch))
+                Outcome::Verdict(method.evaluate(cx, &evaluator.to_string(), roadmap, scratch))
             }
         }
     }

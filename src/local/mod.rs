@@ -4,13 +4,17 @@
 //! [`Space::interpolate`](crate::space::Space::interpolate). The motion is free when those
 //! configurations and every stretch between them are valid.
 
+mod rotate_at;
 mod straight_line;
 
 use crate::context::Context;
+use crate::methods::Complaint;
 use crate::roadmap::Configs;
 use crate::validity::Scratch;
 use bincode::{Decode, Encode};
+use rotate_at::RotateAt;
 use serde::{Deserialize, Serialize};
+use straight_line::StraightLine;
 
 /// A way of joining two configurations.
 pub trait LocalPlanner {
@@ -20,31 +24,41 @@ pub trait LocalPlanner {
 
 /// The local planners. An edge records which one succeeded, by its tag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Planner {
-    /// Straight in the configuration space.
+    /// Straight in the configuration space: tag 0.
     StraightLine,
+    /// Translate, turn on the way, translate: tags 1 to 101.
+    RotateAt {
+        /// Where it turns, in hundredths of the way from the first end to the second.
+        percent: u8,
+    },
 }
 
 impl Planner {
-    /// Every planner, in the order of their tags.
-    pub const ALL: [Planner; 1] = [Planner::StraightLine];
-
     /// The number that stands for the planner on edges and in files.
     pub fn tag(self) -> u8 {
         match self {
             Planner::StraightLine => 0,
+            Planner::RotateAt { percent } => 1 + percent,
         }
     }
 
     /// The planner that a tag stands for.
     pub fn from_tag(tag: u8) -> Option<Planner> {
-        Planner::ALL.into_iter().find(|planner| planner.tag() == tag)
+        match tag {
+            0 => Some(Planner::StraightLine),
+            1..=101 => Some(Planner::RotateAt { percent: tag - 1 }),
+            _ => None,
+        }
     }
 
-    fn method(self) -> &'static dyn LocalPlanner {
+    fn turns(self, cx: &Context, a: &[f64], b: &[f64], out: &mut Configs) {
         match self {
-            Planner::StraightLine => &straight_line::StraightLine,
+            Planner::StraightLine => StraightLine.turns(cx, a, b, out),
+            Planner::RotateAt { percent } => {
+                RotateAt { s: f64::from(percent) / 100.0 }.turns(cx, a, b, out);
+            }
         }
     }
 
@@ -52,10 +66,23 @@ impl Planner {
     pub fn motion(self, cx: &Context, a: &[f64], b: &[f64]) -> Configs {
         let mut motion = Configs::new(a.len());
         motion.push(a);
-        self.method().turns(cx, a, b, &mut motion);
+        self.turns(cx, a, b, &mut motion);
         motion.push(b);
         motion
     }
+}
+
+/// What is wrong with a list of planners to be tried.
+pub fn complaint(planners: &[Planner]) -> Option<Complaint> {
+    if planners.is_empty() {
+        return Some(("planners", "[]".to_owned(), "at least one local planner"));
+    }
+    let percents = planners.iter().filter_map(|planner| match planner {
+        Planner::RotateAt { percent } => Some(*percent),
+        Planner::StraightLine => None,
+    });
+    let wrong = percents.filter(|percent| *percent > 100).max()?;
+    Some(("percent", wrong.to_string(), "0 to 100"))
 }
 
 /// The first of `planners` whose motion from `a` to `b`, both valid, is free, and the motion's
@@ -81,3 +108,6 @@ pub fn connect(
         Some((*planner, length))
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,12 +2,11 @@
 
 use super::bodies::{bodies, check_bodies};
 use super::building::{evaluators_of, limits_of, strategies_of};
-use super::configuration::settle;
 use super::error::ProblemError;
 use super::file::{File, QueryTable};
 use super::linkage::robot_of;
 use super::source::Source;
-use super::source::Step::Key;
+use super::source::Step::{Index, Key};
 use super::{DEFAULT_SEED, Problem};
 use crate::context::Ends;
 use crate::robot::Robot;
@@ -54,10 +53,7 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
         limits,
         notes,
     };
-    match file.query {
-        Some(query) => with_query(&source, problem, query),
-        None => Ok(problem),
-    }
+    settled(&source, problem, file.query)
 }
 
 fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {
@@ -178,14 +174,22 @@ fn rotation_length_of(
     }
 }
 
-fn with_query(
+/// Checks what needs the whole problem: configurations.
+fn settled(
     source: &Source,
-    problem: Problem,
-    mut query: QueryTable,
+    mut problem: Problem,
+    query: Option<QueryTable>,
 ) -> Result<Problem, ProblemError> {
     let cx = problem.context();
-    for (key, q) in [("start", &mut query.start), ("goal", &mut query.goal)] {
-        settle(&cx, q).map_err(|message| source.error(&[Key("query"), Key(key)], message))?;
+    if let Some(mut query) = query {
+        for (key, q) in [("start", &mut query.start), ("goal", &mut query.goal)] {
+            cx.settle(q).map_err(|message| source.error(&[Key("query"), Key(key)], message))?;
+        }
+        problem.query = Some(Ends { start: query.start, goal: query.goal });
     }
-    Ok(Problem { query: Some(Ends { start: query.start, goal: query.goal }), ..problem })
+    for (index, evaluator) in problem.evaluators.iter_mut().enumerate() {
+        let settled = evaluator.method_mut().settle(&cx);
+        settled.map_err(|message| source.error(&[Key("evaluators"), Index(index)], message))?;
+    }
+    Ok(problem)
 }

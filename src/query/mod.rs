@@ -6,6 +6,7 @@ pub use path::Path;
 
 use crate::context::Context;
 use crate::local::{self, Planner};
+use crate::methods::Complaint;
 use crate::neighbor::k_nearest;
 use crate::roadmap::{Edge, Graph, Roadmap};
 use crate::validity::Scratch;
@@ -28,6 +29,16 @@ pub struct Attachment {
 impl Default for Attachment {
     fn default() -> Attachment {
         Attachment { neighbors: 10, planners: vec![Planner::StraightLine] }
+    }
+}
+
+impl Attachment {
+    /// What is wrong with it.
+    pub fn complaint(&self) -> Option<Complaint> {
+        if self.neighbors == 0 {
+            return Some(("neighbors", "0".to_owned(), "at least 1"));
+        }
+        local::complaint(&self.planners)
     }
 }
 

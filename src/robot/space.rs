@@ -30,7 +30,7 @@ impl Robot {
             parts.push(Part { kind, at: dofs.len(), weight });
             dofs.push(Dof { name: joint.name.clone(), unit });
         }
-        Space::new(parts, dofs)
+        Space::new(parts, dofs, self.motion.translations())
     }
 
     /// A bound on the distance of the robot's points from the base's origin, over all configurations.

@@ -3,15 +3,18 @@
 //! To add one, write its file after the pattern of `uniform.rs` and name it in the two marked
 //! places below.
 
+mod gaussian;
 mod uniform; // 1: the file
 
 methods! {
     /// The samplers, as a problem file names them; each variant holds its settings.
     pub enum SamplerKind: dyn Sampler {
+        Gaussian(gaussian::Gaussian),
         Uniform(uniform::Uniform), // 2: the method
     }
 }
 
+pub use gaussian::Gaussian;
 pub use uniform::Uniform;
 
 use crate::context::Context;

@@ -56,29 +56,36 @@ pub struct Dof {
 pub struct Space {
     parts: Vec<Part>,
     dofs: Vec<Dof>,
+    translations: usize,
 }
 
 /// Relative margin of every pruning bound on distances; rounding errors are a thousand times smaller.
 const PRUNING_MARGIN: f64 = 1e-12;
 
 impl Space {
-    /// The product of `parts`, described by `dofs`.
+    /// The product of `parts`, described by `dofs`, of which the first `translations` are where the
+    /// robot's base is.
     ///
     /// # Panics
     /// If the parts do not cover the degrees of freedom in order.
-    pub fn new(parts: Vec<Part>, dofs: Vec<Dof>) -> Space {
+    pub fn new(parts: Vec<Part>, dofs: Vec<Dof>, translations: usize) -> Space {
         let mut next = 0;
         for part in &parts {
             assert_eq!(part.at, next, "parts follow one another");
             next += if part.kind == PartKind::Rotation { 4 } else { 1 };
         }
         assert_eq!(next, dofs.len(), "every value has a name");
-        Space { parts, dofs }
+        Space { parts, dofs, translations }
     }
 
     /// The degrees of freedom, one per value of a configuration.
     pub fn dofs(&self) -> &[Dof] {
         &self.dofs
+    }
+
+    /// How many of the first values are where the robot's base is; all others turn or bend it.
+    pub fn translations(&self) -> usize {
+        self.translations
     }
 
     /// The factors of the product.
@@ -193,6 +200,43 @@ impl Space {
             return None;
         }
         Some(self.distance(a, b))
+    }
+
+    /// The configuration at distance `length` from `q` in a direction drawn uniformly: a geodesic step
+    /// whose direction is uniform on the unit sphere of the metric's tangent space. Angles and rotations
+    /// wrap, so the distance is less where a part turns by more than half a turn. Parts without weight
+    /// stay as they are. `out` is in stored form but may lie out of bounds.
+    pub fn step(&self, q: &[f64], length: f64, stream: &mut Stream, out: &mut [f64]) {
+        let mut direction: Vec<[f64; 3]> = Vec::with_capacity(self.parts.len());
+        let mut square = 0.0;
+        for part in &self.parts {
+            let numbers = match (part.weight > 0.0, part.kind) {
+                (false, _) => 0,
+                (true, PartKind::Rotation) => 3,
+                (true, PartKind::Real { .. } | PartKind::Angle) => 1,
+            };
+            let mut components = [0.0; 3];
+            for component in components.iter_mut().take(numbers) {
+                *component = stream.normal();
+                square += *component * *component;
+            }
+            direction.push(components);
+        }
+        // Half of a rotation's distance is the angle of its quaternion.
+        let scale = if square > 0.0 { length / square.sqrt() } else { 0.0 };
+        for (part, components) in self.parts.iter().zip(direction) {
+            let at = part.at;
+            let by =
+                components.map(|component| component * scale / part.weight.max(f64::MIN_POSITIVE));
+            match part.kind {
+                PartKind::Real { .. } => out[at] = q[at] + by[0] + 0.0,
+                PartKind::Angle => out[at] = math::wrap_angle(q[at] + by[0]),
+                PartKind::Rotation => {
+                    let from = [q[at], q[at + 1], q[at + 2], q[at + 3]];
+                    out[at..at + 4].copy_from_slice(&quaternion::turned(from, by));
+                }
+            }
+        }
     }
 
     /// The configuration at fraction `t` of the shortest motion from `a` to `b`, at constant

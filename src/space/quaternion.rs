@@ -35,6 +35,25 @@ pub fn canonical(quaternion: [f64; 4]) -> Option<[f64; 4]> {
     Some(scaled.map(|value| value / length * sign + 0.0))
 }
 
+/// The rotation turned by a rotation vector (its direction the axis, its length the angle in radians),
+/// in stored form.
+pub(super) fn turned(from: [f64; 4], by: [f64; 3]) -> [f64; 4] {
+    let angle = by.iter().map(|value| value * value).sum::<f64>().sqrt();
+    if angle == 0.0 {
+        return from;
+    }
+    let share = math::sin(angle / 2.0) / angle;
+    let [a, b, c, d] = from;
+    let [w, x, y, z] = [math::cos(angle / 2.0), by[0] * share, by[1] * share, by[2] * share];
+    let product = [
+        a * w - b * x - c * y - d * z,
+        a * x + b * w + c * z - d * y,
+        a * y - b * z + c * w + d * x,
+        a * z + b * y - c * x + d * w,
+    ];
+    canonical(product).unwrap_or(from)
+}
+
 /// Spherical linear interpolation along the shorter arc; turns `to` around only when the dot
 /// product is negative.
 pub fn slerp(from: [f64; 4], to: [f64; 4], t: f64) -> [f64; 4] {

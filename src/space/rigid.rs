@@ -111,5 +111,5 @@ pub fn rigid_parts(
 /// The space of a rigid body: see [`rigid_parts`].
 pub fn rigid_space(motion: Motion, min: [f64; 3], max: [f64; 3], rotation_length: f64) -> Space {
     let (parts, dofs) = rigid_parts(motion, min, max, rotation_length);
-    Space::new(parts, dofs)
+    Space::new(parts, dofs, motion.translations())
 }

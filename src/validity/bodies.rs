@@ -2,7 +2,7 @@
 
 use super::piece::{Piece, Placed};
 use super::scratch::Hit;
-use super::{Scratch, Validity};
+use super::{Scratch, State, Validity};
 use crate::robot::{Robot, Speeds};
 use crate::scene::Body;
 use crate::space::Space;
@@ -141,13 +141,18 @@ impl BodyValidity {
         }
     }
 
-    fn check(&self, q: &[f64], scratch: &mut Scratch) -> bool {
+    fn look(&self, q: &[f64], scratch: &mut Scratch) -> State {
         self.robot.place(q, &mut scratch.poses);
         if !self.in_bounds(q, scratch) {
-            return false;
+            return State::OutOfBounds;
         }
+        if self.collides(scratch) { State::Colliding } else { State::Free }
+    }
+
+    /// Whether the robot as placed touches anything it must not.
+    fn collides(&self, scratch: &mut Scratch) -> bool {
         if scratch.last_hit.is_some_and(|hit| self.hit(hit, scratch)) {
-            return false;
+            return true;
         }
         for (index, LinkPiece { link, piece, reach }) in self.pieces.iter().enumerate() {
             let frame = scratch.poses[*link].to_parry();
@@ -159,7 +164,7 @@ impl BodyValidity {
                     let placed = placed.get_or_insert_with(|| piece.place(&frame));
                     if piece.collides(placed, other, at) {
                         scratch.last_hit = Some(Hit::Obstacle { piece: index, obstacle });
-                        return false;
+                        return true;
                     }
                 }
             }
@@ -167,10 +172,10 @@ impl BodyValidity {
         for pair in 0..self.self_pairs.len() {
             if self.hit(Hit::Own { pair }, scratch) {
                 scratch.last_hit = Some(Hit::Own { pair });
-                return false;
+                return true;
             }
         }
-        true
+        false
     }
 
     /// Number of steps in which a motion is checked.
@@ -181,9 +186,9 @@ impl BodyValidity {
 }
 
 impl Validity for BodyValidity {
-    fn valid(&self, q: &[f64], scratch: &mut Scratch) -> bool {
+    fn state(&self, q: &[f64], scratch: &mut Scratch) -> State {
         scratch.asked.configurations += 1;
-        self.check(q, scratch)
+        self.look(q, scratch)
     }
 
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> bool {
@@ -200,7 +205,7 @@ impl Validity for BodyValidity {
             for i in (stride..steps).step_by(2 * stride as usize) {
                 let t = i as f64 / steps as f64;
                 self.space.interpolate(a, b, t, &mut between);
-                if !self.check(&between, scratch) {
+                if self.look(&between, scratch) != State::Free {
                     free = false;
                     break 'steps;
                 }

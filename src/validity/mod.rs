@@ -8,13 +8,29 @@ mod scratch;
 pub use bodies::{BodyValidity, Bounds, BoundsMeaning};
 pub use scratch::{Asked, Scratch};
 
+/// What is to be said of a configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// In bounds, and the robot touches nothing.
+    Free,
+    /// Not in bounds; whether the robot would touch anything is not known.
+    OutOfBounds,
+    /// In bounds, but the robot touches an obstacle or itself.
+    Colliding,
+}
+
 /// Decides which configurations and motions are valid.
 ///
 /// Verdicts are pure functions of their arguments: what a [`Scratch`] remembers may change how
 /// fast a verdict comes, never the verdict.
 pub trait Validity: Send + Sync {
+    /// What is to be said of the robot at `q`. Bounds are looked at first.
+    fn state(&self, q: &[f64], scratch: &mut Scratch) -> State;
+
     /// Whether the robot at `q` is in bounds and touches nothing.
-    fn valid(&self, q: &[f64], scratch: &mut Scratch) -> bool;
+    fn valid(&self, q: &[f64], scratch: &mut Scratch) -> bool {
+        self.state(q, scratch) == State::Free
+    }
 
     /// Whether the motion from `a` to `b` along [`Space::interpolate`](crate::space::Space) is
     /// valid: every configuration strictly between the two is, at steps so small that no robot

@@ -97,7 +97,7 @@ fn end(
     let problem = &watch.setup.problem;
     let stopped = Stopped::new(stop, problem);
     watch.ledger.stopped(&stopped)?;
-    let answers = watch.verdicts.iter().filter_map(|verdict| verdict.answer.as_ref());
+    let answers = watch.verdicts.iter().filter_map(Verdict::answer);
     if let Some(path) = answers.filter_map(|answer| answer.path.as_ref()).next() {
         write_whole(&folder.file("path.csv"), &path_csv(&watch.setup.cx.space, path))?;
     }

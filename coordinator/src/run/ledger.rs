@@ -240,8 +240,8 @@ impl Ledger {
                     }
                 }
                 Record::Judged { verdicts, .. } => {
-                    let answers = verdicts.into_iter().filter_map(|verdict| verdict.answer);
-                    path = answers.filter_map(|answer| answer.path).next();
+                    let answers = verdicts.iter().filter_map(Verdict::answer);
+                    path = answers.filter_map(|answer| answer.path.clone()).next();
                 }
                 Record::Stopped(stop) => stopped = Some(stop),
             }

@@ -1,5 +1,5 @@
 use super::Stopped;
-use roadmill::evaluate::Verdict;
+use roadmill::evaluate::{EvaluatorKind, Verdict};
 use roadmill::problem::Problem;
 use roadmill::roadmap::Roadmap;
 use serde::Serialize;
@@ -58,20 +58,31 @@ pub struct EvaluatorValue {
 }
 
 impl EvaluatorValue {
-    /// The values of the problem's evaluators; none before the first judgement.
+    /// The values of the problem's evaluators, and of those of which they are made; none before the
+    /// first judgement.
     pub fn all(problem: &Problem, verdicts: &[Verdict]) -> Vec<EvaluatorValue> {
-        let values = problem.evaluators.iter().zip(verdicts).map(|(evaluator, verdict)| {
+        let mut values = Vec::new();
+        Self::collect(&problem.evaluators, verdicts, &mut values);
+        values
+    }
+
+    fn collect(
+        evaluators: &[EvaluatorKind],
+        verdicts: &[Verdict],
+        values: &mut Vec<EvaluatorValue>,
+    ) {
+        for (evaluator, verdict) in evaluators.iter().zip(verdicts) {
             let answer = verdict.answer.as_ref();
-            EvaluatorValue {
+            values.push(EvaluatorValue {
                 name: evaluator.method().name(),
                 value: verdict.value,
                 threshold: verdict.threshold,
                 satisfied: verdict.satisfied,
                 dropped_edges: answer.map(|answer| answer.dropped_edges),
                 path_length: answer.and_then(|answer| answer.path.as_ref()).map(|path| path.length),
-            }
-        });
-        values.collect()
+            });
+            Self::collect(evaluator.method().parts(), &verdict.parts, values);
+        }
     }
 }
 

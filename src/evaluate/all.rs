@@ -1,0 +1,43 @@
+use super::{Evaluator, EvaluatorKind, Verdict, combined};
+use crate::context::Context;
+use crate::methods::Complaint;
+use crate::roadmap::Roadmap;
+use crate::validity::Scratch;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+
+/// Every one of several criteria is met.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(transparent)]
+pub struct All(pub Vec<EvaluatorKind>);
+
+impl Evaluator for All {
+    fn name(&self) -> &'static str {
+        "all"
+    }
+
+    fn evaluate(
+        &self,
+        cx: &Context,
+        path: &str,
+        roadmap: &Roadmap,
+        scratch: &mut Scratch,
+    ) -> Verdict {
+        combined(&self.0, self.0.len(), cx, path, roadmap, scratch)
+    }
+
+    fn parts(&self) -> &[EvaluatorKind] {
+        &self.0
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        if self.0.is_empty() {
+            return Some(("all", "[]".to_owned(), "at least one criterion"));
+        }
+        self.0.iter().find_map(|part| part.method().complaint())
+    }
+
+    fn settle(&mut self, cx: &Context) -> Result<(), String> {
+        self.0.iter_mut().try_for_each(|part| part.method_mut().settle(cx))
+    }
+}

@@ -1,0 +1,43 @@
+use super::{Evaluator, EvaluatorKind, Verdict};
+use crate::context::Context;
+use crate::roadmap::Roadmap;
+use crate::validity::Scratch;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+
+/// A criterion is not met: to build for as long as something does not hold yet.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(transparent)]
+pub struct Not(pub Box<EvaluatorKind>);
+
+impl Evaluator for Not {
+    fn name(&self) -> &'static str {
+        "not"
+    }
+
+    fn evaluate(
+        &self,
+        cx: &Context,
+        path: &str,
+        roadmap: &Roadmap,
+        scratch: &mut Scratch,
+    ) -> Verdict {
+        let verdict = self.0.method().evaluate(cx, &format!("{path}/0"), roadmap, scratch);
+        Verdict {
+            satisfied: !verdict.satisfied,
+            value: f64::from(u8::from(!verdict.satisfied)),
+            threshold: 1.0,
+            answer: None,
+            asked: verdict.asked,
+            parts: vec![verdict],
+        }
+    }
+
+    fn parts(&self) -> &[EvaluatorKind] {
+        std::slice::from_ref(&*self.0)
+    }
+
+    fn settle(&mut self, cx: &Context) -> Result<(), String> {
+        self.0.method_mut().settle(cx)
+    }
+}

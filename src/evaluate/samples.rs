@@ -1,0 +1,148 @@
+//! The configurations by which coverage and connectivity judge a roadmap.
+
+use super::Verdict;
+use crate::context::Context;
+use crate::local::{self, Planner};
+use crate::methods::Complaint;
+use crate::neighbor::k_nearest;
+use crate::query::Attachment;
+use crate::roadmap::{Configs, Roadmap};
+use crate::seed::{Purpose, Seed};
+use crate::validity::{Asked, Scratch};
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+const SAMPLES_MAX: u32 = 1_000_000;
+/// The most configurations drawn for one valid sample.
+const ATTEMPTS_MAX: u32 = 1_000_000;
+
+pub(super) fn default_samples() -> Samples {
+    Samples::Random(100)
+}
+
+pub(super) fn default_neighbors() -> u32 {
+    Attachment::default().neighbors
+}
+
+pub(super) fn default_planners() -> Vec<Planner> {
+    Attachment::default().planners
+}
+
+/// Where the samples come from. They are valid, the same in every round, and never become nodes of the
+/// roadmap or connect parts of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(rename_all = "kebab-case")]
+pub enum Samples {
+    /// So many, drawn uniformly among the valid configurations.
+    Random(u32),
+    /// These.
+    Listed(Vec<Vec<f64>>),
+}
+
+impl Samples {
+    pub(super) fn complaint(&self) -> Option<Complaint> {
+        match self {
+            Samples::Random(count) if !(2..=SAMPLES_MAX).contains(count) => {
+                Some(("samples.random", count.to_string(), "2 to 1000000"))
+            }
+            Samples::Listed(list) if list.len() < 2 => {
+                Some(("samples.listed", list.len().to_string(), "at least 2 configurations"))
+            }
+            Samples::Random(_) | Samples::Listed(_) => None,
+        }
+    }
+
+    /// Brings listed samples into stored form and checks them.
+    pub(super) fn settle(&mut self, cx: &Context) -> Result<(), String> {
+        let Samples::Listed(list) = self else { return Ok(()) };
+        for (index, q) in list.iter_mut().enumerate() {
+            cx.settle(q).map_err(|error| format!("samples.listed[{index}]: {error}"))?;
+        }
+        Ok(())
+    }
+
+    fn configs(&self, cx: &Context, path: &str, scratch: &mut Scratch) -> Configs {
+        let mut configs = Configs::new(cx.space.len());
+        match self {
+            Samples::Listed(list) => list.iter().for_each(|q| configs.push(q)),
+            Samples::Random(count) => {
+                let seed = Seed::of_evaluator(cx.base_seed, path);
+                let mut stream = seed.stream(Purpose::Sampling);
+                let mut q = vec![0.0; cx.space.len()];
+                for _ in 0..*count {
+                    // Where hardly anything is valid fewer samples are drawn, and they count as missing.
+                    for _ in 0..ATTEMPTS_MAX {
+                        cx.space.sample_uniform(&mut stream, &mut q);
+                        if cx.validity.valid(&q, scratch) {
+                            configs.push(&q);
+                            break;
+                        }
+                    }
+                }
+            }
+        }
+        configs
+    }
+
+    fn count(&self) -> usize {
+        match self {
+            Samples::Random(count) => *count as usize,
+            Samples::Listed(list) => list.len(),
+        }
+    }
+
+    /// Per sample the names of the components that it reaches: each tries to connect to its nearest
+    /// nodes, those of components already reached excepted.
+    pub(super) fn reached(
+        &self,
+        cx: &Context,
+        path: &str,
+        roadmap: &Roadmap,
+        attachment: &Attachment,
+        scratch: &mut Scratch,
+    ) -> Vec<BTreeSet<u32>> {
+        let configs = roadmap.configs();
+        let mut reached = vec![BTreeSet::new(); self.count()];
+        for (components, q) in reached.iter_mut().zip(self.configs(cx, path, scratch).iter()) {
+            let all = 0..configs.len() as u32;
+            let near = k_nearest(&cx.space, configs, all, q, attachment.neighbors as usize);
+            for neighbor in near {
+                let name = roadmap.components().of_node(neighbor.id).name;
+                let ends = (configs.get(neighbor.id as usize), q);
+                let planners = &attachment.planners;
+                if !components.contains(&name)
+                    && local::connect(cx, planners, ends, 1, scratch).is_some()
+                {
+                    components.insert(name);
+                }
+            }
+        }
+        reached
+    }
+}
+
+/// The verdict on a share of something.
+pub(super) fn share(part: usize, whole: usize, threshold: f64, asked: Asked) -> Verdict {
+    let value = if whole == 0 { 0.0 } else { part as f64 / whole as f64 };
+    Verdict {
+        satisfied: value >= threshold,
+        value,
+        threshold,
+        answer: None,
+        parts: Vec::new(),
+        asked,
+    }
+}
+
+/// What is wrong with the settings that coverage and connectivity share.
+pub(super) fn complaint(
+    samples: &Samples,
+    percent: f64,
+    attachment: &Attachment,
+) -> Option<Complaint> {
+    if !(percent > 0.0 && percent <= 100.0) {
+        return Some(("percent", percent.to_string(), "more than 0, at most 100"));
+    }
+    samples.complaint().or_else(|| attachment.complaint())
+}
