@@ -1,5 +1,7 @@
 use super::Problem;
+use crate::robot::{JointKind, Limits};
 use crate::scene::{Body, Shape};
+use crate::space::Motion;
 use crate::validity::BoundsMeaning;
 use std::fmt::Write;
 
@@ -15,12 +17,36 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     let names: Vec<_> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
     writeln!(out, "problem          {} (seed {})", problem.name, problem.seed)?;
     writeln!(out, "configuration    {}", names.join(" "))?;
-    let turns = match names.last() {
-        Some(&"theta") => "; theta in radians, in [-pi, pi)",
-        Some(&"qz") => "; qw qx qy qz a unit quaternion, w first",
-        _ => "",
+    let base = match problem.robot.motion {
+        Motion::Fixed => "the base stands still",
+        Motion::Translation2d => "x y: the base's place in the plane z = 0",
+        Motion::Rigid2d => {
+            "x y theta: the base's pose in the plane; theta in radians, in [-pi, pi)"
+        }
+        Motion::Translation3d => "x y z: the base's place",
+        Motion::Rigid3d => "x y z qw qx qy qz: the base's pose; a unit quaternion, w first",
     };
-    writeln!(out, "                 the pose of the robot's frame in the world's{turns}")?;
+    writeln!(out, "                 {base}, its frame in the world's")?;
+    for joint in problem.robot.links.iter().filter_map(|link| link.joint.as_ref()) {
+        let name = &joint.name;
+        match joint.kind {
+            JointKind::Fixed => {}
+            JointKind::Revolute { limits: None, .. } => {
+                writeln!(out, "                 {name}: turns on and on; radians, in [-pi, pi)")?;
+            }
+            JointKind::Revolute { limits: Some(Limits { min, max }), .. } => {
+                writeln!(out, "                 {name}: turns from {min} to {max} radians")?;
+            }
+            JointKind::Prismatic { limits: Limits { min, max }, .. } => {
+                writeln!(out, "                 {name}: slides from {min} to {max}")?;
+            }
+        }
+    }
+    let pairs = problem.robot.self_pairs().len();
+    if problem.robot.links.len() > 1 {
+        let links = problem.robot.links.len();
+        writeln!(out, "                 {links} links, {pairs} pairs of which must not touch")?;
+    }
     writeln!(out, "                 lengths in the unit of the file")?;
     let axes = problem.robot.motion.bounded_axes();
     let meaning = match bounds.meaning {

@@ -103,3 +103,44 @@ fn the_digest_covers_what_determines_entries_and_nothing_else() {
         assert_eq!(changed.digest() == digest, same);
     }
 }
+
+#[test]
+fn errors_in_linkages_name_the_link() {
+    let linkage = |link: &str| {
+        let first = "[[robot.links]]\nname = \"first\"\njoint = { kind = { fixed = {} } }\n";
+        format!("{WALLS}\n{first}[[robot.links]]\n{link}\n")
+    };
+    let revolute = "joint = { kind = { revolute = { axis = [0, 0, 1] } } }";
+    for (link, expected) in [
+        (format!("name = \"first\"\n{revolute}"), "robot.links[1].name: `first` found"),
+        (format!("name = \"a b\"\n{revolute}"), "robot.links[1].name: `a b` found"),
+        (
+            "name = \"a\"\njoint = { parent = \"a\", kind = { fixed = {} } }".to_owned(),
+            "robot.links[1].joint.parent: `a` found; the name of a link before",
+        ),
+        (
+            "name = \"a\"\njoint = { kind = { revolute = { axis = [0, 0, 0] } } }".to_owned(),
+            "robot.links[1].joint.kind: axis [0.0, 0.0, 0.0] found",
+        ),
+        (
+            "name = \"a\"\njoint = { kind = { revolute = { axis = [0, 0, 1], degrees = [9, -9] } } }"
+                .to_owned(),
+            "robot.links[1].joint.kind: 9 to -9 found",
+        ),
+        (
+            "name = \"a\"\njoint = { kind = { prismatic = { axis = [0, 0, 1], range = [0, nan] } } }"
+                .to_owned(),
+            "robot.links[1].joint.kind: 0 to NaN found",
+        ),
+        ("name = \"a\"\njoint = { kind = { screw = {} } }".to_owned(), "unknown variant `screw`"),
+        (
+            format!("name = \"a\"\n{revolute}\nbodies = [{{ shape = {{ sphere = {{ radius = -1 }} }} }}]"),
+            "robot.links[1].bodies[0].shape: radius = -1 found",
+        ),
+    ] {
+        let error = parse(&linkage(&link)).unwrap_err();
+        assert!(error.starts_with("walls.toml:") && error.contains(expected), "{error}");
+    }
+    let fixed = WALLS.replace("rigid-3d", "fixed").split("[query]").next().unwrap().to_owned();
+    assert!(parse(&fixed).unwrap_err().contains("robot: nothing moves"));
+}
