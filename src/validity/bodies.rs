@@ -177,12 +177,6 @@ impl BodyValidity {
         }
         false
     }
-
-    /// Number of steps in which a motion is checked.
-    pub(super) fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64 {
-        let step = self.resolution / f64::from(refinement);
-        (self.speeds.farthest(&self.robot, a, b) / step).ceil().max(1.0) as u64
-    }
 }
 
 impl Validity for BodyValidity {
@@ -213,5 +207,9 @@ impl Validity for BodyValidity {
         }
         scratch.between = between;
         free
+    }
+    fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64 {
+        let step = self.resolution / f64::from(refinement);
+        (self.speeds.farthest(&self.robot, a, b) / step).ceil().max(1.0) as u64
     }
 }

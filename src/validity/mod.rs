@@ -4,6 +4,7 @@ mod bodies;
 mod inside;
 mod piece;
 mod scratch;
+mod triangles;
 
 pub use bodies::{BodyValidity, Bounds, BoundsMeaning};
 pub use scratch::{Asked, Scratch};
@@ -37,6 +38,9 @@ pub trait Validity: Send + Sync {
     /// point moves farther than the problem's resolution divided by `refinement` between two of
     /// them. The ends are the caller's.
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> bool;
+
+    /// Number of equal steps in which that motion is checked.
+    fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64;
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Bodies prepared for collision tests.
 
 use super::inside::Inside;
+use super::triangles::meshes_meet;
 use crate::scene::{Body, Shape};
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::{Pose, Vector};
@@ -77,10 +78,15 @@ impl Piece {
             (Some(shape), None) => holds_point(shape, at, other_at),
             (Some(shape), Some(other_shape)) => {
                 let pos12 = other_at.pose.inv_mul(&at.pose);
-                DefaultQueryDispatcher
-                    .intersection_test(&pos12, &*other_shape.0, &*shape.0)
-                    .expect("parry tests every pair of our shapes")
-                    .intersecting
+                match (other_shape.as_trimesh(), shape.as_trimesh()) {
+                    (Some(mesh1), Some(mesh2)) => meshes_meet(&pos12, mesh1, mesh2),
+                    _ => {
+                        DefaultQueryDispatcher
+                            .intersection_test(&pos12, &*other_shape.0, &*shape.0)
+                            .expect("parry tests every pair of our shapes")
+                            .intersecting
+                    }
+                }
             }
         };
         touching || other.encloses(other_at, self, at) || self.encloses(at, other, other_at)

@@ -1,0 +1,231 @@
+// The other side of the race: OMPL and FCL on the scenes that bench/race.rs writes.
+//
+//   race edges SCENE PAIRS VERDICTS   decides the pairs with FCL, in as many steps as the file says;
+//                                     writes a verdict (1 free, 0 blocked) a line
+//   race grow SCENE NODES K SEED      OMPL's PRM::growRoadmap to NODES nodes with K neighbours
+//
+// Each prints the CPU seconds of its one thread, and what it counted. Configurations are
+// x y z qw qx qy qz. A motion is checked at the interior points of `steps` equal steps, like ours: in
+// steps that carry no robot point farther than the scene's resolution.
+//
+// Build: g++ -O3 -march=x86-64 -std=c++17 race.cpp -I/usr/include/eigen3 -I/usr/include/ompl-1.5 -lompl -lfcl -lccd
+#include <fcl/fcl.h>
+#include <ompl/base/DiscreteMotionValidator.h>
+#include <ompl/base/PlannerTerminationCondition.h>
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/SE3StateSpace.h>
+#include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ob = ompl::base;
+using SE3 = ob::SE3StateSpace;
+using Model = fcl::BVHModel<fcl::OBBRSSd>;
+
+[[noreturn]] static void fail(const std::string& what) {
+  std::cerr << "race: " << what << "\n";
+  std::exit(2);
+}
+
+static double cpu_seconds() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return time.tv_sec + 1e-9 * time.tv_nsec;
+}
+
+struct Scene {
+  double low[3], high[3], resolution, radius;
+  std::shared_ptr<Model> world, robot;
+};
+
+static std::shared_ptr<Model> read_model(std::istream& in) {
+  size_t vertices, triangles;
+  if (!(in >> vertices >> triangles)) fail("a mesh expected");
+  std::vector<fcl::Vector3d> points(vertices);
+  std::vector<fcl::Triangle> faces;
+  for (auto& p : points) in >> p[0] >> p[1] >> p[2];
+  for (size_t i = 0; i < triangles; ++i) {
+    size_t a, b, c;
+    in >> a >> b >> c;
+    faces.emplace_back(a, b, c);
+  }
+  if (!in) fail("the mesh is cut off");
+  auto model = std::make_shared<Model>();
+  model->beginModel();
+  model->addSubModel(points, faces);
+  model->endModel();
+  model->computeLocalAABB();
+  return model;
+}
+
+static Scene read_scene(const char* path) {
+  std::ifstream in(path);
+  Scene scene;
+  for (double& value : scene.low) in >> value;
+  for (double& value : scene.high) in >> value;
+  if (!(in >> scene.resolution >> scene.radius)) fail("a scene expected");
+  scene.world = read_model(in);
+  scene.robot = read_model(in);
+  return scene;
+}
+
+static bool collides(const Scene& scene, const SE3::StateType* state) {
+  const auto& q = state->rotation();
+  fcl::Transform3d pose = fcl::Transform3d::Identity();
+  pose.linear() = fcl::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix();
+  pose.translation() = fcl::Vector3d(state->getX(), state->getY(), state->getZ());
+  static const fcl::CollisionRequestd request(1, false);
+  fcl::CollisionResultd result;
+  const auto world = fcl::Transform3d::Identity();
+  return fcl::collide(scene.robot.get(), pose, scene.world.get(), world, request, result) != 0;
+}
+
+/// Checks the interior points of `steps` steps, the middle first as OMPL does.
+struct Interior {
+  std::vector<std::pair<int, int>> queue;
+
+  template <class Free>
+  bool free(const SE3& space, const ob::State* a, const ob::State* b, int steps, SE3::StateType* between, Free free) {
+    if (steps < 2) return true;
+    queue.assign(1, {1, steps - 1});
+    for (size_t head = 0; head < queue.size(); ++head) {
+      const auto [low, high] = queue[head];
+      const int middle = (low + high) / 2;
+      space.interpolate(a, b, double(middle) / steps, between);
+      if (!free(between)) return false;
+      if (low < middle) queue.push_back({low, middle - 1});
+      if (middle < high) queue.push_back({middle + 1, high});
+    }
+    return true;
+  }
+};
+
+struct Checker : ob::StateValidityChecker {
+  const Scene& scene;
+  Checker(const ob::SpaceInformationPtr& si, const Scene& scene) : ob::StateValidityChecker(si), scene(scene) {}
+  bool isValid(const ob::State* state) const override {
+    return si_->satisfiesBounds(state) && !collides(scene, state->as<SE3::StateType>());
+  }
+};
+
+/// OMPL divides by its own measure of a motion; this validator takes our number of steps.
+struct Validator : ob::MotionValidator {
+  const Scene& scene;
+  const SE3& space;
+  mutable Interior interior;
+  mutable size_t asked = 0;
+  SE3::StateType* between;
+
+  Validator(const ob::SpaceInformationPtr& si, const Scene& scene)
+      : ob::MotionValidator(si), scene(scene), space(*si->getStateSpace()->as<SE3>()), between(si->allocState()->as<SE3::StateType>()) {}
+  ~Validator() override { si_->freeState(between); }
+
+  int steps(const SE3::StateType* a, const SE3::StateType* b) const {
+    const double x = b->getX() - a->getX(), y = b->getY() - a->getY(), z = b->getZ() - a->getZ();
+    const auto &p = a->rotation(), &q = b->rotation();
+    const double dot = std::fabs(p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z);
+    const double farthest = std::sqrt(x * x + y * y + z * z) + scene.radius * 2 * std::acos(std::min(1.0, dot));
+    return std::max(1, int(std::ceil(farthest / scene.resolution)));
+  }
+  bool checkMotion(const ob::State* a, const ob::State* b) const override {
+    ++asked;
+    const int count = steps(a->as<SE3::StateType>(), b->as<SE3::StateType>());
+    // Both ends are milestones.
+    return interior.free(space, a, b, count, between, [&](const ob::State* q) { return si_->isValid(q); });
+  }
+  bool checkMotion(const ob::State* a, const ob::State* b, std::pair<ob::State*, double>&) const override { return checkMotion(a, b); }
+};
+
+static void set(SE3::StateType* state, const double* q) {
+  state->setXYZ(q[0], q[1], q[2]);
+  auto& rotation = state->rotation();
+  rotation.w = q[3];
+  rotation.x = q[4];
+  rotation.y = q[5];
+  rotation.z = q[6];
+}
+
+static int race_edges(const Scene& scene, const std::shared_ptr<SE3>& space, const char* pairs, const char* verdicts) {
+  struct Pair {
+    SE3::StateType *a, *b;
+    int steps;
+  };
+  std::vector<Pair> all;
+  std::ifstream in(pairs);
+  double q[14];
+  for (int steps;;) {
+    for (double& value : q) in >> value;
+    if (!(in >> steps)) break;
+    Pair pair{space->allocState()->as<SE3::StateType>(), space->allocState()->as<SE3::StateType>(), steps};
+    set(pair.a, q);
+    set(pair.b, q + 7);
+    all.push_back(pair);
+  }
+  auto* between = space->allocState()->as<SE3::StateType>();
+  Interior interior;
+  std::vector<bool> found;
+  const double begun = cpu_seconds();
+  for (const auto& pair : all) {
+    found.push_back(interior.free(*space, pair.a, pair.b, pair.steps, between, [&](const SE3::StateType* s) { return !collides(scene, s); }));
+  }
+  const double seconds = cpu_seconds() - begun;
+  std::ofstream out(verdicts);
+  for (bool free : found) out << free << "\n";
+  std::printf("%.6f %zu\n", seconds, all.size());
+  return 0;
+}
+
+static int race_grow(const Scene& scene, const std::shared_ptr<SE3>& space, unsigned nodes, unsigned k) {
+  auto si = std::make_shared<ob::SpaceInformation>(space);
+  si->setStateValidityChecker(std::make_shared<Checker>(si, scene));
+  auto validator = std::make_shared<Validator>(si, scene);
+  si->setMotionValidator(validator);
+  si->setup();
+  // Growing needs a problem, whatever it is.
+  auto problem = std::make_shared<ob::ProblemDefinition>(si);
+  ob::ScopedState<SE3> any(space);
+  any.random();
+  problem->setStartAndGoalStates(any, any);
+  ompl::geometric::PRM prm(si);
+  prm.setProblemDefinition(problem);
+  prm.setMaxNearestNeighbors(k);
+  prm.setup();
+  const double begun = cpu_seconds();
+  prm.growRoadmap(ob::PlannerTerminationCondition([&] { return prm.milestoneCount() >= nodes; }));
+  const double seconds = cpu_seconds() - begun;
+  std::printf("%.6f %lu %lu %zu\n", seconds, prm.milestoneCount(), prm.edgeCount(), validator->asked);
+  return 0;
+}
+
+int main(int count, char** words) {
+  if (count < 5) fail("edges SCENE PAIRS VERDICTS or grow SCENE NODES K SEED expected");
+  ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
+  const std::string mode = words[1];
+  const Scene scene = read_scene(words[2]);
+  auto space = std::make_shared<SE3>();
+  ob::RealVectorBounds bounds(3);
+  for (int i = 0; i < 3; ++i) {
+    bounds.setLow(i, scene.low[i]);
+    bounds.setHigh(i, scene.high[i]);
+  }
+  space->setBounds(bounds);
+  space->setup();
+  if (mode == "edges") return race_edges(scene, space, words[3], words[4]);
+  if (mode == "grow" && count == 6) {
+    ompl::RNG::setSeed(std::strtoul(words[5], nullptr, 10));
+    return race_grow(scene, space, std::atoi(words[3]), std::atoi(words[4]));
+  }
+  fail("edges or grow expected");
+}
