@@ -4,7 +4,7 @@
 //! cargo bench -p roadmill-coordinator --bench scaling [-- NODES]
 //! ```
 //!
-//! The cage without its query is built up to NODES nodes (default 30 000, over 20 CPU seconds), five
+//! The cage without its query is built up to NODES nodes (default 80 000, over 20 CPU seconds), five
 //! times in turn: by one build with two workers, then by two independent builds with one worker
 //! each, side by side. The machine slows two busy cores down alike in both, so the ratio
 //!
@@ -28,7 +28,7 @@ struct Run {
 }
 
 fn main() {
-    let nodes = std::env::args().skip(1).find_map(|word| word.parse().ok()).unwrap_or(30_000u64);
+    let nodes = std::env::args().skip(1).find_map(|word| word.parse().ok()).unwrap_or(80_000u64);
     let folder = tempfile::tempdir().expect("a temporary folder");
     let problem = problem(folder.path(), nodes);
     let (mut ratios, mut shares) = (Vec::new(), Vec::new());
