@@ -63,9 +63,10 @@ impl Meshes {
             let message = format!("the scene's meshes have more than {MESH_ITEMS_MAX} triangles");
             return Err(named.error(message));
         }
-        let solid = solid == Solid::Auto && read.mesh.is_closed();
+        let solid = solid == Solid::Auto && read.odd_edges == 0;
         let body = Body { shape: Shape::Mesh(read.mesh.clone()), pose, solid };
-        let stored_triangles = read.stored_triangles;
-        Ok((ForeignBody { body, file, stored_triangles }, read))
+        let counts = [read.stored_triangles, read.unique_triangles, read.odd_edges];
+        let [stored_triangles, unique_triangles, odd_edges] = counts;
+        Ok((ForeignBody { body, file, stored_triangles, unique_triangles, odd_edges }, read))
     }
 }

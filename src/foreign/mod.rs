@@ -59,6 +59,11 @@ pub struct ForeignBody {
     pub file: PathBuf,
     /// Triangles in the file, repeated and flat ones included.
     pub stored_triangles: usize,
+    /// Triangles with three different corners, repeated ones counted once.
+    pub unique_triangles: usize,
+    /// Edges that an odd number of those share: 0 for a closed surface. Flat triangles, which the body's
+    /// mesh lacks, count.
+    pub odd_edges: usize,
 }
 
 /// A link: bodies that move as one.

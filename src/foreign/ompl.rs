@@ -228,7 +228,7 @@ impl<'a> Config<'a> {
             let [x, y, z] = read.centre;
             notes.push(format!("{key}: origin moved to the mean of the vertices, {x} {y} {z}"));
         }
-        notes.push(match (solid, read.mesh.odd_edges()) {
+        notes.push(match (solid, read.odd_edges) {
             (Solid::Never, _) => {
                 format!("{key}: solid = false, as OMPL's checker tests surfaces only")
             }

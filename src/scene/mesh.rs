@@ -15,13 +15,7 @@ pub struct Mesh {
 impl Mesh {
     /// Number of edges that an odd number of triangles share: 0 for a closed surface.
     pub fn odd_edges(&self) -> usize {
-        let mut count_of = BTreeMap::new();
-        for [a, b, c] in &self.triangles {
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                *count_of.entry((from.min(to), from.max(to))).or_insert(0u32) += 1;
-            }
-        }
-        count_of.values().filter(|count| **count % 2 == 1).count()
+        odd_edges(&self.triangles)
     }
 
     /// Whether the surface is closed, so that it has an inside.
@@ -68,4 +62,15 @@ impl Mesh {
         }
         (min, max)
     }
+}
+
+/// Number of edges that an odd number of the triangles share.
+pub(super) fn odd_edges(triangles: &[[u32; 3]]) -> usize {
+    let mut count_of = BTreeMap::new();
+    for [a, b, c] in triangles {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            *count_of.entry((from.min(to), from.max(to))).or_insert(0u32) += 1;
+        }
+    }
+    count_of.values().filter(|count| **count % 2 == 1).count()
 }

@@ -1,4 +1,5 @@
 use super::raw::{MeshError, RawMesh, UpAxis};
+use super::weld::Surface;
 use super::{LENGTH_MAX, Mesh, byu, collada, obj, ply, stl};
 use std::path::Path;
 
@@ -50,6 +51,11 @@ pub struct ReadMesh {
     pub mesh: Mesh,
     /// Triangles in the file, repeated and flat ones included.
     pub stored_triangles: usize,
+    /// Triangles with three different corners once near vertices are joined, repeated ones counted once.
+    pub unique_triangles: usize,
+    /// Edges that an odd number of those share: 0 for a closed surface. The mesh itself lacks the flat
+    /// ones among them and may seem open at a seam that is none.
+    pub odd_edges: usize,
     /// The mean that became the origin, in the file's unit (after the turn); zero where it was not
     /// asked for.
     pub centre: [f64; 3],
@@ -111,14 +117,15 @@ fn finish(path: &Path, mut raw: RawMesh, options: &MeshOptions) -> Result<ReadMe
     }
     let stored_triangles = raw.triangles.len();
     let (up, unit_metres) = (raw.up, raw.unit_metres);
-    let mesh = Mesh::weld(raw, scale, options.weld);
+    let (mesh, surface) = Mesh::weld(raw, scale, options.weld);
     if mesh.triangles.is_empty() {
         let message = format!(
             "all {stored_triangles} triangles have zero area; at least one with an area expected"
         );
         return Err(MeshError::whole(path, message));
     }
-    Ok(ReadMesh { mesh, stored_triangles, centre, up, unit_metres })
+    let Surface { unique_triangles, odd_edges } = surface;
+    Ok(ReadMesh { mesh, stored_triangles, unique_triangles, odd_edges, centre, up, unit_metres })
 }
 
 fn check_size(path: &Path, raw: &RawMesh, scale: f64) -> Result<(), MeshError> {

@@ -1,8 +1,19 @@
 //! From triangles as stored to a mesh: vertices joined, repeated and flat triangles dropped.
 
 use super::Mesh;
+use super::mesh::odd_edges;
 use super::raw::RawMesh;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// What the file's triangles are before flat ones are dropped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Surface {
+    /// Triangles with different corners, each set of corners counted once.
+    pub unique_triangles: usize,
+    /// Edges that an odd number of them share. A flat triangle may close a seam between neighbours whose
+    /// corners do not meet, so without it a closed surface would seem open.
+    pub odd_edges: usize,
+}
 
 impl Mesh {
     /// Joins vertices, drops triangles without area, all but the first of triangles with the same
@@ -11,7 +22,7 @@ impl Mesh {
     /// Each vertex joins the first one at most `tolerance` away, and takes its place to the bit; with 0,
     /// equal ones only. The tolerance is a length of the scene, not a share of its size: a file
     /// writes its decimals where they are, whatever else is in it.
-    pub(super) fn weld(raw: RawMesh, scale: f64, tolerance: f64) -> Mesh {
+    pub(super) fn weld(raw: RawMesh, scale: f64, tolerance: f64) -> (Mesh, Surface) {
         let scaled = raw.vertices.iter().map(|vertex| vertex.map(|value| value * scale + 0.0));
         let (vertices, welded) =
             if tolerance > 0.0 { join_near(scaled, tolerance) } else { join_equal(scaled) };
@@ -21,12 +32,17 @@ impl Mesh {
             let corners = corners.map(|corner| welded[corner as usize]);
             let mut sorted = corners;
             sorted.sort_unstable();
-            let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
-            if area_squared(a, b, c) > 0.0 && seen.insert(sorted) {
+            if sorted[0] < sorted[1] && sorted[1] < sorted[2] && seen.insert(sorted) {
                 triangles.push(corners);
             }
         }
-        without_unused(vertices, triangles)
+        let surface =
+            Surface { unique_triangles: triangles.len(), odd_edges: odd_edges(&triangles) };
+        triangles.retain(|corners| {
+            let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
+            area_squared(a, b, c) > 0.0
+        });
+        (without_unused(vertices, triangles), surface)
     }
 }
 
@@ -126,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_cube_is_closed_and_an_open_box_is_not() {
-        let mut mesh = Mesh::weld(cube(0.0), 1.0, 0.0);
+        let mut mesh = Mesh::weld(cube(0.0), 1.0, 0.0).0;
         assert!(mesh.is_closed());
         mesh.triangles.truncate(10);
         assert_eq!(mesh.odd_edges(), 4);
@@ -139,7 +155,7 @@ mod tests {
         raw.triangles.push([0, 0, 1]);
         raw.vertices.extend(other.vertices);
         raw.triangles.extend(other.triangles.iter().map(|corners| corners.map(|c| c + 8)));
-        let mesh = Mesh::weld(raw, 2.0, 0.0);
+        let mesh = Mesh::weld(raw, 2.0, 0.0).0;
         assert_eq!(mesh.triangles.len(), 24);
         assert_eq!(mesh.witnesses(), [[0.0; 3], [10.0; 3]]);
         assert_eq!(mesh.bounding_box(), ([0.0; 3], [12.0; 3]));
@@ -155,9 +171,35 @@ mod tests {
         raw.vertices = own.into_iter().enumerate().map(off).collect();
         raw.triangles = (0..12).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         raw.vertices.push([9.0; 3]);
-        let mesh = Mesh::weld(raw, 1.0, 1e-6);
+        let mesh = Mesh::weld(raw, 1.0, 1e-6).0;
         assert_eq!((mesh.vertices.len(), mesh.vertices[0]), (8, [0.0; 3]));
         assert!(mesh.is_closed());
         assert!(mesh.bounding_box().1[0] < 1.1);
+    }
+
+    #[test]
+    fn a_flat_triangle_closes_a_seam() {
+        // The front is cut from edge to edge at the middle, its neighbour below is not.
+        let mut raw = cube(0.0);
+        raw.vertices.push([0.5, 0.0, 0.0]);
+        let at = raw.triangles.iter().position(|t| t.contains(&0) && t.contains(&1));
+        let [a, b, c] = raw.triangles[at.unwrap()];
+        let rest = [a, b, c].into_iter().find(|corner| *corner > 1).unwrap();
+        raw.triangles[at.unwrap()] = [0, 8, rest];
+        raw.triangles.push([8, 1, rest]);
+        let (_, open) = Mesh::weld(
+            RawMesh {
+                vertices: raw.vertices.clone(),
+                triangles: raw.triangles.clone(),
+                ..RawMesh::default()
+            },
+            1.0,
+            0.0,
+        );
+        assert_eq!(open.odd_edges, 3);
+        raw.triangles.push([0, 1, 8]);
+        let (mesh, closed) = Mesh::weld(raw, 1.0, 0.0);
+        assert_eq!((closed.unique_triangles, closed.odd_edges), (14, 0));
+        assert_eq!(mesh.triangles.len(), 13);
     }
 }

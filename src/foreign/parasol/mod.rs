@@ -202,7 +202,7 @@ impl<'a> Geometry<'a> {
 /// What was made of a body, for people to read.
 fn note(what: &str, geometry: &Geometry, read: &ReadMesh) -> String {
     let file = geometry.file;
-    let closed = match read.mesh.odd_edges() {
+    let closed = match read.odd_edges {
         0 => "solid = true, as the mesh is closed".to_owned(),
         odd => format!("solid = false, as the mesh has {odd} open edges"),
     };

@@ -57,7 +57,8 @@ impl Geometry {
         for list in children(group, "p") {
             let mut corners = Vec::new();
             inputs.corners(dae, list, |position, normal| {
-                let key = [position, normal].map(|values| values.map(f64::to_bits));
+                // −0 is 0: exporters write either.
+                let key = [position, normal].map(|values| values.map(|v| (v + 0.0).to_bits()));
                 let key = [key[0][0], key[0][1], key[0][2], key[1][0], key[1][1], key[1][2]];
                 corners.push(*index_of.entry(key).or_insert_with(|| {
                     self.vertices.push(position);

@@ -113,7 +113,9 @@ impl<'a> Walk<'_, 'a> {
     fn visit(&mut self, node: Node) -> Result<(), MeshError> {
         self.visits += 1;
         if self.visits > VISITS_MAX {
-            return Err(self.dae.error(node, format!("more than {VISITS_MAX} nodes and instances")));
+            return Err(self
+                .dae
+                .error(node, format!("more than {VISITS_MAX} nodes and instances")));
         }
         Ok(())
     }
