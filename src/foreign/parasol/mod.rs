@@ -14,7 +14,6 @@ use super::bodies::{Meshes, Named, Solid};
 use super::error::read_text;
 use super::{Base, ForeignBody, ForeignError, ForeignScene};
 use crate::scene::{Centre, MeshOptions, Pose, ReadMesh};
-use crate::space::Motion;
 use crate::validity::{Bounds, BoundsMeaning};
 use std::path::{Path, PathBuf};
 use words::Words;
@@ -141,8 +140,8 @@ impl Boundary {
         notes: &mut Vec<String>,
     ) -> Result<Bounds, ForeignError> {
         let axes = match base {
-            Base::Moving(Motion::Translation2d | Motion::Rigid2d) => 2,
-            Base::Moving(_) | Base::Fixed(_) => 3,
+            Base::Moving(motion) => motion.translations(),
+            Base::Fixed(_) => 3,
         };
         let given = self.intervals.len();
         if given < axes {

@@ -44,12 +44,15 @@ pub(super) fn read(
 }
 
 fn configuration(words: &[&str], robot: &Robot) -> Result<Vec<f64>, String> {
-    let base = match robot.base {
-        Base::Fixed(_) => 0,
-        Base::Moving(Motion::Translation2d) => 2,
-        Base::Moving(Motion::Rigid2d | Motion::Translation3d) => 3,
-        Base::Moving(Motion::Rigid3d) => 6,
+    let motion = match robot.base {
+        Base::Fixed(_) => None,
+        Base::Moving(motion) => Some(motion),
     };
+    let base = motion.map_or(0, |motion| match (motion.translations(), motion.rotates()) {
+        (2, true) => 3,
+        (3, true) => 6,
+        (translations, _) => translations,
+    });
     let expected = 1 + base + robot.places.len();
     if words.len() != expected {
         let found = words.len();
@@ -68,13 +71,13 @@ fn configuration(words: &[&str], robot: &Robot) -> Result<Vec<f64>, String> {
     }
     let (own, joints) = values.split_at(base);
     let mut q = own.to_vec();
-    match robot.base {
-        Base::Moving(Motion::Rigid2d) => q[2] = math::wrap_angle(own[2] * PI),
-        Base::Moving(Motion::Rigid3d) => {
+    match motion {
+        Some(Motion::Rigid2d) => q[2] = math::wrap_angle(own[2] * PI),
+        Some(Motion::Rigid3d) => {
             q.truncate(3);
             q.extend(euler([own[3], own[4], own[5]]));
         }
-        Base::Fixed(_) | Base::Moving(Motion::Translation2d | Motion::Translation3d) => {}
+        _ => {}
     }
     q.extend(robot.places.iter().map(|place| joints[*place] * PI));
     Ok(q)
