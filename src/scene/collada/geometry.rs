@@ -5,6 +5,10 @@ use super::{Dae, child, children};
 use crate::scene::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
 use roxmltree::Node;
 use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// Sources by their place in the file: many groups may share a large one.
+pub(super) type Sources = BTreeMap<usize, Rc<[[f64; 3]]>>;
 
 /// Vertices as importers store them, in the geometry's own frame.
 #[derive(Default)]
@@ -14,12 +18,16 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    pub(super) fn read<'a>(dae: &Dae<'a>, mesh: Node<'a, 'a>) -> Result<Geometry, MeshError> {
+    pub(super) fn read<'a>(
+        dae: &Dae<'a>,
+        mesh: Node<'a, 'a>,
+        sources: &mut Sources,
+    ) -> Result<Geometry, MeshError> {
         let mut geometry = Geometry::default();
         for group in mesh.children().filter(Node::is_element) {
             match group.tag_name().name() {
                 "triangles" | "polylist" | "polygons" | "trifans" | "tristrips" | "lines"
-                | "linestrips" => geometry.group(dae, group)?,
+                | "linestrips" => geometry.group(dae, group, sources)?,
                 _ => {}
             }
         }
@@ -46,9 +54,14 @@ impl Geometry {
         Ok(())
     }
 
-    fn group<'a>(&mut self, dae: &Dae<'a>, group: Node<'a, 'a>) -> Result<(), MeshError> {
+    fn group<'a>(
+        &mut self,
+        dae: &Dae<'a>,
+        group: Node<'a, 'a>,
+        sources: &mut Sources,
+    ) -> Result<(), MeshError> {
         let tag = group.tag_name().name();
-        let inputs = Inputs::read(dae, group)?;
+        let inputs = Inputs::read(dae, group, sources)?;
         if child(group, "ph").is_some() {
             return Err(dae.error(group, "a polygon with holes found; one without expected"));
         }
@@ -140,12 +153,16 @@ impl Geometry {
 /// Where the numbers of `<p>` point.
 struct Inputs {
     stride: usize,
-    positions: (usize, Vec<[f64; 3]>),
-    normals: Option<(usize, Vec<[f64; 3]>)>,
+    positions: (usize, Rc<[[f64; 3]]>),
+    normals: Option<(usize, Rc<[[f64; 3]]>)>,
 }
 
 impl Inputs {
-    fn read<'a>(dae: &Dae<'a>, group: Node<'a, 'a>) -> Result<Inputs, MeshError> {
+    fn read<'a>(
+        dae: &Dae<'a>,
+        group: Node<'a, 'a>,
+        sources: &mut Sources,
+    ) -> Result<Inputs, MeshError> {
         let mut stride = 1;
         let (mut positions, mut normals) = (None, None);
         for input in children(group, "input") {
@@ -161,13 +178,13 @@ impl Inputs {
                     let vertices = dae.target(input, "source", "vertices")?;
                     for own in children(vertices, "input") {
                         match dae.attribute(own, "semantic")? {
-                            "POSITION" => positions = Some((offset, source(dae, own)?)),
-                            "NORMAL" => normals = Some((offset, source(dae, own)?)),
+                            "POSITION" => positions = Some((offset, source(dae, own, sources)?)),
+                            "NORMAL" => normals = Some((offset, source(dae, own, sources)?)),
                             _ => {}
                         }
                     }
                 }
-                "NORMAL" => normals = Some((offset, source(dae, input)?)),
+                "NORMAL" => normals = Some((offset, source(dae, input, sources)?)),
                 _ => {}
             }
         }
@@ -195,7 +212,7 @@ impl Inputs {
                 continue;
             }
             filled = 0;
-            let at = |(offset, values): &(usize, Vec<[f64; 3]>)| {
+            let at = |(offset, values): &(usize, Rc<[[f64; 3]]>)| {
                 let index = corner[*offset];
                 values.get(index).copied().ok_or_else(|| {
                     let message =
@@ -215,8 +232,16 @@ impl Inputs {
 }
 
 /// The triples of a `<source>`: x, y and z are the first three values of its accessor.
-fn source<'a>(dae: &Dae<'a>, input: Node) -> Result<Vec<[f64; 3]>, MeshError> {
+fn source<'a>(
+    dae: &Dae<'a>,
+    input: Node,
+    sources: &mut Sources,
+) -> Result<Rc<[[f64; 3]]>, MeshError> {
     let source = dae.target(input, "source", "source")?;
+    let key = source.range().start;
+    if let Some(values) = sources.get(&key) {
+        return Ok(values.clone());
+    }
     let accessor = child(source, "technique_common").and_then(|node| child(node, "accessor"));
     let Some(accessor) = accessor else {
         return Err(dae.error(source, "<source> without an accessor"));
@@ -239,5 +264,8 @@ fn source<'a>(dae: &Dae<'a>, input: Node) -> Result<Vec<[f64; 3]>, MeshError> {
         );
         return Err(dae.error(accessor, message));
     }
-    Ok(values[offset..].chunks_exact(stride).take(count).map(|v| [v[0], v[1], v[2]]).collect())
+    let triples = values[offset..].chunks_exact(stride).take(count).map(|v| [v[0], v[1], v[2]]);
+    let triples: Rc<[[f64; 3]]> = triples.collect();
+    sources.insert(key, triples.clone());
+    Ok(triples)
 }

@@ -1,6 +1,6 @@
 //! The tree of nodes: what is instantiated, and where.
 
-use super::geometry::Geometry;
+use super::geometry::{Geometry, Sources};
 use super::{Dae, child};
 use crate::math;
 use crate::scene::raw::{MeshError, RawMesh};
@@ -20,6 +20,7 @@ const IDENTITY: Affine = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0,
 struct Walk<'d, 'a> {
     dae: &'d Dae<'a>,
     geometries: BTreeMap<usize, Geometry>,
+    sources: Sources,
     visits: usize,
 }
 
@@ -28,7 +29,7 @@ pub(super) fn walk_scene<'a>(
     scene: Node<'a, 'a>,
     mesh: &mut RawMesh,
 ) -> Result<(), MeshError> {
-    let mut walk = Walk { dae, geometries: BTreeMap::new(), visits: 0 };
+    let mut walk = Walk { dae, geometries: BTreeMap::new(), sources: Sources::new(), visits: 0 };
     for node in scene.children().filter(|node| node.tag_name().name() == "node") {
         walk.node(node, &IDENTITY, 1, mesh)?;
     }
@@ -132,7 +133,7 @@ impl<'a> Walk<'_, 'a> {
         };
         let key = target.range().start;
         if !self.geometries.contains_key(&key) {
-            self.geometries.insert(key, Geometry::read(self.dae, described)?);
+            self.geometries.insert(key, Geometry::read(self.dae, described, &mut self.sources)?);
         }
         let geometry = &self.geometries[&key];
         geometry.place(frame, mesh).map_err(|message| self.dae.error(instance, message))
