@@ -34,6 +34,7 @@ mod context;
 pub mod connect;
 pub mod evaluate;
 pub mod export;
+pub mod foreign;
 pub mod img;
 pub mod local;
 pub mod math;

@@ -43,7 +43,7 @@ pub trait Evaluator {
     /// The criterion's name in progress reports and summaries.
     fn name(&self) -> &'static str;
 
-    /// Judges the roadmap. Randomness, if any, comes from the seed that [`Seed::of_evaluator`] gives
+    /// Judges the roadmap. Randomness, if any, comes from the seed that [`Seed::of_evaluator`](crate::seed::Seed::of_evaluator) gives
     /// for `path`, the evaluator's place in the tree of evaluators.
     fn evaluate(
         &self,

@@ -4,18 +4,22 @@
 //! Rotations are unit quaternions `w x y z`; a pose maps body coordinates to the frame it is
 //! given in: `p ↦ rotation · p + translation`.
 
+mod byu;
+mod collada;
 mod mesh;
 mod obj;
+mod ply;
 mod pose;
 mod raw;
 mod read;
 mod shape;
 mod stl;
+mod weld;
 
 pub use mesh::Mesh;
 pub use pose::Pose;
-pub use raw::MeshError;
-pub use read::read_mesh;
+pub use raw::{MESH_ITEMS_MAX, MeshError, UpAxis};
+pub use read::{Centre, MeshOptions, ReadMesh, Up, read_mesh, read_mesh_with};
 pub use shape::Shape;
 
 use bincode::{Decode, Encode};

@@ -12,7 +12,7 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
         let line = 1 + bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count();
         MeshError::line(path, line, "not UTF-8 text; a Wavefront .obj expected")
     })?;
-    let mut mesh = RawMesh { vertices: Vec::new(), triangles: Vec::new() };
+    let mut mesh = RawMesh::default();
     let mut corners: Vec<u32> = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let number = index + 1;

@@ -22,13 +22,34 @@ impl MeshError {
         MeshError { path: path.to_owned(), place: String::new(), message: message.into() }
     }
 
+    pub(super) fn byte(path: &Path, byte: usize, message: impl Into<String>) -> MeshError {
+        MeshError { path: path.to_owned(), place: format!(" byte {byte}"), message: message.into() }
+    }
+
     pub(super) fn line(path: &Path, line: usize, message: impl Into<String>) -> MeshError {
         MeshError { path: path.to_owned(), place: format!(":{line}"), message: message.into() }
     }
 }
 
-/// Triangles as a file stores them: corners index `vertices`, which the reader has checked.
+/// Which axis of a file's coordinates points upwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UpAxis {
+    /// x.
+    X,
+    /// y.
+    Y,
+    /// z.
+    Z,
+}
+
+/// Triangles as a file stores them: corners index `vertices`, which the reader has checked. There may
+/// be vertices that no triangle uses.
+#[derive(Debug, Default)]
 pub(super) struct RawMesh {
     pub vertices: Vec<[f64; 3]>,
     pub triangles: Vec<[u32; 3]>,
+    /// Where the file says it.
+    pub up: Option<UpAxis>,
+    /// Metres per unit of length, where the file says it.
+    pub unit_metres: Option<f64>,
 }

@@ -40,7 +40,7 @@ fn read_binary(path: &Path, bytes: &[u8], count: usize) -> Result<RawMesh, MeshE
     if count > MESH_ITEMS_MAX {
         return Err(MeshError::whole(path, format!("more than {MESH_ITEMS_MAX} triangles")));
     }
-    let mut mesh = RawMesh { vertices: Vec::new(), triangles: Vec::new() };
+    let mut mesh = RawMesh::default();
     for (index, record) in bytes[HEADER_BYTES..].chunks_exact(TRIANGLE_BYTES).enumerate() {
         for corner in 1..4 {
             let mut vertex = [0.0; 3];
@@ -63,7 +63,7 @@ fn read_binary(path: &Path, bytes: &[u8], count: usize) -> Result<RawMesh, MeshE
 }
 
 fn read_text(path: &Path, text: &str) -> Result<RawMesh, MeshError> {
-    let mut mesh = RawMesh { vertices: Vec::new(), triangles: Vec::new() };
+    let mut mesh = RawMesh::default();
     let mut corners = 0;
     let mut ended = false;
     for (index, line) in text.lines().enumerate() {

@@ -1,0 +1,72 @@
+//! Mesh files as bodies.
+
+use super::{ForeignBody, ForeignError};
+use crate::scene::{Body, MESH_ITEMS_MAX, MeshOptions, Pose, ReadMesh, Shape, read_mesh_with};
+use std::path::{Path, PathBuf};
+
+/// Vertices nearer than this are one, a length of the scene. Exporters write six decimals, and some
+/// write the same corner differently in the last.
+const WELD: f64 = 1e-6;
+
+/// Whether a mesh's inside is material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Solid {
+    /// If the mesh is closed.
+    Auto,
+    /// It is a mere surface.
+    Never,
+}
+
+/// A mesh file as the scene names it.
+pub(super) struct Named<'a> {
+    /// The scene file.
+    pub scene: &'a Path,
+    /// Its line.
+    pub line: usize,
+    /// The mesh file as written.
+    pub file: &'a str,
+}
+
+impl Named<'_> {
+    /// Where the file is: relative names start from the scene file's folder.
+    pub fn path(&self) -> PathBuf {
+        self.scene.parent().unwrap_or(Path::new("")).join(self.file)
+    }
+
+    pub fn error(&self, message: impl Into<String>) -> ForeignError {
+        ForeignError::line(self.scene, self.line, message)
+    }
+}
+
+/// Reads mesh files and counts what they come to.
+#[derive(Default)]
+pub(super) struct Meshes {
+    triangles: usize,
+}
+
+impl Meshes {
+    /// Reads a mesh; the body stands at `pose`.
+    pub fn body(
+        &mut self,
+        named: &Named,
+        options: &MeshOptions,
+        pose: Pose,
+        solid: Solid,
+    ) -> Result<(ForeignBody, ReadMesh), ForeignError> {
+        let file = named.path();
+        let options = MeshOptions { weld: WELD, ..*options };
+        let read = read_mesh_with(&file, &options)
+            .map_err(|error| ForeignError::mesh(error, named.scene, named.line))?;
+        // One line may name a large mesh, and many lines the same one.
+        self.triangles += read.stored_triangles;
+        if self.triangles > MESH_ITEMS_MAX {
+            let message = format!("the scene's meshes have more than {MESH_ITEMS_MAX} triangles");
+            return Err(named.error(message));
+        }
+        let solid = solid == Solid::Auto && read.odd_edges == 0;
+        let body = Body { shape: Shape::Mesh(read.mesh.clone()), pose, solid };
+        let counts = [read.stored_triangles, read.unique_triangles, read.odd_edges];
+        let [stored_triangles, unique_triangles, odd_edges] = counts;
+        Ok((ForeignBody { body, file, stored_triangles, unique_triangles, odd_edges }, read))
+    }
+}

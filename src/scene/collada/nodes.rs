@@ -1,0 +1,176 @@
+//! The tree of nodes: what is instantiated, and where.
+
+use super::geometry::{Geometry, Sources};
+use super::{Dae, child};
+use crate::math;
+use crate::scene::raw::{MeshError, RawMesh};
+use roxmltree::Node;
+use std::collections::BTreeMap;
+
+/// The deepest nesting of nodes. Nodes may instantiate one another, in a circle too.
+const DEPTH_MAX: usize = 64;
+/// The most nodes and geometries visited: instances of instances double at every step.
+const VISITS_MAX: usize = 1 << 20;
+
+/// Three rows of an affine map `p ↦ A p + t`: A's columns, then t.
+pub(super) type Affine = [[f64; 4]; 3];
+
+const IDENTITY: Affine = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+
+struct Walk<'d, 'a> {
+    dae: &'d Dae<'a>,
+    geometries: BTreeMap<usize, Geometry>,
+    sources: Sources,
+    visits: usize,
+}
+
+pub(super) fn walk_scene<'a>(
+    dae: &Dae<'a>,
+    scene: Node<'a, 'a>,
+    mesh: &mut RawMesh,
+) -> Result<(), MeshError> {
+    let mut walk = Walk { dae, geometries: BTreeMap::new(), sources: Sources::new(), visits: 0 };
+    for node in scene.children().filter(|node| node.tag_name().name() == "node") {
+        walk.node(node, &IDENTITY, 1, mesh)?;
+    }
+    Ok(())
+}
+
+impl<'a> Walk<'_, 'a> {
+    fn node(
+        &mut self,
+        node: Node<'a, 'a>,
+        parent: &Affine,
+        depth: usize,
+        mesh: &mut RawMesh,
+    ) -> Result<(), MeshError> {
+        self.visit(node)?;
+        if depth > DEPTH_MAX {
+            let message = format!("nodes nested or instantiated more than {DEPTH_MAX} deep");
+            return Err(self.dae.error(node, message));
+        }
+        // Transformations come first, and each acts before the ones above it.
+        let mut frame = *parent;
+        for element in node.children().filter(Node::is_element) {
+            match element.tag_name().name() {
+                "matrix" => {
+                    let v = self.numbers::<16>(element)?;
+                    let rows = [0, 4, 8].map(|i| [v[i], v[i + 1], v[i + 2], v[i + 3]]);
+                    if v[12..] != [0.0, 0.0, 0.0, 1.0] {
+                        let message = "last row other than 0 0 0 1 found; an affine map expected";
+                        return Err(self.dae.error(element, message));
+                    }
+                    frame = product(&frame, &rows);
+                }
+                "translate" => {
+                    let [x, y, z] = self.numbers::<3>(element)?;
+                    let [a, b, c] = IDENTITY;
+                    let with = |row: [f64; 4], t: f64| [row[0], row[1], row[2], t];
+                    frame = product(&frame, &[with(a, x), with(b, y), with(c, z)]);
+                }
+                "scale" => {
+                    let [x, y, z] = self.numbers::<3>(element)?;
+                    let rows = [[x, 0.0, 0.0, 0.0], [0.0, y, 0.0, 0.0], [0.0, 0.0, z, 0.0]];
+                    frame = product(&frame, &rows);
+                }
+                "rotate" => {
+                    let [x, y, z, degrees] = self.numbers::<4>(element)?;
+                    let rows = rotation([x, y, z], degrees).ok_or_else(|| {
+                        self.dae.error(element, "an axis other than zero expected")
+                    })?;
+                    frame = product(&frame, &rows);
+                }
+                tag @ ("lookat" | "skew") => {
+                    let message =
+                        format!("<{tag}> found; matrix, translate, rotate or scale expected");
+                    return Err(self.dae.error(element, message));
+                }
+                _ => {}
+            }
+        }
+        for element in node.children().filter(Node::is_element) {
+            match element.tag_name().name() {
+                "node" => self.node(element, &frame, depth + 1, mesh)?,
+                "instance_node" => {
+                    let target = self.dae.target(element, "url", "node")?;
+                    self.node(target, &frame, depth + 1, mesh)?;
+                }
+                "instance_geometry" => {
+                    self.visit(element)?;
+                    let target = self.dae.target(element, "url", "geometry")?;
+                    self.geometry(element, target, &frame, mesh)?;
+                }
+                "instance_controller" => {
+                    let message =
+                        "a skinned or morphed mesh found; a plain <instance_geometry> expected";
+                    return Err(self.dae.error(element, message));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn visit(&mut self, node: Node) -> Result<(), MeshError> {
+        self.visits += 1;
+        if self.visits > VISITS_MAX {
+            return Err(self
+                .dae
+                .error(node, format!("more than {VISITS_MAX} nodes and instances")));
+        }
+        Ok(())
+    }
+
+    fn geometry(
+        &mut self,
+        instance: Node,
+        target: Node<'a, 'a>,
+        frame: &Affine,
+        mesh: &mut RawMesh,
+    ) -> Result<(), MeshError> {
+        let Some(described) = child(target, "mesh") else {
+            return Err(self.dae.error(target, "a geometry without <mesh>"));
+        };
+        let key = target.range().start;
+        if !self.geometries.contains_key(&key) {
+            self.geometries.insert(key, Geometry::read(self.dae, described, &mut self.sources)?);
+        }
+        let geometry = &self.geometries[&key];
+        geometry.place(frame, mesh).map_err(|message| self.dae.error(instance, message))
+    }
+
+    fn numbers<const N: usize>(&self, node: Node) -> Result<[f64; N], MeshError> {
+        let numbers = self.dae.floats(node)?;
+        let found = numbers.len();
+        numbers.try_into().map_err(|_| {
+            let tag = node.tag_name().name();
+            self.dae.error(node, format!("<{tag}> of {found} numbers found; {N} expected"))
+        })
+    }
+}
+
+fn product(a: &Affine, b: &Affine) -> Affine {
+    let column = |row: &[f64; 4], j: usize| row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j];
+    a.map(|row| [column(&row, 0), column(&row, 1), column(&row, 2), column(&row, 3) + row[3]])
+}
+
+pub(super) fn apply(map: &Affine, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    map.map(|row| row[0] * x + row[1] * y + row[2] * z + row[3])
+}
+
+/// Rodrigues' rotation about an axis of any length.
+fn rotation(axis: [f64; 3], degrees: f64) -> Option<Affine> {
+    let length = axis.iter().map(|value| value * value).sum::<f64>().sqrt();
+    if !(length.is_finite() && length > 1e-100) {
+        return None;
+    }
+    let [x, y, z] = axis.map(|value| value / length);
+    let angle = degrees / 180.0 * std::f64::consts::PI;
+    let (sine, cosine) = (math::sin(angle), math::cos(angle));
+    let rest = 1.0 - cosine;
+    Some([
+        [rest * x * x + cosine, rest * x * y - sine * z, rest * x * z + sine * y, 0.0],
+        [rest * x * y + sine * z, rest * y * y + cosine, rest * y * z - sine * x, 0.0],
+        [rest * x * z - sine * y, rest * y * z + sine * x, rest * z * z + cosine, 0.0],
+    ])
+}

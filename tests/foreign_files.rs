@@ -1,0 +1,268 @@
+//! Scene files that are no good: every error names its file and line, and nothing panics.
+
+use proptest::prelude::*;
+use roadmill::foreign::{ForeignError, ForeignJointKind, ForeignScene, read_ompl, read_parasol};
+use std::path::Path;
+use tempfile::TempDir;
+
+const CUBE: &str = "1 8 12 36\n1 12\n1 1 1\n1 1 -1\n1 -1 1\n1 -1 -1\n-1 1 1\n-1 1 -1\n-1 -1 1\n-1 -1 -1\n\
+                    1 3 -4\n1 4 -2\n5 6 -8\n5 8 -7\n1 2 -6\n1 6 -5\n3 7 -8\n3 8 -4\n1 5 -7\n1 7 -3\n2 4 -8\n2 8 -6\n";
+const ENV: &str = "# a room\nBoundary Box [-9:9 ; -9:9; -9 : 9]\nMultibodies\n2\n\nPassive\ncube.g -c(1 0 0 1) 0 0 -5 0 45 0\n\
+                   Passive\ncube.g -a(NONE) Fixed 0 0 5 0 0 90 # tail\n";
+const ROBOT: &str = "4\n#VIZMO_COLOR 1 0 0\ncube.g -c (1 0 0 1) Volumetric Rotational\ncube.g Joint\ncube.g Joint\ncube.g Joint\n\
+                     Adjacencies\n1\n1 3\nConnections\n3\n0 2 Revolute -0.5:0.5\n3 0 0 0 0 0  0 0 0 0  3 0 0 0 0 0\n\
+                     2 3 NonActuated\n0 3 0 0 0 0  0 0 1 0  0 3 0 0 0 0\n0 1 Spherical -1:1 0:0.5\n-3 0 0 0 0 0  0 0 0 0  -3 0 0 0 0 0\n";
+const QUERY: &str = "0 1 2 3 0 0 0.5  0.1 0.2 0.3\n# the goal\n0 1 2 3 0.5 0 0  0.1 0.2 -0.3\n";
+const CFG: &str = "[problem]\nname = room\nrobot = cube.g\nworld = cube.g\nstart.x = 1\nstart.y = 2\nstart.z = 3\nstart.theta = 3.141592653589793\n\
+                   start.axis.x = 0\nstart.axis.y = 0\nstart.axis.z = 2\ngoal.x = 0\ngoal.y = 0\ngoal.z = 5\ngoal.theta = 0\ngoal.axis.x = 0\n\
+                   goal.axis.y = 0\ngoal.axis.z = 0\nvolume.min.x = -9\nvolume.min.y = -9\nvolume.min.z = -9\nvolume.max.x = 9\nvolume.max.y = 9\n\
+                   volume.max.z = 9\nsampler = odd\n\n[planner]\nprm=\nprm=\n";
+
+/// A folder with a scene of each kind.
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    for (name, text) in [
+        ("cube.g", CUBE),
+        ("room.env", ENV),
+        ("room.robot", ROBOT),
+        ("room.query", QUERY),
+        ("room.cfg", CFG),
+    ] {
+        std::fs::write(folder.path().join(name), text).expect("writing to a scratch folder");
+    }
+    folder
+}
+
+fn read(folder: &Path, name: &str) -> Result<ForeignScene, ForeignError> {
+    match name {
+        "room.cfg" => read_ompl(&folder.join(name)),
+        _ => read_parasol(&folder.join("room.env"), None, None),
+    }
+}
+
+/// Reads the scene with other bytes in one of its files.
+fn with(folder: &TempDir, name: &str, bytes: &[u8]) -> Result<ForeignScene, ForeignError> {
+    std::fs::write(folder.path().join(name), bytes).expect("writing to a scratch folder");
+    read(folder.path(), name)
+}
+
+fn text_of(name: &str) -> &'static str {
+    match name {
+        "cube.g" => CUBE,
+        "room.env" => ENV,
+        "room.robot" => ROBOT,
+        "room.query" => QUERY,
+        _ => CFG,
+    }
+}
+
+#[test]
+fn joint_values_follow_the_indices_of_bodies_and_become_ours() {
+    let folder = folder();
+    let scene = read(folder.path(), "room.env").unwrap_or_else(|error| panic!("{error}"));
+    let links: Vec<_> = scene.links.iter().map(|link| link.name.as_str()).collect();
+    assert_eq!(links, ["cube", "0-1-theta", "cube-1", "cube-2", "cube-3"]);
+    let parents: Vec<_> = scene.links.iter().map(|l| l.joint.as_ref().map(|j| j.parent)).collect();
+    assert_eq!(parents, [None, Some(0), Some(1), Some(0), Some(3)]);
+    let kinds: Vec<_> =
+        scene.links[1..].iter().map(|link| link.joint.as_ref().unwrap().kind).collect();
+    let pi = std::f64::consts::PI;
+    let turns = |axis, min: f64, max: f64| ForeignJointKind::Revolute {
+        axis,
+        min: min * pi,
+        max: max * pi,
+    };
+    let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+    assert_eq!(
+        kinds,
+        [turns(z, -1.0, 1.0), turns(x, 0.0, 0.5), turns(z, -0.5, 0.5), ForeignJointKind::Fixed]
+    );
+    // By indices, 0–1 comes before 0–2, although the file gives it last.
+    let (start, _) = scene.query.unwrap();
+    let half = 0.5f64.sqrt();
+    let expected = [1.0, 2.0, 3.0, half, 0.0, 0.0, half, 0.1 * pi, 0.2 * pi, 0.3 * pi];
+    assert!(start.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{start:?}");
+    assert_eq!(scene.may_touch, [(2, 4)]);
+    // Translations of the fixed joint: 0 3 0, d = 1, 0 3 0.
+    let fixed = scene.links[4].joint.as_ref().unwrap();
+    let origin = fixed.before.apply(fixed.after.apply([0.0; 3]));
+    assert_eq!(origin, [0.0, 6.0, 1.0]);
+    assert!(
+        scene.notes.iter().any(|note| note.starts_with("line 14: alpha a d theta read as")),
+        "{:?}",
+        scene.notes
+    );
+}
+
+#[test]
+fn an_ompl_scene_turns_by_radians_about_its_axis() {
+    let folder = folder();
+    let scene = read(folder.path(), "room.cfg").unwrap_or_else(|error| panic!("{error}"));
+    let (start, goal) = scene.query.unwrap();
+    assert!((start[6] - 1.0).abs() < 1e-12 && start[3].abs() < 1e-12, "{start:?}");
+    assert_eq!(goal, [0.0, 0.0, 5.0, 1.0, 0.0, 0.0, 0.0]);
+    assert!(scene.links[0].bodies[0].body.solid && !scene.obstacles[0].body.solid);
+    assert!(
+        scene.notes.contains(&"line 25: sampler = odd passed over".to_owned()),
+        "{:?}",
+        scene.notes
+    );
+}
+
+#[test]
+fn errors_name_file_and_line() {
+    for (name, from, to, expected) in [
+        ("room.env", "Box [", "Sphere [", "room.env:2: a boundary `Sphere` is not supported"),
+        ("room.env", "-9 : 9]", "9 : -9]", "room.env:2: `9:-9` found; an interval"),
+        ("room.env", "; -9 : 9]", "]", "room.env:2: a box of 2 intervals found; 3 expected"),
+        ("room.env", "2\n\nPassive", "3\n\nPassive", "room.env:9: cut off; body 3 of 3"),
+        (
+            "room.env",
+            "2\n\nPassive",
+            "1\n\nPassive",
+            "room.env:8: `Passive` found; the end after 1",
+        ),
+        (
+            "room.env",
+            "Passive\ncube.g -a",
+            "Internal\ncube.g -a",
+            "room.env:8: `Internal` not supported",
+        ),
+        ("room.env", "-a(NONE)", "-a(SURFACE)", "room.env:9: `-a(SURFACE)` not supported"),
+        ("room.env", "0 0 -5 0 45", "0 0 nan 0 45", "room.env:7: `nan` found; x y z of a pose"),
+        ("room.env", "cube.g -c", "lost.g -c", "lost.g: cannot read the mesh"),
+        ("room.env", "cube.g -c", "room.env -c", "room.env: unknown kind of mesh"),
+        ("room.robot", "Volumetric", "Spherical", "room.robot:3: `spherical` found; `Planar`"),
+        (
+            "room.robot",
+            "Volumetric Rotational",
+            "Joint",
+            "room.robot:6: no base among the 4 bodies",
+        ),
+        (
+            "room.robot",
+            "2 3 NonActuated",
+            "2 4 NonActuated",
+            "room.robot:14: body 4 does not exist",
+        ),
+        ("room.robot", "2 3 NonActuated", "2 1 NonActuated", "room.robot:17: body 1 hangs on two"),
+        (
+            "room.robot",
+            "0 2 Revolute",
+            "3 2 Revolute",
+            "room.robot:12: body 2 does not hang on the base",
+        ),
+        ("room.robot", "-0.5:0.5", "0.5", "room.robot:12: `0.5` found; limits min:max"),
+        (
+            "room.robot",
+            "Connections\n3",
+            "Connections\n2",
+            "room.robot:15: body 1 does not hang on the base",
+        ),
+        (
+            "room.query",
+            "0.1 0.2 0.3",
+            "0.1 0.2",
+            "room.query:1: 9 numbers found; the robot's index and 9",
+        ),
+        ("room.query", "0 1 2 3 0.5", "1 1 2 3 0.5", "room.query:3: robot `1` found"),
+        (
+            "room.query",
+            "0 1 2 3 0.5 0 0  0.1 0.2 -0.3",
+            "",
+            "room.query:3: cut off; 1 configurations",
+        ),
+        (
+            "cube.g",
+            "3 8 -4",
+            "3 9 -4",
+            "cube.g:18: vertex 9 of a face does not exist; there are 8 (named in ",
+        ),
+        ("room.cfg", "goal.x = 0\n", "", "room.cfg:24: goal.x is missing"),
+        (
+            "room.cfg",
+            "goal.x = 0\n",
+            "goal.x = 0\ngoal.x = 0\n",
+            "room.cfg:13: goal.x found again; line 12",
+        ),
+        ("room.cfg", "goal.z = 5", "goal.z = inf", "room.cfg:14: goal.z = `inf` found"),
+        (
+            "room.cfg",
+            "goal.theta = 0",
+            "goal.theta = 1",
+            "room.cfg:16: goal.axis = [0.0, 0.0, 0.0] found",
+        ),
+        (
+            "room.cfg",
+            "volume.max.y = 9",
+            "volume.max.y = -9",
+            "room.cfg:23: volume.max.y = -9 found",
+        ),
+        ("room.cfg", "[problem]", "[problem", "room.cfg:1: `[problem` found"),
+        ("room.cfg", "name = room", "name room", "room.cfg:2: `name room` found"),
+        ("room.cfg", "world = cube.g", "world = .", "unknown kind of mesh"),
+    ] {
+        let folder = folder();
+        let text = text_of(name).replacen(from, to, 1);
+        assert_ne!(text, text_of(name), "{from}");
+        let error = with(&folder, name, text.as_bytes()).expect_err(to).to_string();
+        assert!(
+            error.contains(expected) || expected.starts_with("cannot"),
+            "{error}, not {expected}"
+        );
+    }
+}
+
+#[test]
+fn files_beside_the_scene_are_taken_only_without_a_doubt() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    std::fs::rename(path("room.query"), path("other.query")).unwrap();
+    let scene = read(folder.path(), "room.env").unwrap();
+    assert!(scene.query.is_some());
+    assert!(scene.notes.iter().any(|note| note.starts_with("query: other.query")));
+    std::fs::write(path("third.query"), QUERY).unwrap();
+    let error = read(folder.path(), "room.env").unwrap_err().to_string();
+    assert!(error.contains("which .query? other.query, third.query stand beside it"), "{error}");
+    let named = read_parasol(&path("room.env"), None, Some(&path("third.query")));
+    assert_eq!(named.unwrap().query, scene.query);
+    std::fs::remove_file(path("room.robot")).unwrap();
+    let error = read(folder.path(), "room.env").unwrap_err().to_string();
+    assert!(error.ends_with("no .robot beside it; a robot expected"), "{error}");
+}
+
+#[test]
+fn cut_off_files_are_errors_or_scenes_and_never_panics() {
+    let folder = folder();
+    for name in ["room.env", "room.robot", "room.query", "room.cfg"] {
+        let text = text_of(name);
+        for end in 0..text.len() {
+            if let Err(error) = with(&folder, name, &text.as_bytes()[..end]) {
+                assert!(error.to_string().contains(name), "{error}");
+            }
+        }
+        with(&folder, name, text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    }
+}
+
+proptest! {
+    #[test]
+    fn changed_files_never_panic(
+        kind in 0usize..5,
+        at in 0usize..1000,
+        bytes in proptest::collection::vec(any::<u8>(), 0..4),
+        word in "[0-9-]{1,3}|1e30|nan|999999999|Active|Joint|Fixed|[:;\\[\\]()#=\n ]{1,3}",
+    ) {
+        let folder = folder();
+        let name = ["cube.g", "room.env", "room.robot", "room.query", "room.cfg"][kind];
+        let text = text_of(name).as_bytes();
+        let at = at % text.len();
+        for new in [bytes.as_slice(), word.as_bytes()] {
+            let mut changed = text.to_vec();
+            changed.splice(at..(at + new.len()).min(text.len()), new.iter().copied());
+            if let Err(error) = with(&folder, name, &changed) {
+                prop_assert!(error.to_string().contains('.'), "{}", error);
+            }
+        }
+    }
+}
