@@ -34,8 +34,14 @@ pub enum Command {
 #[derive(Debug, Args)]
 #[command(after_help = exit::HELP)]
 pub struct BuildArguments {
-    /// The problem, a TOML file (docs/problems.md)
+    /// The problem: TOML (docs/problems.md), an OMPL.app .cfg or a Parasol .env (docs/foreign.md)
     pub problem: PathBuf,
+    /// The .robot file of a Parasol .env [default: the one beside it]
+    #[arg(long, value_name = "FILE")]
+    pub robot: Option<PathBuf>,
+    /// The .query file of a Parasol .env [default: the one beside it]
+    #[arg(long, value_name = "FILE")]
+    pub query: Option<PathBuf>,
     /// Worker processes [default: the cores this process may use]
     #[arg(long, value_name = "N", conflicts_with = "threads")]
     pub workers: Option<usize>,
@@ -86,8 +92,14 @@ pub struct QueryArguments {
 #[derive(Debug, Args)]
 #[command(after_help = exit::HELP)]
 pub struct CheckArguments {
-    /// The problem, a TOML file (docs/problems.md)
+    /// The problem: TOML (docs/problems.md), an OMPL.app .cfg or a Parasol .env (docs/foreign.md)
     pub problem: PathBuf,
+    /// The .robot file of a Parasol .env [default: the one beside it]
+    #[arg(long, value_name = "FILE")]
+    pub robot: Option<PathBuf>,
+    /// The .query file of a Parasol .env [default: the one beside it]
+    #[arg(long, value_name = "FILE")]
+    pub query: Option<PathBuf>,
 }
 
 /// Of `export`.

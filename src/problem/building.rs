@@ -90,6 +90,24 @@ pub(super) fn strategies_of(
     Ok((strategies, schedule, sets as u32))
 }
 
+/// What a problem that says nothing of it is built with: strategies, schedule, sets per round.
+pub(super) fn defaults() -> (Vec<Strategy>, Vec<u32>, u32) {
+    let table = StrategyTable::uniform();
+    let strategy = Strategy {
+        label: table.label,
+        nodes: table.nodes as u32,
+        sampler: table.sampler,
+        within: table.within,
+        among: table.among,
+    };
+    (vec![strategy], vec![0], DEFAULT_SETS_PER_ROUND as u32)
+}
+
+/// The limits of a problem that has none.
+pub(super) fn default_limits() -> Limits {
+    Limits { nodes: DEFAULT_NODES_MAX, sets: u64::MAX, seconds: None }
+}
+
 pub(super) fn limits_of(source: &Source, file: &File) -> Result<Limits, ProblemError> {
     let table = &file.limits;
     let limits = Limits {

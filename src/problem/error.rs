@@ -10,6 +10,11 @@ pub struct ProblemError {
 }
 
 impl ProblemError {
+    /// An error that names its own place.
+    pub(super) fn foreign(message: String) -> ProblemError {
+        ProblemError { path: PathBuf::new(), line: None, message }
+    }
+
     pub(super) fn file(path: &Path, message: impl Into<String>) -> ProblemError {
         ProblemError { path: path.to_owned(), line: None, message: message.into() }
     }
@@ -21,6 +26,9 @@ impl ProblemError {
 
 impl fmt::Display for ProblemError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.path.as_os_str().is_empty() {
+            return f.write_str(&self.message);
+        }
         write!(f, "{}", self.path.display())?;
         if let Some(line) = self.line {
             write!(f, ":{line}")?;

@@ -8,12 +8,14 @@ mod configuration;
 mod describe;
 mod error;
 mod file;
+mod foreign;
 mod linkage;
 mod resolve;
 mod source;
 
 pub use configuration::configuration;
 pub use error::ProblemError;
+pub use foreign::Companions;
 
 use crate::context::{Context, Ends};
 use crate::evaluate::EvaluatorKind;
@@ -75,11 +77,23 @@ pub struct Limits {
 }
 
 impl Problem {
-    /// Reads and checks a problem file. Relative mesh paths start from the file's folder.
+    /// Reads and checks a problem file: TOML, or a scene of OMPL.app (`.cfg`) or Parasol (`.env`), see
+    /// `docs/foreign.md`. Relative paths of meshes start from the file's folder.
     ///
     /// # Errors
     /// The first thing that is wrong, with its place in the file.
     pub fn load(path: &Path) -> Result<Problem, ProblemError> {
+        Problem::load_with(path, Companions::default())
+    }
+
+    /// [`Problem::load`] with the files that stand beside a Parasol `.env`.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place in the file.
+    pub fn load_with(path: &Path, companions: Companions) -> Result<Problem, ProblemError> {
+        if let Some(problem) = foreign::load(path, companions) {
+            return problem;
+        }
         let text = std::fs::read_to_string(path).map_err(|error| {
             ProblemError::file(path, format!("cannot read the problem: {error}"))
         })?;

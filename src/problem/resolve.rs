@@ -109,12 +109,7 @@ fn resolution_of(
     robot: &Robot,
     notes: &mut Vec<String>,
 ) -> Result<f64, ProblemError> {
-    let axes = file.space.motion.bounded_axes();
-    let square = |axis: usize| {
-        let edge = bounds.max[axis] - bounds.min[axis];
-        edge * edge
-    };
-    let diagonal = (0..axes).map(square).sum::<f64>().sqrt();
+    let diagonal = diagonal_of(bounds, robot.motion);
     let radius = robot.reach();
     if radius > RADIUS_MAX * diagonal {
         let message = format!(
@@ -131,7 +126,11 @@ fn resolution_of(
         }
         return Ok(resolution);
     }
-    // Fine enough for the scene as a whole and for the thinnest part of the robot.
+    Ok(default_resolution(diagonal, robot, notes))
+}
+
+/// Fine enough for the scene as a whole and for the thinnest part of the robot.
+pub(super) fn default_resolution(diagonal: f64, robot: &Robot, notes: &mut Vec<String>) -> f64 {
     let thinnest = robot.bodies().map(thickness).fold(f64::INFINITY, f64::min);
     let mut resolution = diagonal / 200.0;
     let mut reason = "a 200th of the diagonal of the bounds";
@@ -140,7 +139,26 @@ fn resolution_of(
         reason = "half the robot's thinnest extent";
     }
     notes.push(format!("resolution = {resolution}, {reason}"));
-    Ok(resolution)
+    resolution
+}
+
+/// Length of the diagonal of the bounds.
+pub(super) fn diagonal_of(bounds: &Bounds, motion: Motion) -> f64 {
+    let square = |axis: usize| {
+        let edge = bounds.max[axis] - bounds.min[axis];
+        edge * edge
+    };
+    (0..motion.bounded_axes()).map(square).sum::<f64>().sqrt()
+}
+
+/// A radian of the base's rotation counts for the way of the farthest point.
+pub(super) fn default_rotation_length(robot: &Robot, notes: &mut Vec<String>) -> f64 {
+    let reach = robot.reach();
+    if robot.motion.rotates() {
+        let what = "the farthest robot point from the reference point";
+        notes.push(format!("rotation_length = {reach}, {what}"));
+    }
+    reach
 }
 
 /// The least extent of a body along the axes of its own frame; 0 for a point.
@@ -162,15 +180,7 @@ fn rotation_length_of(
         Some(length) => {
             Err(source.error(&place, format!("{length} found; a length of at least 0 expected")))
         }
-        None => {
-            let radius = robot.reach();
-            if matches!(file.space.motion, Motion::Rigid2d | Motion::Rigid3d) {
-                notes.push(format!(
-                    "rotation_length = {radius}, the farthest robot point from the reference point"
-                ));
-            }
-            Ok(radius)
-        }
+        None => Ok(default_rotation_length(robot, notes)),
     }
 }
 

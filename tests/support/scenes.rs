@@ -1,12 +1,9 @@
 //! Where the scenes are, what they must look like, and scenes as problems.
 
-use roadmill::foreign::{Base, ForeignJoint, ForeignJointKind, ForeignLink, ForeignScene};
+use roadmill::foreign::{Base, ForeignJointKind, ForeignScene};
 use roadmill::math;
-use roadmill::problem::Problem;
-use roadmill::robot::{Joint, JointKind, Limits, Link, Robot};
-use roadmill::scene::{Body, Pose, Shape};
-use roadmill::space::Motion;
-use std::path::{Path, PathBuf};
+use roadmill::scene::{Pose, Shape};
+use std::path::PathBuf;
 
 /// The folder of `ROADMILL_DATA`, or `None`, said aloud.
 pub fn data() -> Option<PathBuf> {
@@ -109,45 +106,6 @@ pub const ALL: &[&str] = &[
     "Heterogeneous/heterogeneous2D-vizmo.env",
     "Box/box.env",
 ];
-
-/// A scene as a problem, without its query.
-pub fn problem(scene: &ForeignScene) -> Problem {
-    let text = "[space]\nmotion = \"translation-2d\"\nmin = [0, 0]\nmax = [1, 1]\nbounds = \"body\"\n\
-                [robot]\nbodies = [{ shape = { point = {} } }]\n";
-    let blank = Problem::parse(Path::new("blank.toml"), text).expect("the blank problem is one");
-    let bodies = |bodies: &[roadmill::foreign::ForeignBody]| -> Vec<Body> {
-        bodies.iter().map(|body| body.body.clone()).collect()
-    };
-    let (motion, base) = match scene.base {
-        Base::Fixed(pose) => (Motion::Fixed, pose),
-        Base::Moving(motion) => (motion, Pose::IDENTITY),
-    };
-    let joint = |joint: &ForeignJoint| Joint {
-        name: joint.name.clone(),
-        parent: joint.parent as u32,
-        kind: match joint.kind {
-            ForeignJointKind::Fixed => JointKind::Fixed,
-            ForeignJointKind::Revolute { axis, min, max } => {
-                JointKind::Revolute { axis, limits: Some(Limits { min, max }) }
-            }
-        },
-        before: joint.before,
-        after: joint.after,
-    };
-    let link = |link: &ForeignLink| Link {
-        name: link.name.clone(),
-        bodies: bodies(&link.bodies),
-        joint: link.joint.as_ref().map(joint),
-    };
-    let may_touch = scene.may_touch.iter().map(|(a, b)| (*a as u32, *b as u32)).collect();
-    Problem {
-        name: scene.name.clone(),
-        bounds: scene.bounds,
-        robot: Robot { motion, base, links: scene.links.iter().map(link).collect(), may_touch },
-        obstacles: bodies(&scene.obstacles),
-        ..blank
-    }
-}
 
 /// Least and largest x, y and z of every link at the joints' values.
 pub fn extents(scene: &ForeignScene, values: &[f64]) -> Vec<[[f64; 2]; 3]> {
