@@ -99,7 +99,7 @@ pub struct ExportArguments {
     /// The format
     #[arg(long, value_enum)]
     pub format: Format,
-    /// The file to be written
+    /// The file to be written; of csv the nodes, the edges go beside it into NAME.edges.csv
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
 }
@@ -107,6 +107,14 @@ pub struct ExportArguments {
 /// A format of `export`.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Format {
+    /// The graph with typed attributes, for networkx, Gephi, igraph, …
+    Graphml,
+    /// Two tables, of the nodes and of the edges
+    Csv,
+    /// NumPy arrays
+    Npz,
+    /// A roadmap of Parasol's planners and of Vizmo
+    Map,
     /// A picture of the scene, the roadmap and the path
     Svg,
 }
