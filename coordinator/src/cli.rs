@@ -77,9 +77,33 @@ pub struct QueryArguments {
     /// Configuration where the path ends [default: the problem's goal]
     #[arg(long, value_name = "CONFIGURATION", allow_hyphen_values = true)]
     pub goal: Option<String>,
-    /// Where to write the path, as CSV [default: standard output]
+    /// Where to write the path [default: standard output]; with --queries a new folder of paths
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// The format of paths
+    #[arg(long, value_enum, default_value = "csv")]
+    pub format: PathFormat,
+    /// Shorten paths by shortcuts; the same call gives the same path
+    #[arg(long)]
+    pub shorten: bool,
+    /// How often a shortcut is tried
+    #[arg(long, value_name = "N", default_value_t = 200, requires = "shorten")]
+    pub shorten_tries: u32,
+    /// Many queries: a CSV file with the values of a start and of a goal per line
+    #[arg(long, value_name = "FILE", requires = "out", conflicts_with_all = ["start", "goal"])]
+    pub queries: Option<PathBuf>,
+    /// Also write a page that plays the path, for any browser
+    #[arg(long, value_name = "FILE.html", conflicts_with = "queries")]
+    pub animate: Option<PathBuf>,
+}
+
+/// A format of paths.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum PathFormat {
+    /// A table with a configuration per line
+    Csv,
+    /// A path of Parasol's planners and of Vizmo
+    Path,
 }
 
 /// Of `check`.

@@ -1,5 +1,6 @@
 //! Formats that other programs read, and pictures of roadmaps.
 
+mod animation;
 mod csv;
 mod drawing;
 mod graphml;
@@ -9,9 +10,11 @@ mod parasol;
 mod path_csv;
 mod solid;
 mod svg;
+mod tessellate;
 mod union;
 mod view;
 
+pub use animation::animation;
 pub use csv::{edges_csv, nodes_csv};
 pub use graphml::graphml;
 pub use npz::npz;

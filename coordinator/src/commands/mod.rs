@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod batch;
 mod build;
 mod check;
 mod export;
