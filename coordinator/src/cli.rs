@@ -83,9 +83,33 @@ pub struct QueryArguments {
     /// Configuration where the path ends [default: the problem's goal]
     #[arg(long, value_name = "CONFIGURATION", allow_hyphen_values = true)]
     pub goal: Option<String>,
-    /// Where to write the path, as CSV [default: standard output]
+    /// Where to write the path [default: standard output]; with --queries a new folder of paths
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// The format of paths
+    #[arg(long, value_enum, default_value = "csv")]
+    pub format: PathFormat,
+    /// Shorten paths by shortcuts; the same call gives the same path
+    #[arg(long)]
+    pub shorten: bool,
+    /// How often a shortcut is tried
+    #[arg(long, value_name = "N", default_value_t = 200, requires = "shorten")]
+    pub shorten_tries: u32,
+    /// Many queries: a CSV file with the values of a start and of a goal per line
+    #[arg(long, value_name = "FILE", requires = "out", conflicts_with_all = ["start", "goal"])]
+    pub queries: Option<PathBuf>,
+    /// Also write a page that plays the path, for any browser
+    #[arg(long, value_name = "FILE.html", conflicts_with = "queries")]
+    pub animate: Option<PathBuf>,
+}
+
+/// A format of paths.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum PathFormat {
+    /// A table with a configuration per line
+    Csv,
+    /// A path of Parasol's planners and of Vizmo
+    Path,
 }
 
 /// Of `check`.
@@ -111,7 +135,7 @@ pub struct ExportArguments {
     /// The format
     #[arg(long, value_enum)]
     pub format: Format,
-    /// The file to be written
+    /// The file to be written; of csv the nodes, the edges go beside it into NAME.edges.csv
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
 }
@@ -119,6 +143,14 @@ pub struct ExportArguments {
 /// A format of `export`.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Format {
+    /// The graph with typed attributes, for networkx, Gephi, igraph, …
+    Graphml,
+    /// Two tables, of the nodes and of the edges
+    Csv,
+    /// NumPy arrays
+    Npz,
+    /// A roadmap of Parasol's planners and of Vizmo
+    Map,
     /// A picture of the scene, the roadmap and the path
     Svg,
 }

@@ -1,3 +1,4 @@
+use super::csv::header;
 use crate::query::Path;
 use crate::space::Space;
 use std::fmt::Write;
@@ -6,10 +7,7 @@ use std::fmt::Write;
 /// `theta [rad]`, `qw [1]`, …), then a configuration per line, from start to goal. Numbers are
 /// written so that reading them back gives the same bits.
 pub fn path_csv(space: &Space, path: &Path) -> String {
-    let mut csv = String::new();
-    let header: Vec<_> =
-        space.dofs().iter().map(|dof| format!("{} [{}]", dof.name, dof.unit)).collect();
-    csv.push_str(&header.join(","));
+    let mut csv = header(space).join(",");
     csv.push('\n');
     for q in path.configs.iter() {
         for (i, value) in q.iter().enumerate() {

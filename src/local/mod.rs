@@ -14,6 +14,7 @@ use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use rotate_at::RotateAt;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 use straight_line::StraightLine;
 
 /// A way of joining two configurations.
@@ -69,6 +70,16 @@ impl Planner {
         self.turns(cx, a, b, &mut motion);
         motion.push(b);
         motion
+    }
+}
+
+/// The name that exported files use: `straight-line`, `rotate-at-50`.
+impl fmt::Display for Planner {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Planner::StraightLine => f.write_str("straight-line"),
+            Planner::RotateAt { percent } => write!(f, "rotate-at-{percent}"),
+        }
     }
 }
 

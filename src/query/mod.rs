@@ -1,8 +1,10 @@
 //! Queries: attaching two configurations to a roadmap and finding a path between them.
 
 mod path;
+mod shorten;
 
 pub use path::Path;
+pub use shorten::shorten;
 
 use crate::context::Context;
 use crate::local::{self, Planner};

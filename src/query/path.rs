@@ -1,6 +1,7 @@
 use crate::context::Context;
 use crate::local::Planner;
 use crate::roadmap::{Configs, Edge, Route};
+use crate::space::Space;
 use bincode::{Decode, Encode};
 
 /// A path: configurations to be joined by [`Space::interpolate`](crate::space::Space::interpolate).
@@ -35,4 +36,43 @@ impl Path {
         }
         Path { configs, length: route.length }
     }
+
+    /// Lengths from the start to each of the configurations, along the path.
+    pub fn lengths(&self, space: &Space) -> Vec<f64> {
+        let mut lengths = vec![0.0];
+        for i in 1..self.configs.len() {
+            let step = space.distance(self.configs.get(i - 1), self.configs.get(i));
+            lengths.push(lengths[i - 1] + step);
+        }
+        lengths
+    }
+
+    /// Configurations evenly along the path by length, both ends included. They are for showing: not
+    /// in stored form, and one after the other without jumps in a quaternion's sign.
+    ///
+    /// # Panics
+    /// If fewer than two are asked for.
+    pub fn sampled(&self, space: &Space, count: usize) -> Configs {
+        assert!(count >= 2, "both ends are included");
+        let lengths = self.lengths(space);
+        let whole = lengths[lengths.len() - 1];
+        let mut sampled = Configs::new(space.len());
+        let mut q = vec![0.0; space.len()];
+        for i in 0..count {
+            let at = whole * (i as f64 / (count - 1) as f64);
+            let (leg, t) = leg(&lengths, at);
+            space.interpolate(self.configs.get(leg), self.configs.get(leg + 1), t, &mut q);
+            sampled.push(&q);
+        }
+        sampled
+    }
+}
+
+/// The leg of a path that holds the place `at`, a length from its start, and how far along it that
+/// is, as a fraction.
+pub(super) fn leg(lengths: &[f64], at: f64) -> (usize, f64) {
+    let after = lengths.partition_point(|length| *length <= at).clamp(1, lengths.len() - 1);
+    let (from, to) = (lengths[after - 1], lengths[after]);
+    let t = if to > from { ((at - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
+    (after - 1, t)
 }

@@ -2,15 +2,21 @@ use super::write_whole;
 use crate::cli::{ExportArguments, Format};
 use crate::exit::{Code, Failure};
 use crate::run::Ledger;
+use roadmill::export::{edges_csv, graphml, nodes_csv, npz, parasol_map, svg};
 
 /// Writes a roadmap in a format that other programs read.
 pub fn export(arguments: &ExportArguments) -> Result<Code, Failure> {
-    let ledger = Ledger::read(&arguments.run)?;
-    let contents = match arguments.format {
-        Format::Svg => {
-            roadmill::export::svg(&ledger.problem, &ledger.roadmap, ledger.path.as_ref())
+    let Ledger { problem, roadmap, path, .. } = Ledger::read(&arguments.run)?;
+    let out = &arguments.out;
+    match arguments.format {
+        Format::Graphml => write_whole(out, graphml(&problem, &roadmap))?,
+        Format::Csv => {
+            write_whole(out, nodes_csv(&problem.space(), &roadmap))?;
+            write_whole(&out.with_extension("edges.csv"), edges_csv(&roadmap))?;
         }
-    };
-    write_whole(&arguments.out, &contents)?;
+        Format::Npz => write_whole(out, npz(&problem, &roadmap).map_err(Failure::system)?)?,
+        Format::Map => write_whole(out, parasol_map(&problem, &problem.context(), &roadmap))?,
+        Format::Svg => write_whole(out, svg(&problem, &roadmap, path.as_ref()))?,
+    }
     Ok(Code::Done)
 }

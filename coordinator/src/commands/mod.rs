@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod batch;
 mod build;
 mod check;
 mod export;
@@ -19,7 +20,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// Exit code 2: it cannot be written.
-fn write_whole(path: &Path, contents: &str) -> Result<(), Failure> {
+fn write_whole(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), Failure> {
     let cannot = |error| Failure::usage(format!("{}: cannot write: {error}", path.display()));
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(format!(".{}", std::process::id()));

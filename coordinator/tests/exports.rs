@@ -1,0 +1,240 @@
+//! What is exported, read by other programs.
+
+mod support;
+
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use support::{ENDLESS, Scratch};
+
+const FORMATS: [&str; 5] = ["graphml", "csv", "npz", "map", "svg"];
+
+/// A file of the repository.
+fn repository(name: &str) -> String {
+    format!("{}/../{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn read(scratch: &Scratch, name: &str) -> String {
+    fs::read_to_string(scratch.path(name)).expect("the file is there")
+}
+
+/// A Python that has networkx and NumPy, unless there is none and none is required.
+fn has_python() -> bool {
+    let there = Command::new("python3").args(["-c", "import networkx, numpy"]).output();
+    let there = there.is_ok_and(|output| output.status.success());
+    if !there {
+        let required =
+            std::env::var_os("ROADMILL_REQUIRE_PYTHON").is_some_and(|value| value == "1");
+        assert!(!required, "no python3 with networkx and numpy");
+        println!("not tested: no python3 with networkx and numpy");
+    }
+    there
+}
+
+#[track_caller]
+fn python(folder: &Path, arguments: &[&str]) -> String {
+    let output = Command::new("python3").args(arguments).current_dir(folder).output();
+    let output = output.expect("python3 starts");
+    let [out, err] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(output.status.success(), "{out}\n{err}");
+    out.into_owned()
+}
+
+/// Exports a run in every format into the folder of the run, twice with the same bytes.
+fn export_all(scratch: &Scratch, run: &str) {
+    for format in FORMATS {
+        let names = [format!("{run}/roadmap.{format}"), format!("{run}/again.{format}")];
+        for name in &names {
+            scratch.run(&["export", run, "--format", format, "--out", name]).assert_code(0);
+        }
+        let [one, other] = names.map(|name| fs::read(scratch.path(&name)).expect("it is written"));
+        assert!(one == other, "{format} differs the second time");
+    }
+}
+
+/// A roadmap whose edges have several planners.
+fn turning() -> String {
+    let within = "within = { nearest = { neighbors = 4, planners = \
+                  [{ rotate-at = { percent = 50 } }, \"straight-line\"] } }";
+    ENDLESS.replace("within = { nearest = { neighbors = 4 } }", within)
+}
+
+#[test]
+fn other_programs_read_the_same_roadmap_from_every_format() {
+    let scratch = Scratch::new();
+    scratch.write("turning.toml", &turning());
+    let turning = ["turning.toml", "--threads", "2", "--max-sets", "24"];
+    scratch.build("turning", &turning, 0);
+    scratch.build("maze", &[&repository("problems/maze.toml"), "--threads", "2"], 0);
+    for (run, dofs) in [("turning", 6), ("maze", 3)] {
+        export_all(&scratch, run);
+        let summary: Value =
+            serde_json::from_str(&read(&scratch, &format!("{run}/summary.json"))).expect("JSON");
+        let counts = ["nodes", "edges"].map(|key| summary[key].as_u64().expect("a number"));
+        assert_map(&read(&scratch, &format!("{run}/roadmap.map")), counts, dofs);
+        if has_python() {
+            let script = repository("tests/support/check_exports.py");
+            let said = python(&scratch.path(run), &[&script, "."]);
+            assert!(said.contains("agree"), "{said}");
+        }
+    }
+    let edges = read(&scratch, "turning/roadmap.edges.csv");
+    assert!(edges.contains(",rotate-at-50,51\n") && edges.contains(",straight-line,0\n"));
+    assert!(read(&scratch, "turning/roadmap.map").contains(" 2 "));
+}
+
+/// Reads a `.map` as Open-PPL does, word by word.
+fn assert_map(text: &str, [nodes, edges]: [u64; 2], dofs: usize) {
+    let (head, graph) = text.split_once("#####GRAPHSTART#####\n").expect("a graph");
+    assert!(head.starts_with("#####ENVFILESTART#####\n") && head.contains(".env\n"));
+    let graph = graph.strip_suffix("\n#####GRAPHSTOP#####\n").expect("an end");
+    let mut words = graph.split_whitespace();
+    let mut next = || words.next().expect("a word").parse::<f64>().expect("a number");
+    assert_eq!([next(), next(), next()], [nodes, 2 * edges, nodes].map(|count| count as f64));
+    let mut both = std::collections::BTreeMap::new();
+    for node in 0..nodes {
+        assert_eq!(next(), node as f64);
+        let angles: Vec<f64> = (0..dofs).map(|_| next()).skip(dofs / 2 + dofs % 2).collect();
+        assert!(angles.iter().all(|angle| angle.abs() <= 1.0), "{angles:?}");
+        for _ in 0..next() as u64 {
+            let target = next() as u64;
+            for _ in 0..next() as usize * dofs {
+                next();
+            }
+            let weight = next();
+            let edge = (node.min(target), node.max(target));
+            match both.remove(&edge) {
+                None => drop(both.insert(edge, weight)),
+                Some(other) => assert_eq!(weight.to_bits(), other.to_bits()),
+            }
+        }
+    }
+    assert!(both.is_empty(), "edges with one end: {both:?}");
+    assert_eq!(words.next(), None);
+}
+
+#[test]
+fn the_readmes_lines_of_python_work() {
+    let readme = fs::read_to_string(repository("README.md")).expect("there is a README");
+    let (_, snippet) = readme.split_once("```python\n").expect("lines of Python");
+    let (snippet, _) = snippet.split_once("```").expect("their end");
+    if !has_python() {
+        return;
+    }
+    let scratch = Scratch::new();
+    scratch.build("run", &[&repository("problems/maze.toml"), "--threads", "2"], 0);
+    let out = ["--format", "graphml", "--out", "run/roadmap.graphml"];
+    scratch.run(&[&["export", "run"], &out[..]].concat()).assert_code(0);
+    let said = python(&scratch.path("run"), &["-c", snippet]);
+    assert!(said.starts_with("[(") && said.matches('(').count() > 2, "{said}");
+}
+
+#[test]
+fn formats_that_are_not_there_are_refused() {
+    let scratch = Scratch::new();
+    let done = scratch.run(&["export", "run", "--format", "hologram", "--out", "out"]);
+    done.assert_code(2);
+    done.assert_stderr(&["hologram", "graphml, csv, npz, map, svg"]);
+    assert!(!scratch.path("out").exists());
+}
+
+/// Length of a path as the program says it.
+fn length(stderr: &str) -> f64 {
+    let (_, rest) = stderr.split_once("length ").expect("a length");
+    rest.split(',').next().and_then(|word| word.parse().ok()).expect("a number")
+}
+
+#[test]
+fn paths_are_shortened_and_played() {
+    let scratch = Scratch::new();
+    scratch.build("run", &[&repository("problems/maze.toml"), "--threads", "2"], 0);
+    let long = scratch.run(&["query", "run", "--out", "long.csv"]);
+    assert_eq!(read(&scratch, "long.csv"), read(&scratch, "run/path.csv"));
+    let short = ["query", "run", "--shorten", "--shorten-tries", "500"];
+    let out = ["--out", "short.csv", "--animate", "short.html"];
+    let shortened = scratch.run(&[&short[..], &out].concat());
+    shortened.assert_code(0);
+    assert!(length(&shortened.stderr) < length(&long.stderr));
+    let again = scratch.run(&short);
+    assert_eq!(again.stdout, read(&scratch, "short.csv"));
+
+    let path = scratch.run(&[&short[..], &["--format", "path"]].concat()).stdout;
+    let count = again.stdout.lines().count() - 1;
+    let head = format!("VIZMO_PATH_FILE   Path Version 2012\n1\n{count}\n1.1 1 0\n");
+    assert!(path.starts_with(&head), "{path}");
+    assert_eq!(path.lines().count(), 3 + count);
+
+    let page = read(&scratch, "short.html");
+    assert!(!page.contains("http") && !page.contains("src="), "refers to other files");
+    let (_, data) = page.split_once("id=\"data\">").expect("data");
+    let (data, _) = data.split_once("</script>").expect("their end");
+    let data: Value = serde_json::from_str(data).expect("JSON");
+    let array = |key: &str| data[key].as_array().expect("a list").clone();
+    assert_eq!([array("frames").len(), array("configs").len(), array("way").len()], [301; 3]);
+    assert_eq!([array("links").len(), array("obstacles").len()], [1, 17]);
+    assert_eq!(array("frames")[0].as_array().map(Vec::len), Some(7));
+    assert_eq!(data["name"], "maze");
+}
+
+#[test]
+fn many_queries_go_into_a_folder_of_their_own() {
+    let scratch = Scratch::new();
+    scratch.build("run", &[&repository("problems/maze.toml"), "--threads", "2"], 0);
+    let good = "x,y,theta,x,y,theta\n# there\n1.1,1,0,14.9,9,0\n\n14.9, 9, 0, 1.1, 1, 0\n";
+    scratch.write("many.csv", good);
+    let ask = |out: &str| scratch.run(&["query", "run", "--queries", "many.csv", "--out", out]);
+    let done = ask("paths");
+    done.assert_code(0);
+    done.assert_stderr(&["2 of 2 queries solved"]);
+    assert_eq!(read(&scratch, "paths/000000.csv"), read(&scratch, "run/path.csv"));
+    let summary = read(&scratch, "paths/summary.csv");
+    let mut lines = summary.lines();
+    let header = "index,solved,length [length],configurations,dropped_edges,seconds";
+    assert_eq!(lines.next(), Some(header));
+    for (index, line) in lines.by_ref().enumerate() {
+        assert!(line.starts_with(&format!("{index},1,")), "{line}");
+        let configs = read(&scratch, &format!("paths/{index:06}.csv")).lines().count() - 1;
+        assert_eq!(line.split(',').nth(3), Some(&*configs.to_string()));
+    }
+
+    // Nothing is overwritten, and nothing written where a line is wrong.
+    let refused = ask("paths");
+    refused.assert_code(2);
+    refused.assert_stderr(&["paths: holds something"]);
+    for (line, expected) in [
+        ("1,2,3", "3 values found, 6 expected"),
+        ("1.1,1,0,14.9,9,x", "goal: `x` found, a number expected"),
+        ("1.1,1,,14.9,9,0", "nothing found in field 3"),
+        ("2,6,0,14.9,9,0", "start: [2.0, 6.0, 0.0] found, where the robot collides"),
+    ] {
+        scratch.write("many.csv", &format!("{good}{line}\n"));
+        let refused = ask("other");
+        refused.assert_code(2);
+        refused.assert_stderr(&["many.csv:6: ", expected]);
+        assert!(!scratch.path("other").exists());
+    }
+    scratch.write("many.csv", "# nothing\n");
+    ask("other").assert_code(2);
+}
+
+#[test]
+fn unsolved_queries_are_told_apart() {
+    let scratch = Scratch::new();
+    let sealed = repository("problems/sealed.toml");
+    scratch.build("run", &[&sealed, "--threads", "2", "--max-sets", "8"], 3);
+    let problem = fs::read_to_string(&sealed).expect("it ships with the repository");
+    let end = |name: &str| {
+        let line = problem.lines().find(|line| line.starts_with(name)).expect("an end");
+        let (_, values) = line.split_once('[').expect("values");
+        values.trim_end_matches(']').to_owned()
+    };
+    let (start, goal) = (end("start"), end("goal"));
+    scratch.write("many.csv", &format!("{start},{goal}\n{start},{start}\n"));
+    let done = scratch.run(&["query", "run", "--queries", "many.csv", "--out", "paths"]);
+    done.assert_code(3);
+    done.assert_stderr(&["1 of 2 queries unsolved"]);
+    assert!(read(&scratch, "paths/summary.csv").contains("\n0,0,,0,"));
+    assert!(!scratch.path("paths/000000.csv").exists());
+    assert!(scratch.path("paths/000001.csv").exists());
+}

@@ -1,0 +1,101 @@
+use super::tessellate::tessellate;
+use crate::problem::Problem;
+use crate::query::Path;
+use crate::scene::{Body, Pose};
+use std::fmt::Write;
+
+/// The page without its data.
+const PAGE: &str = include_str!("animation.html");
+/// Poses along the path, both ends included.
+const FRAMES: usize = 301;
+
+/// A page that plays the robot along a path: HTML without references to other files, for any browser
+/// with WebGL 2. The same bytes for the same arguments.
+///
+/// The robot's links are placed here, at 301 poses evenly along the path by its length in the metric;
+/// the page turns, zooms and plays. Lengths are in the problem's unit, numbers rounded to the 24 bits
+/// that graphics cards draw with.
+pub fn animation(problem: &Problem, path: &Path) -> String {
+    let space = problem.space();
+    let (robot, bounds) = (&problem.robot, &problem.bounds);
+    let planar = robot.motion.bounded_axes() == 2;
+    let sampled = path.sampled(&space, FRAMES);
+    let diagonal: f64 = (0..robot.motion.bounded_axes())
+        .map(|i| (bounds.max[i] - bounds.min[i]) * (bounds.max[i] - bounds.min[i]))
+        .sum::<f64>()
+        .sqrt();
+    let dot = diagonal / 150.0;
+
+    let dofs = space.dofs().iter().map(|dof| format!("[{},\"{}\"]", quoted(&dof.name), dof.unit));
+    let links = robot.links.iter().map(|link| surfaces(&link.bodies, dot));
+    let mut placed = Vec::new();
+    let frames: Vec<String> = (sampled.iter())
+        .map(|q| {
+            robot.place(q, &mut placed);
+            let values =
+                placed.iter().flat_map(|pose| pose.translation.into_iter().chain(pose.rotation));
+            numbers(values)
+        })
+        .collect();
+    let mut data = String::from("{");
+    let mut put = |key: &str, value: &str| {
+        let comma = if key == "name" { "" } else { "," };
+        write!(data, "{comma}\"{key}\":{value}\n").expect("writing to memory cannot fail");
+    };
+    put("name", &quoted(&problem.name));
+    put("planar", if planar { "true" } else { "false" });
+    put("min", &numbers(bounds.min));
+    put("max", &numbers(bounds.max));
+    put("length", &number(path.length));
+    put("dofs", &list(dofs));
+    put("obstacles", &surfaces(&problem.obstacles, dot));
+    put("links", &list(links));
+    put("frames", &list(frames));
+    put("configs", &list(sampled.iter().map(|q| numbers(q.iter().copied()))));
+    put("way", &list(sampled.iter().map(|q| numbers(robot.marker(q)))));
+    data.push('}');
+    PAGE.replacen("ROADMILL_NAME", &html(&problem.name), 1).replacen("ROADMILL_DATA", &data, 1)
+}
+
+/// Bodies in the frame of their owner, each as its vertices and triangles.
+fn surfaces(bodies: &[Body], dot: f64) -> String {
+    list(bodies.iter().map(|body| {
+        let surface = tessellate(&body.shape, dot);
+        let pose: &Pose = &body.pose;
+        let vertices = numbers(surface.vertices.iter().flat_map(|vertex| pose.apply(*vertex)));
+        let corners = surface.triangles.iter().flatten().map(u32::to_string);
+        format!("{{\"v\":{vertices},\"t\":{}}}", list(corners))
+    }))
+}
+
+fn list(items: impl IntoIterator<Item = String>) -> String {
+    format!("[{}]", items.into_iter().collect::<Vec<_>>().join(","))
+}
+
+fn numbers(values: impl IntoIterator<Item = f64>) -> String {
+    list(values.into_iter().map(number))
+}
+
+fn number(value: f64) -> String {
+    (value as f32 + 0.0).to_string()
+}
+
+/// A text as a JSON string that cannot end the element it stands in.
+fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            '\0'..' ' | '<' | '>' | '&' | '\u{2028}' | '\u{2029}' => {
+                write!(out, "\\u{:04x}", u32::from(c)).expect("writing to memory cannot fail");
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+fn html(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}

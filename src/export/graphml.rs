@@ -1,0 +1,106 @@
+use super::planner_name;
+use crate::problem::Problem;
+use crate::roadmap::Roadmap;
+use std::fmt::Write;
+
+/// What nodes have besides their degrees of freedom.
+const COMPONENT: &str = "component";
+
+/// A roadmap as GraphML (U. Brandes et al. 2002), an undirected graph with typed attributes.
+///
+/// Of a node: a double per degree of freedom under its name, lengths in the problem's unit and
+/// angles in radians, and `component` (int), the smallest node id in its connected component. Of an
+/// edge, whose source is the lower node: `weight` (double, length in the space's metric), `planner`
+/// (string) and `planner_tag` (int). The graph itself has `problem` (string), `seed` (string, since it
+/// may need 64 bits) and `digest` (string). Numbers are written so that reading them back gives the
+/// same bits.
+pub fn graphml(problem: &Problem, roadmap: &Roadmap) -> String {
+    let space = problem.space();
+    let mut xml = String::new();
+    let mut put = |text: std::fmt::Arguments| {
+        xml.write_fmt(text).expect("writing to memory cannot fail");
+        xml.push('\n');
+    };
+    put(format_args!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>"));
+    put(format_args!(
+        "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\" \
+         xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
+         xsi:schemaLocation=\"http://graphml.graphdrawing.org/xmlns \
+         http://graphml.graphdrawing.org/xmlns/1.0/graphml.xsd\">"
+    ));
+    let mut key = |id: &str, of: &str, name: &str, kind: &str, unit: &str| {
+        let desc = if unit.is_empty() { String::new() } else { format!("<desc>{unit}</desc>") };
+        put(format_args!(
+            "<key id=\"{id}\" for=\"{of}\" attr.name=\"{}\" attr.type=\"{kind}\">{desc}</key>",
+            escaped(name)
+        ));
+    };
+    for name in ["problem", "seed", "digest"] {
+        key(name, "graph", name, "string", "");
+    }
+    for (index, dof) in space.dofs().iter().enumerate() {
+        // Two attributes of one name would be one to whoever reads them.
+        let clash = if dof.name == COMPONENT { "dof " } else { "" };
+        key(&format!("q{index}"), "node", &format!("{clash}{}", dof.name), "double", dof.unit);
+    }
+    key(COMPONENT, "node", COMPONENT, "int", "");
+    key("weight", "edge", "weight", "double", "length");
+    key("planner", "edge", "planner", "string", "");
+    key("planner_tag", "edge", "planner_tag", "int", "");
+    put(format_args!("<graph id=\"roadmap\" edgedefault=\"undirected\">"));
+    put(format_args!("<data key=\"problem\">{}</data>", escaped(&problem.name)));
+    put(format_args!("<data key=\"seed\">{}</data>", problem.seed));
+    put(format_args!("<data key=\"digest\">{}</data>", roadmap.digest()));
+    for (node, q) in roadmap.configs().iter().enumerate() {
+        let component = roadmap.components().of_node(node as u32).name;
+        let values: String = (q.iter().enumerate())
+            .map(|(index, value)| format!("<data key=\"q{index}\">{value}</data>"))
+            .collect();
+        put(format_args!(
+            "<node id=\"{node}\">{values}<data key=\"component\">{component}</data></node>"
+        ));
+    }
+    for edge in roadmap.edges() {
+        put(format_args!(
+            "<edge source=\"{}\" target=\"{}\"><data key=\"weight\">{}</data>\
+             <data key=\"planner\">{}</data><data key=\"planner_tag\">{}</data></edge>",
+            edge.low,
+            edge.high,
+            edge.weight,
+            planner_name(edge.planner),
+            edge.planner
+        ));
+    }
+    put(format_args!("</graph>"));
+    put(format_args!("</graphml>"));
+    xml
+}
+
+/// A text as XML holds it, in attributes too. Characters that XML cannot hold at all become U+FFFD.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\t' | '\n' | '\r' => {
+                write!(out, "&#{};", u32::from(c)).expect("writing to memory cannot fail");
+            }
+            '\0'..' ' | '\u{FFFE}' | '\u{FFFF}' => out.push('\u{FFFD}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::escaped;
+
+    #[test]
+    fn any_name_can_be_written() {
+        assert_eq!(escaped("a<b>&\"c\"\n\u{1}"), "a&lt;b&gt;&amp;&quot;c&quot;&#10;\u{FFFD}");
+    }
+}

@@ -1,0 +1,88 @@
+use crate::problem::Problem;
+use crate::roadmap::Roadmap;
+use std::io::{self, Cursor, Write};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+/// A roadmap as NumPy arrays in an `.npz` file, the same bytes for the same roadmap:
+///
+/// | array | shape and type | what |
+/// | --- | --- | --- |
+/// | `nodes` | n × dofs, `<f8` | configurations; lengths in the problem's unit, angles in radians |
+/// | `components` | n, `<u4` | smallest node id in the node's connected component |
+/// | `edges` | m × 2, `<u4` | node ids, the lower first |
+/// | `weights` | m, `<f8` | lengths of the edges in the space's metric |
+/// | `planners` | m, `u1` | tags of the local planners |
+/// | `dof_names` | dofs, `<U…` | names of the degrees of freedom |
+/// | `dof_units` | dofs, `<U…` | `length`, `rad` or `1` |
+///
+/// # Errors
+/// None that memory does not give.
+pub fn npz(problem: &Problem, roadmap: &Roadmap) -> io::Result<Vec<u8>> {
+    let space = problem.space();
+    let (nodes, edges) = (roadmap.configs(), roadmap.edges());
+    let ids = 0..nodes.len() as u32;
+    let names = space.dofs().iter().map(|dof| dof.name.as_str()).collect::<Vec<_>>();
+    let units = space.dofs().iter().map(|dof| dof.unit).collect::<Vec<_>>();
+    let mut archive = Archive(ZipWriter::new(Cursor::new(Vec::new())));
+    let shape = format!("({}, {})", nodes.len(), nodes.dofs());
+    let bytes = nodes.values().iter().flat_map(|value| value.to_le_bytes());
+    archive.add("nodes", "<f8", &shape, bytes)?;
+    let components = ids.map(|node| roadmap.components().of_node(node).name);
+    let shape = format!("({},)", nodes.len());
+    archive.add("components", "<u4", &shape, components.flat_map(u32::to_le_bytes))?;
+    let shape = format!("({}, 2)", edges.len());
+    let ends = edges.iter().flat_map(|edge| [edge.low, edge.high]);
+    archive.add("edges", "<u4", &shape, ends.flat_map(u32::to_le_bytes))?;
+    let shape = format!("({},)", edges.len());
+    let bytes = edges.iter().flat_map(|edge| edge.weight.to_le_bytes());
+    archive.add("weights", "<f8", &shape, bytes)?;
+    archive.add("planners", "|u1", &shape, edges.iter().map(|edge| edge.planner))?;
+    archive.texts("dof_names", &names)?;
+    archive.texts("dof_units", &units)?;
+    Ok(archive.0.finish()?.into_inner())
+}
+
+struct Archive(ZipWriter<Cursor<Vec<u8>>>);
+
+impl Archive {
+    /// Adds an array in NumPy's format 1.0, C order.
+    fn add(
+        &mut self,
+        name: &str,
+        kind: &str,
+        shape: &str,
+        data: impl Iterator<Item = u8>,
+    ) -> io::Result<()> {
+        // A time of day, a compressor's release or the system must not reach the bytes.
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Stored)
+            .last_modified_time(DateTime::DEFAULT)
+            .unix_permissions(0o644)
+            .large_file(true);
+        self.0.start_file(format!("{name}.npy"), options)?;
+        let mut header =
+            format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
+        // Magic, version, length and header together fill blocks of 64 bytes.
+        while (10 + header.len() + 1) % 64 != 0 {
+            header.push(' ');
+        }
+        header.push('\n');
+        let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+        bytes.extend((header.len() as u16).to_le_bytes());
+        bytes.extend(header.as_bytes());
+        bytes.extend(data);
+        self.0.write_all(&bytes)
+    }
+
+    /// Adds an array of texts, four bytes per character, all as long as the longest.
+    fn texts(&mut self, name: &str, texts: &[&str]) -> io::Result<()> {
+        let length = |text: &&str| text.chars().count();
+        let longest = texts.iter().map(length).max().unwrap_or(0).max(1);
+        let padded = texts
+            .iter()
+            .flat_map(|text| text.chars().chain(std::iter::repeat_n('\0', longest - length(text))));
+        let bytes = padded.flat_map(|c| u32::from(c).to_le_bytes());
+        self.add(name, &format!("<U{longest}"), &format!("({},)", texts.len()), bytes)
+    }
+}

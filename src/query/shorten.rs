@@ -1,0 +1,145 @@
+use super::PATH_REFINEMENT;
+use super::path::{Path, leg};
+use crate::context::Context;
+use crate::roadmap::Configs;
+use crate::seed::{Purpose, Seed};
+use crate::validity::Scratch;
+
+/// Every so many tries look at the whole path, those between at a half, a quarter, … of it: where the
+/// way winds, only near places see one another.
+const SCALES: u32 = 5;
+
+/// Shortens a path by shortcuts (R. Geraerts, M. H. Overmars, *Creating high-quality paths for motion
+/// planning*, IJRR 2007, §3.1): `tries` times two places on the path are drawn by length, the first
+/// uniformly, the second uniformly within a window around it, and what lies between them is replaced
+/// by the straight motion where that is shorter and free.
+///
+/// The new motions pass the check at a [`PATH_REFINEMENT`]th of the resolution, as do the two halves
+/// of legs that are cut. The result has the same ends, is never longer, and is the same for the same
+/// arguments; the draws come from the problem's base seed.
+pub fn shorten(cx: &Context, path: &Path, tries: u32, scratch: &mut Scratch) -> Path {
+    let mut stream = Seed::of_evaluator(cx.base_seed, "shorten").stream(Purpose::Connecting);
+    let mut short = path.clone();
+    for index in 0..tries {
+        let window = 1.0 / f64::from(1u32 << (index % SCALES));
+        let (one, drawn) = (stream.unit(), stream.unit());
+        if short.configs.len() < 2 {
+            break;
+        }
+        let other = (one + (2.0 * drawn - 1.0) * window).clamp(0.0, 1.0);
+        if let Some(shorter) = shortcut(cx, &short, one.min(other), one.max(other), scratch) {
+            short = shorter;
+        }
+    }
+    short
+}
+
+/// The path with a straight motion between two places, fractions of its length in ascending order,
+/// if that is free and makes it shorter.
+fn shortcut(cx: &Context, path: &Path, from: f64, to: f64, scratch: &mut Scratch) -> Option<Path> {
+    let lengths = path.lengths(&cx.space);
+    let whole = lengths[lengths.len() - 1];
+    let (first, last) = (leg(&lengths, from * whole), leg(&lengths, to * whole));
+    // A leg is straight already.
+    if first.0 == last.0 {
+        return None;
+    }
+    let place = |(leg, t): (usize, f64)| {
+        let mut q = vec![0.0; cx.space.len()];
+        cx.space.interpolate(path.configs.get(leg), path.configs.get(leg + 1), t, &mut q);
+        cx.space.canonicalize(&mut q).ok().map(|()| q)
+    };
+    let (a, b) = (place(first)?, place(last)?);
+
+    let mut configs = Configs::new(cx.space.len());
+    let mut push = |q: &[f64]| {
+        let again = !configs.is_empty() && configs.get(configs.len() - 1) == q;
+        if !again {
+            configs.push(q);
+        }
+    };
+    (0..=first.0).for_each(|i| push(path.configs.get(i)));
+    push(&a);
+    push(&b);
+    (last.0 + 1..path.configs.len()).for_each(|i| push(path.configs.get(i)));
+    let mut shorter = Path { configs, length: 0.0 };
+    shorter.length = shorter.lengths(&cx.space).last().copied().unwrap_or(0.0);
+    if shorter.length.partial_cmp(&path.length) != Some(std::cmp::Ordering::Less) {
+        return None;
+    }
+
+    let ends = (path.configs.get(first.0), path.configs.get(last.0 + 1));
+    let mut free = |q: &[f64], p: &[f64]| cx.validity.motion(q, p, PATH_REFINEMENT, scratch);
+    let motions = free(&a, &b) && free(ends.0, &a) && free(&b, ends.1);
+    (motions && cx.validity.valid(&a, scratch) && cx.validity.valid(&b, scratch)).then_some(shorter)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::img::{Setup, build};
+    use crate::problem::Problem;
+    use std::sync::Arc;
+
+    /// A setup and the path that its build found.
+    fn solved(name: &str, text: &str) -> (Arc<Setup>, Path) {
+        let problem = Problem::parse(std::path::Path::new(name), text).expect("it is sound");
+        let setup = Arc::new(Setup::new(problem));
+        let judgement = build(&setup).judgement.expect("a round was judged");
+        let answer = judgement.verdicts[0].answer.as_ref().expect("it has a query");
+        let path = answer.path.clone().expect("it has a way");
+        (setup, path)
+    }
+
+    #[test]
+    fn shortened_paths_are_valid_shorter_and_the_same_again() {
+        for (name, text) in [
+            ("maze.toml", include_str!("../../problems/maze.toml")),
+            ("walls.toml", include_str!("../../problems/walls.toml")),
+        ] {
+            let (setup, path) = solved(name, text);
+            let (cx, mut scratch) = (&setup.cx, Scratch::new());
+            let short = shorten(cx, &path, 200, &mut scratch);
+            assert!(
+                short.length < 0.95 * path.length,
+                "{name}: {} → {}",
+                path.length,
+                short.length
+            );
+            assert_eq!(short, shorten(cx, &path, 200, &mut Scratch::new()));
+            assert_eq!(short.length, short.lengths(&cx.space)[short.configs.len() - 1]);
+            let last = short.configs.len() - 1;
+            assert_eq!(short.configs.get(0), path.configs.get(0));
+            assert_eq!(short.configs.get(last), path.configs.get(path.configs.len() - 1));
+            for i in 0..=last {
+                let q = short.configs.get(i);
+                let mut stored = q.to_vec();
+                assert_eq!(cx.settle(&mut stored), Ok(()));
+                if i > 0 {
+                    let before = short.configs.get(i - 1);
+                    assert!(cx.validity.motion(before, q, PATH_REFINEMENT, &mut scratch));
+                }
+            }
+            let mut length = path.length;
+            for tries in [0, 1, 2, 5, 20, 100] {
+                let shorter = shorten(cx, &path, tries, &mut scratch);
+                assert!(shorter.length <= length);
+                length = shorter.length;
+            }
+            assert_eq!(shorten(cx, &path, 0, &mut scratch), path);
+        }
+    }
+
+    #[test]
+    fn paths_that_are_straight_or_a_point_stay_as_they_are() {
+        let (setup, path) = solved("maze.toml", include_str!("../../problems/maze.toml"));
+        for ends in [[0, 1], [0, 0]] {
+            let mut configs = Configs::new(3);
+            ends.iter().for_each(|i| configs.push(path.configs.get(*i)));
+            let mut straight = Path { configs, length: 0.0 };
+            straight.length = straight.lengths(&setup.cx.space)[1];
+            assert_eq!(shorten(&setup.cx, &straight, 50, &mut Scratch::new()), straight);
+            assert_eq!(straight.sampled(&setup.cx.space, 9).len(), 9);
+        }
+    }
+}
