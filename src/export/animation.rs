@@ -40,7 +40,7 @@ pub fn animation(problem: &Problem, path: &Path) -> String {
     let mut data = String::from("{");
     let mut put = |key: &str, value: &str| {
         let comma = if key == "name" { "" } else { "," };
-        write!(data, "{comma}\"{key}\":{value}\n").expect("writing to memory cannot fail");
+        writeln!(data, "{comma}\"{key}\":{value}").expect("writing to memory cannot fail");
     };
     put("name", &quoted(&problem.name));
     put("planar", if planar { "true" } else { "false" });

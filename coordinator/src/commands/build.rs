@@ -99,7 +99,7 @@ fn end(
     watch.ledger.stopped(&stopped)?;
     let answers = watch.verdicts.iter().filter_map(Verdict::answer);
     if let Some(path) = answers.filter_map(|answer| answer.path.as_ref()).next() {
-        write_whole(&folder.file("path.csv"), &path_csv(&watch.setup.cx.space, path))?;
+        write_whole(&folder.file("path.csv"), path_csv(&watch.setup.cx.space, path))?;
     }
     let coordinator_cpu_seconds = cpu::own_seconds();
     let times = Times {
@@ -109,7 +109,7 @@ fn end(
     };
     let summary = Summary::new(problem, folder.path(), roadmap, &watch.verdicts, &stopped, times);
     let json = serde_json::to_string_pretty(&summary).map_err(Failure::system)?;
-    write_whole(&folder.file("summary.json"), &(json + "\n"))?;
+    write_whole(&folder.file("summary.json"), json + "\n")?;
     if arguments.json {
         print_json(&summary);
     } else {
