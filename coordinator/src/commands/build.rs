@@ -1,6 +1,6 @@
 use super::write_whole;
 use crate::cli::BuildArguments;
-use crate::cpu;
+use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
 use crate::pool::Pool;
 use crate::progress::{Reporter, print_json};
@@ -24,6 +24,7 @@ const LOOKAHEAD_PER_WORKER: u64 = 4;
 
 /// Grows a roadmap.
 pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
+    let cpu = CpuClock::start();
     // Run folders and shared memory are their owner's business.
     private_umask();
     let problem = problem(arguments)?;
@@ -57,6 +58,7 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
         reporter: Reporter::new(arguments.json),
         signals: signals.clone(),
         workers,
+        cpu,
         verdicts: Vec::new(),
     };
     let (stop, roadmap) = if arguments.threads.is_some() {
@@ -101,9 +103,9 @@ fn end(
     if let Some(path) = answers.filter_map(|answer| answer.path.as_ref()).next() {
         write_whole(&folder.file("path.csv"), path_csv(&watch.setup.cx.space, path))?;
     }
-    let coordinator_cpu_seconds = cpu::own_seconds();
+    let coordinator_cpu_seconds = watch.cpu.own_seconds();
     let times = Times {
-        cpu_seconds: coordinator_cpu_seconds + cpu::children_seconds(),
+        cpu_seconds: coordinator_cpu_seconds + watch.cpu.children_seconds(),
         coordinator_cpu_seconds,
         wall_seconds: watch.reporter.seconds(),
     };
@@ -174,6 +176,7 @@ struct Watch {
     reporter: Reporter,
     signals: Arc<Signals>,
     workers: usize,
+    cpu: CpuClock,
     verdicts: Vec<Verdict>,
 }
 
