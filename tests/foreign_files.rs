@@ -1,7 +1,9 @@
 //! Scene files that are no good: every error names its file and line, and nothing panics.
 
 use proptest::prelude::*;
-use roadmill::foreign::{ForeignError, ForeignJointKind, ForeignScene, read_ompl, read_parasol};
+use roadmill::foreign::{
+    ForeignError, ForeignJointKind, ForeignScene, SceneOptions, read_ompl, read_parasol,
+};
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -35,8 +37,8 @@ fn folder() -> TempDir {
 
 fn read(folder: &Path, name: &str) -> Result<ForeignScene, ForeignError> {
     match name {
-        "room.cfg" => read_ompl(&folder.join(name)),
-        _ => read_parasol(&folder.join("room.env"), None, None),
+        "room.cfg" => read_ompl(&folder.join(name), &SceneOptions::default()),
+        _ => read_parasol(&folder.join("room.env"), &SceneOptions::default()),
     }
 }
 
@@ -224,7 +226,10 @@ fn files_beside_the_scene_are_taken_only_without_a_doubt() {
     std::fs::write(path("third.query"), QUERY).unwrap();
     let error = read(folder.path(), "room.env").unwrap_err().to_string();
     assert!(error.contains("which .query? other.query, third.query stand beside it"), "{error}");
-    let named = read_parasol(&path("room.env"), None, Some(&path("third.query")));
+    let named = read_parasol(
+        &path("room.env"),
+        &SceneOptions { query: Some(&path("third.query")), ..SceneOptions::default() },
+    );
     assert_eq!(named.unwrap().query, scene.query);
     std::fs::remove_file(path("room.robot")).unwrap();
     let error = read(folder.path(), "room.env").unwrap_err().to_string();

@@ -8,10 +8,13 @@ mod bodies;
 mod error;
 mod frames;
 mod ompl;
+mod options;
 mod parasol;
 
 pub use error::ForeignError;
 pub use ompl::read_ompl;
+pub(crate) use options::SceneKind;
+pub use options::{DhOrder, SceneOptions, Solidity, Unit};
 pub use parasol::read_parasol;
 
 use crate::scene::{Body, Pose};

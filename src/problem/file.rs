@@ -41,6 +41,7 @@ pub(super) struct SpaceTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RobotTable {
+    pub name: Option<String>,
     #[serde(default)]
     pub bodies: Vec<BodyTable>,
     pub base: Option<FrameTable>,
@@ -75,7 +76,7 @@ pub(super) struct JointTable {
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub(super) enum JointKindTable {
     Fixed {},
-    Revolute { axis: [f64; 3], degrees: Option<[f64; 2]> },
+    Revolute { axis: [f64; 3], degrees: Option<[f64; 2]>, radians: Option<[f64; 2]> },
     Prismatic { axis: [f64; 3], range: [f64; 2] },
 }
 

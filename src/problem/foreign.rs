@@ -1,35 +1,38 @@
 //! Scenes of other programs as problems, with the defaults that a problem file would have.
 
 use super::error::ProblemError;
-use super::resolve::{default_resolution, default_rotation_length, diagonal_of};
+use super::linkage::fitting;
+use super::resolve::{
+    default_resolution, default_rotation_length, diagonal_of, fitting_name, too_far,
+};
 use super::{DEFAULT_SEED, Problem, building};
 use crate::context::Ends;
 use crate::evaluate::{EvaluatorKind, Query};
 use crate::foreign::{
-    Base, ForeignBody, ForeignJoint, ForeignJointKind, ForeignLink, ForeignScene, read_ompl,
-    read_parasol,
+    Base, ForeignBody, ForeignJoint, ForeignJointKind, ForeignLink, ForeignScene, SceneKind,
+    SceneOptions, read_ompl, read_parasol,
 };
 use crate::robot::{Joint, JointKind, Limits, Link, Robot};
 use crate::scene::{Body, Pose};
 use crate::space::Motion;
 use std::path::Path;
 
-/// Files that stand beside a Parasol `.env`; what is not given is looked for.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Companions<'a> {
-    /// The `.robot` file.
-    pub robot: Option<&'a Path>,
-    /// The `.query` file.
-    pub query: Option<&'a Path>,
-}
-
 /// Reads a scene of OMPL.app or Parasol, told apart by its extension; `None` for any other file.
-pub(super) fn load(path: &Path, companions: Companions) -> Option<Result<Problem, ProblemError>> {
+pub(super) fn load(path: &Path, options: &SceneOptions) -> Option<Result<Problem, ProblemError>> {
     let extension = path.extension().and_then(|extension| extension.to_str());
-    let scene = match extension.map(str::to_ascii_lowercase).as_deref() {
-        Some("cfg") => read_ompl(path),
-        Some("env") => read_parasol(path, companions.robot, companions.query),
-        _ => return None,
+    let (kind, what) = match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("cfg") => (SceneKind::Ompl, "an OMPL.app scene"),
+        Some("env") => (SceneKind::Parasol, "a Parasol scene"),
+        _ => (SceneKind::Problem, "a problem file, which says such things itself,"),
+    };
+    if let Some(option) = options.misplaced(kind) {
+        let message = format!("{option} found; {what} leaves no room for it");
+        return Some(Err(ProblemError::file(path, message)));
+    }
+    let scene = match kind {
+        SceneKind::Ompl => read_ompl(path, options),
+        SceneKind::Parasol => read_parasol(path, options),
+        SceneKind::Urdf | SceneKind::Problem => return None,
     };
     let scene = scene.map_err(|error| ProblemError::foreign(error.to_string()));
     Some(scene.and_then(|scene| from_scene(path, scene)))
@@ -41,12 +44,19 @@ fn from_scene(path: &Path, scene: ForeignScene) -> Result<Problem, ProblemError>
     if robot.bodies().next().is_none() {
         return Err(ProblemError::file(path, "the robot has no bodies; at least one expected"));
     }
-    let resolution =
-        default_resolution(diagonal_of(&scene.bounds, robot.motion), &robot, &mut notes);
+    let diagonal = diagonal_of(&scene.bounds, robot.motion);
+    if let Some(message) = too_far(&robot, diagonal) {
+        return Err(ProblemError::file(path, message));
+    }
+    let name = fitting_name(&scene.name);
+    if name != scene.name {
+        notes.push(format!("name = {name}, as `{}` does not fit", scene.name));
+    }
+    let resolution = default_resolution(diagonal, &robot, &mut notes);
     let rotation_length = default_rotation_length(&robot, &mut notes);
     let (strategies, schedule, sets_per_round) = building::defaults();
     let mut problem = Problem {
-        name: scene.name,
+        name,
         seed: DEFAULT_SEED,
         bounds: scene.bounds,
         resolution,
@@ -77,10 +87,22 @@ fn robot_of(scene: &ForeignScene) -> Robot {
         Base::Fixed(pose) => (Motion::Fixed, pose),
         Base::Moving(motion) => (motion, Pose::IDENTITY),
     };
+    let mut links: Vec<Link> = Vec::new();
+    for link in &scene.links {
+        // Files are named after links.
+        let fitting = fitting(&link.name);
+        let mut name = if fitting.is_empty() { "link".to_owned() } else { fitting.clone() };
+        let mut count = 2;
+        while links.iter().any(|other| other.name == name) {
+            name = format!("{fitting}-{count}");
+            count += 1;
+        }
+        links.push(Link { name, ..link_of(link) });
+    }
     Robot {
         motion,
         base,
-        links: scene.links.iter().map(link_of).collect(),
+        links,
         may_touch: scene.may_touch.iter().map(|(a, b)| (*a as u32, *b as u32)).collect(),
     }
 }

@@ -10,8 +10,23 @@ use crate::scene::{LENGTH_MAX, Pose};
 use crate::space::Motion;
 
 const LINKS_MAX: usize = 1000;
-/// Name of link 0.
+/// The farthest that a joint with limits turns: ten turns.
+const RADIANS_MAX: f64 = 20.0 * std::f64::consts::PI;
+/// Name of link 0 where the file gives none.
 const BASE: &str = "base";
+const NAME_EXPECTED: &str = "a name of its own of letters, digits, `-`, `_` and `.` expected";
+
+/// Whether a link may have the name.
+pub(super) fn fits(name: &str) -> bool {
+    let fit = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
+    !name.is_empty() && name.chars().all(fit)
+}
+
+/// The name with other characters replaced by `-`.
+pub(super) fn fitting(name: &str) -> String {
+    let fit = |c: char| if fits(c.encode_utf8(&mut [0; 4])) { c } else { '-' };
+    name.chars().map(fit).collect()
+}
 
 /// Reads the robot.
 pub(super) fn robot_of(
@@ -22,7 +37,11 @@ pub(super) fn robot_of(
 ) -> Result<Robot, ProblemError> {
     let place = [Key("robot"), Key("bodies")];
     let mut robot = Robot::rigid(motion, bodies(source, &place, &table.bodies, notes)?);
-    robot.links[0].name = BASE.to_owned();
+    robot.links[0].name = table.name.clone().unwrap_or_else(|| BASE.to_owned());
+    if !fits(&robot.links[0].name) {
+        let message = format!("`{}` found; {NAME_EXPECTED}", robot.links[0].name);
+        return Err(source.error(&[Key("robot"), Key("name")], message));
+    }
     if let Some(base) = &table.base {
         if motion != Motion::Fixed {
             let message = "given, but the base moves; motion = \"fixed\" expected beside it";
@@ -70,11 +89,9 @@ fn link_of(
 ) -> Result<Link, ProblemError> {
     let place = [Key("robot"), Key("links"), Index(index)];
     let at = |keys: &[Step<'static>]| [&place[..], keys].concat();
-    let fits = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
     let taken = |name: &str| robot.links.iter().any(|link| link.name == name);
-    if table.name.is_empty() || !table.name.chars().all(fits) || taken(&table.name) {
-        let expected = "a name of its own of letters, digits, `-`, `_` and `.` expected";
-        let message = format!("`{}` found; {expected}", table.name);
+    if !fits(&table.name) || taken(&table.name) {
+        let message = format!("`{}` found; {NAME_EXPECTED}", table.name);
         return Err(source.error(&at(&[Key("name")]), message));
     }
     let joint = &table.joint;
@@ -107,20 +124,24 @@ fn kind_of(table: &JointKindTable) -> Result<JointKind, String> {
     };
     let limits = |[min, max]: [f64; 2], most: f64| {
         // Written so that NaN fails it.
-        if min < max && -most <= min && max <= most {
+        if min <= max && -most <= min && max <= most {
             Ok(Limits { min, max })
         } else {
             Err(format!(
-                "{min} to {max} found; a least and a larger value within ±{most:e} expected"
+                "{min} to {max} found; a least and a largest value within ±{most:e} expected"
             ))
         }
     };
     Ok(match table {
         JointKindTable::Fixed {} => JointKind::Fixed,
-        JointKindTable::Revolute { axis, degrees } => {
-            let limits = match degrees {
-                None => None,
-                Some(degrees) => {
+        JointKindTable::Revolute { axis, degrees, radians } => {
+            let limits = match (degrees, radians) {
+                (Some(_), Some(_)) => {
+                    return Err("degrees and radians found; one of the two expected".to_owned());
+                }
+                (None, None) => None,
+                (None, Some(radians)) => Some(limits(*radians, RADIANS_MAX)?),
+                (Some(degrees), None) => {
                     let Limits { min, max } = limits(*degrees, 3600.0)?;
                     let radians = |degrees: f64| degrees / 180.0 * std::f64::consts::PI;
                     Some(Limits { min: radians(min), max: radians(max) })

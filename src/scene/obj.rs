@@ -4,8 +4,24 @@
 //! Written here because the published readers report neither the line of an error nor an index
 //! out of range, and a user with a broken CAD export needs both.
 
+use super::Mesh;
 use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
+use std::fmt::Write;
 use std::path::Path;
+
+impl Mesh {
+    /// The mesh as a Wavefront `.obj`, which gives the same mesh back to the bit.
+    pub fn to_obj(&self) -> String {
+        let mut text = String::new();
+        for [x, y, z] in &self.vertices {
+            writeln!(text, "v {x} {y} {z}").expect("writing to memory cannot fail");
+        }
+        for [a, b, c] in self.triangles.iter().map(|corners| corners.map(|corner| corner + 1)) {
+            writeln!(text, "f {a} {b} {c}").expect("writing to memory cannot fail");
+        }
+        text
+    }
+}
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
