@@ -42,6 +42,11 @@ impl Meshes {
         Meshes { triangles: 0, weld }
     }
 
+    /// Joins equal vertices only.
+    pub fn exact() -> Meshes {
+        Meshes { triangles: 0, weld: 0.0 }
+    }
+
     /// Reads a mesh; the body stands at `pose`.
     pub fn body(
         &mut self,

@@ -212,7 +212,7 @@ impl<'a> Config<'a> {
             && options.unit != Some(Unit::AsStored)
         {
             // Welding is a length of the scene, so the file is read again rather than stretched.
-            mesh.scale = metres;
+            mesh.scale = [metres; 3];
             (body, read) = meshes.body(&named, &mesh, Pose::IDENTITY, solid)?;
             let what = "the metres of the file's unit (--unit)";
             notes.push(format!("{key}: lengths times {metres}, {what}"));

@@ -64,23 +64,23 @@ pub(crate) enum SceneKind {
     Parasol,
     /// URDF.
     Urdf,
-    /// None: a problem file says all itself.
+    /// A problem file.
     Problem,
 }
 
 impl SceneOptions<'_> {
     /// The first option that was given and that files of the kind leave no room for.
     pub(crate) fn misplaced(&self, kind: SceneKind) -> Option<&'static str> {
-        use SceneKind::{Ompl, Parasol, Urdf};
+        use SceneKind::{Ompl, Parasol};
         let options: [(&'static str, bool, &[SceneKind]); 9] = [
             ("--robot", self.robot.is_some(), &[Parasol]),
             ("--query", self.query.is_some(), &[Parasol]),
-            ("--solid", self.solid.is_some(), &[Ompl, Parasol, Urdf]),
-            ("--bounds", self.bounds.is_some(), &[Ompl, Parasol, Urdf]),
+            ("--solid", self.solid.is_some(), &[Ompl, Parasol]),
+            ("--bounds", self.bounds.is_some(), &[Ompl, Parasol]),
             ("--origin", self.origin.is_some(), &[Ompl, Parasol]),
             ("--up", self.up.is_some(), &[Ompl]),
             ("--unit", self.unit.is_some(), &[Ompl]),
-            ("--weld", self.weld.is_some(), &[Ompl, Parasol, Urdf]),
+            ("--weld", self.weld.is_some(), &[Ompl, Parasol]),
             ("--dh", self.dh.is_some(), &[Parasol]),
         ];
         let misplaced =

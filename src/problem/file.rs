@@ -42,6 +42,7 @@ pub(super) struct SpaceTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct RobotTable {
     pub name: Option<String>,
+    pub urdf: Option<PathBuf>,
     #[serde(default)]
     pub bodies: Vec<BodyTable>,
     pub base: Option<FrameTable>,
@@ -76,6 +77,7 @@ pub(super) struct JointTable {
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub(super) enum JointKindTable {
     Fixed {},
+    Spherical {},
     Revolute { axis: [f64; 3], degrees: Option<[f64; 2]>, radians: Option<[f64; 2]> },
     Prismatic { axis: [f64; 3], range: [f64; 2] },
 }

@@ -5,11 +5,14 @@ use super::error::ProblemError;
 use super::file::{FrameTable, JointKindTable, LinkTable, RobotTable};
 use super::source::Source;
 use super::source::Step::{self, Index, Key};
+use crate::foreign::read_urdf;
 use crate::robot::{Joint, JointKind, Limits, Link, Robot};
 use crate::scene::{LENGTH_MAX, Pose};
 use crate::space::Motion;
+use std::path::Path;
 
-const LINKS_MAX: usize = 1000;
+/// Walks along a robot recurse.
+pub(super) const LINKS_MAX: usize = 1000;
 /// The farthest that a joint with limits turns: ten turns.
 const RADIANS_MAX: f64 = 20.0 * std::f64::consts::PI;
 /// Name of link 0 where the file gives none.
@@ -35,9 +38,15 @@ pub(super) fn robot_of(
     motion: Motion,
     notes: &mut Vec<String>,
 ) -> Result<Robot, ProblemError> {
-    let place = [Key("robot"), Key("bodies")];
-    let mut robot = Robot::rigid(motion, bodies(source, &place, &table.bodies, notes)?);
-    robot.links[0].name = table.name.clone().unwrap_or_else(|| BASE.to_owned());
+    let mut robot = Robot::rigid(motion, Vec::new());
+    match &table.urdf {
+        Some(file) => robot.links = urdf_links(source, table, file, notes)?,
+        None => {
+            let place = [Key("robot"), Key("bodies")];
+            robot.links[0].bodies = bodies(source, &place, &table.bodies, notes)?;
+            robot.links[0].name = table.name.clone().unwrap_or_else(|| BASE.to_owned());
+        }
+    }
     if !fits(&robot.links[0].name) {
         let message = format!("`{}` found; {NAME_EXPECTED}", robot.links[0].name);
         return Err(source.error(&[Key("robot"), Key("name")], message));
@@ -49,8 +58,9 @@ pub(super) fn robot_of(
         }
         robot.base = frame(source, &[Key("robot"), Key("base")], base)?;
     }
-    if table.links.len() > LINKS_MAX {
-        let message = format!("{} found; at most {LINKS_MAX} expected", table.links.len());
+    if table.links.len().max(robot.links.len()) > LINKS_MAX {
+        let found = table.links.len().max(robot.links.len());
+        let message = format!("{found} found; at most {LINKS_MAX} expected");
         return Err(source.error(&[Key("robot"), Key("links")], message));
     }
     for (index, link) in table.links.iter().enumerate() {
@@ -76,7 +86,48 @@ pub(super) fn robot_of(
     Ok(robot)
 }
 
-fn moves(link: &Link) -> bool {
+/// The links of a URDF, which takes the place of all that the table could say of them.
+fn urdf_links(
+    source: &Source,
+    table: &RobotTable,
+    file: &Path,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Link>, ProblemError> {
+    let others = [
+        ("name", table.name.is_some()),
+        ("bodies", !table.bodies.is_empty()),
+        ("links", !table.links.is_empty()),
+    ];
+    if let Some((key, _)) = others.iter().find(|(_, given)| *given) {
+        let message = "given beside urdf, which says it; one of the two expected";
+        return Err(source.error(&[Key("robot"), Key(key)], message.to_owned()));
+    }
+    let folder = source.path.parent().unwrap_or(Path::new(""));
+    let (links, own) = read_urdf(&folder.join(file))
+        .map_err(|error| source.error(&[Key("robot"), Key("urdf")], error.to_string()))?;
+    notes.extend(own);
+    Ok(fitting_names(links))
+}
+
+/// The links with names that fit and that no two have.
+pub(super) fn fitting_names(mut links: Vec<Link>) -> Vec<Link> {
+    for index in 0..links.len() {
+        let fitting = fitting(&links[index].name);
+        let mut name = if fitting.is_empty() { "link".to_owned() } else { fitting.clone() };
+        let mut count = 2;
+        while links[..index].iter().any(|other| other.name == name) {
+            name = format!("{fitting}-{count}");
+            count += 1;
+        }
+        links[index].name = name;
+        if let Some(joint) = &mut links[index].joint {
+            joint.name = self::fitting(&joint.name);
+        }
+    }
+    links
+}
+
+pub(super) fn moves(link: &Link) -> bool {
     link.joint.as_ref().is_some_and(|joint| joint.kind.moves())
 }
 
@@ -134,6 +185,7 @@ fn kind_of(table: &JointKindTable) -> Result<JointKind, String> {
     };
     Ok(match table {
         JointKindTable::Fixed {} => JointKind::Fixed,
+        JointKindTable::Spherical {} => JointKind::Ball,
         JointKindTable::Revolute { axis, degrees, radians } => {
             let limits = match (degrees, radians) {
                 (Some(_), Some(_)) => {

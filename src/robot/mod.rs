@@ -124,13 +124,9 @@ impl Robot {
             let pose = match &link.joint {
                 None => self.base_pose(q),
                 Some(joint) => {
-                    let value = if joint.kind.moves() {
-                        at += 1;
-                        q[at - 1]
-                    } else {
-                        0.0
-                    };
-                    poses[joint.parent as usize].then(&joint.pose(value))
+                    let own = at..at + joint.kind.values();
+                    at = own.end;
+                    poses[joint.parent as usize].then(&joint.pose(&q[own]))
                 }
             };
             poses.push(pose);
