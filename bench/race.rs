@@ -10,8 +10,10 @@
 //! Two measures per scene, five rounds in turn, medians of CPU time. *Edges*: pairs of 10 nearest among
 //! 2000 valid uniform configurations, decided by each side in the same number of steps; where verdicts
 //! differ, the count says so. *Nodes*: one set of 5000 nodes with 10 neighbours, against
-//! `PRM::growRoadmap`. OMPL and FCL know no solids and no bounds of bodies: scenes with
-//! `bounds = "reference"` compare best.
+//! `PRM::growRoadmap`. OMPL and FCL know no solids and no bounds of bodies, so both sides race with
+//! surfaces and with bounds that hold the reference point.
+
+mod support;
 
 use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
@@ -21,12 +23,12 @@ use roadmill::roadmap::Configs;
 use roadmill::sampler::{Sampler, Uniform};
 use roadmill::scene::{Body, Shape};
 use roadmill::seed::Seed;
-use roadmill::validity::Scratch;
-use rustix::time::{ClockId, clock_gettime};
+use roadmill::validity::{BoundsMeaning, Scratch};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
+use support::{cpu_seconds, median};
 
 const ROUNDS: usize = 5;
 const CONFIGS: usize = 2000;
@@ -50,7 +52,10 @@ fn main() {
 }
 
 fn race(path: &Path, peer: &str) {
-    let problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
+    let mut problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
+    problem.bounds.meaning = BoundsMeaning::Reference;
+    let robot = problem.robot.links.iter_mut().flat_map(|link| &mut link.bodies);
+    robot.chain(&mut problem.obstacles).for_each(|body| body.solid = false);
     let cx = problem.context();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = |name: &str| folder.path().join(name).display().to_string();
@@ -165,14 +170,4 @@ fn run(peer: &str, words: &[&str]) -> f64 {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8_lossy(&output.stdout);
     text.split_whitespace().next().and_then(|word| word.parse().ok()).expect("seconds")
-}
-
-fn cpu_seconds() -> f64 {
-    let time = clock_gettime(ClockId::ThreadCPUTime);
-    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
-}
-
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
