@@ -10,56 +10,33 @@
 
 mod support;
 
-use roadmill::img::{Core, Cut, Observer, Progress, Serial, Setup, Stop, drive};
+use roadmill::img::Setup;
 use roadmill::problem::Problem;
-use roadmill::roadmap::Roadmap;
-use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
-use support::{cpu_seconds, median};
+use support::{arguments, median, solve};
 
 fn main() {
-    let (mut seeds, mut seconds, mut scenes) = (5u64, 300.0f64, Vec::new());
-    let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
-    while let Some(word) = words.next() {
-        let mut number = || words.next().and_then(|word| word.parse::<f64>().ok());
-        match word.as_str() {
-            "--seeds" => seeds = number().expect("a number after --seeds") as u64,
-            "--seconds" => seconds = number().expect("a number after --seconds"),
-            _ => scenes.push(word),
-        }
-    }
+    let arguments = arguments(5.0, 300.0);
+    let seeds = arguments.seeds;
     println!("| scene | solved | nodes | CPU s |");
     println!("| --- | --- | --- | --- |");
-    for scene in scenes {
-        let (mut solved, mut nodes, mut times) = (0, Vec::new(), Vec::new());
-        let problem = Problem::load(Path::new(&scene)).unwrap_or_else(|error| panic!("{error}"));
+    for scene in &arguments.scenes {
+        let (mut satisfied, mut nodes, mut times) = (0, Vec::new(), Vec::new());
+        let mut problem = Problem::load(Path::new(scene)).unwrap_or_else(|error| panic!("{error}"));
         for seed in 1..=seeds {
-            let begun = cpu_seconds();
-            let setup = Arc::new(Setup::new(Problem { seed, ..problem.clone() }));
-            let mut core = Core::new(&setup, 0);
-            let mut serial = Serial::new(setup.clone());
-            let mut clock = Clock { end: begun + seconds };
-            let Ok(stop) = drive(&mut core, &mut serial, &mut clock);
-            solved += u64::from(stop == Stop::Satisfied);
-            nodes.push(core.progress().nodes as f64);
-            times.push(cpu_seconds() - begun);
+            problem.seed = seed;
+            let solved = solve(&Arc::new(Setup::new(problem.clone())), arguments.seconds);
+            satisfied += u64::from(solved.satisfied);
+            nodes.push(solved.nodes as f64);
+            times.push(solved.seconds);
         }
         let name = &problem.name;
-        println!("| {name} | {solved} of {seeds} | {} | {} |", spread(nodes, 0), spread(times, 2));
-    }
-}
-
-/// Ends a build when the thread's CPU time is up.
-struct Clock {
-    end: f64,
-}
-
-impl Observer for Clock {
-    type Error = Infallible;
-
-    fn tick(&mut self, _: &Progress, _: &Roadmap, _: usize) -> Option<Cut> {
-        (cpu_seconds() >= self.end).then_some(Cut::Time)
+        println!(
+            "| {name} | {satisfied} of {seeds} | {} | {} |",
+            spread(nodes, 0),
+            spread(times, 2)
+        );
     }
 }
 
