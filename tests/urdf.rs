@@ -61,7 +61,7 @@ fn links_stand_where_their_joints_put_them() {
     let kinds: Vec<_> = links[1..].iter().map(|link| link.joint.as_ref().unwrap().kind).collect();
     let limits = Some(Limits { min: -1.0, max: 2.0 });
     let shoulder = JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits };
-    assert_eq!(kinds, [shoulder, JointKind::Fixed, JointKind::Ball]);
+    assert_eq!(kinds, [shoulder, JointKind::Fixed, JointKind::Spherical]);
 
     // Scaled 2 −1 1: mirrored in y, and still closed.
     let Shape::Mesh(mesh) = &links[2].bodies[0].shape else { panic!("{:?}", links[2]) };

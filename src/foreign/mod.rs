@@ -66,8 +66,7 @@ pub struct ForeignBody {
     pub stored_triangles: usize,
     /// Triangles with three different corners, repeated ones counted once.
     pub unique_triangles: usize,
-    /// Edges that an odd number of those share: 0 for a closed surface. Flat triangles, which the body's
-    /// mesh lacks, count.
+    /// Edges that an odd number of those share, flat triangles included: 0 for a closed surface.
     pub odd_edges: usize,
 }
 

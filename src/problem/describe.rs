@@ -37,7 +37,7 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
             JointKind::Revolute { limits: Some(Limits { min, max }), .. } => {
                 writeln!(out, "                 {name}: turns from {min} to {max} radians")?;
             }
-            JointKind::Ball => {
+            JointKind::Spherical => {
                 writeln!(out, "                 {name}: turns in every way; a unit quaternion")?;
             }
             JointKind::Prismatic { limits: Limits { min, max }, .. } => {

@@ -185,7 +185,7 @@ fn kind_of(table: &JointKindTable) -> Result<JointKind, String> {
     };
     Ok(match table {
         JointKindTable::Fixed {} => JointKind::Fixed,
-        JointKindTable::Spherical {} => JointKind::Ball,
+        JointKindTable::Spherical {} => JointKind::Spherical,
         JointKindTable::Revolute { axis, degrees, radians } => {
             let limits = match (degrees, radians) {
                 (Some(_), Some(_)) => {

@@ -222,7 +222,7 @@ fn frame(pose: &Pose) -> String {
 fn kind(kind: &JointKind) -> String {
     match kind {
         JointKind::Fixed => "{ fixed = {} }".to_owned(),
-        JointKind::Ball => "{ spherical = {} }".to_owned(),
+        JointKind::Spherical => "{ spherical = {} }".to_owned(),
         JointKind::Revolute { axis, limits: None } => {
             format!("{{ revolute = {{ axis = {axis:?} }} }}")
         }

@@ -37,7 +37,7 @@ pub enum JointKind {
         limits: Limits,
     },
     /// Turns in every way about the joint's origin, by a unit quaternion `w x y z`.
-    Ball,
+    Spherical,
 }
 
 /// Least and largest value of a joint.
@@ -60,7 +60,7 @@ impl JointKind {
         match self {
             JointKind::Fixed => 0,
             JointKind::Revolute { .. } | JointKind::Prismatic { .. } => 1,
-            JointKind::Ball => 4,
+            JointKind::Spherical => 4,
         }
     }
 }
@@ -79,7 +79,7 @@ impl Joint {
                 translation: axis.map(|component| component * values[0]),
                 rotation: Pose::IDENTITY.rotation,
             },
-            JointKind::Ball => Pose {
+            JointKind::Spherical => Pose {
                 translation: [0.0; 3],
                 rotation: [values[0], values[1], values[2], values[3]],
             },

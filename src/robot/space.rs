@@ -16,7 +16,7 @@ impl Robot {
             let Some(joint) = &link.joint else { continue };
             let (kind, weight, unit) = match joint.kind {
                 JointKind::Fixed => continue,
-                JointKind::Ball => {
+                JointKind::Spherical => {
                     let weight = self.reach_of_joint(index);
                     parts.push(Part { kind: PartKind::Rotation, at: dofs.len(), weight });
                     for value in ["qw", "qx", "qy", "qz"] {
@@ -62,7 +62,7 @@ impl Robot {
         let joint = self.links[link].joint.as_ref().expect("asked of links with a joint");
         let slide = match joint.kind {
             JointKind::Prismatic { limits, .. } => limits.min.abs().max(limits.max.abs()),
-            JointKind::Fixed | JointKind::Revolute { .. } | JointKind::Ball => 0.0,
+            JointKind::Fixed | JointKind::Revolute { .. } | JointKind::Spherical => 0.0,
         };
         slide + length(&joint.after) + self.reach_of_link(link)
     }
@@ -81,7 +81,9 @@ impl Robot {
         let joints = self.links.iter().enumerate().filter_map(|(index, link)| {
             match link.joint.as_ref()?.kind {
                 JointKind::Fixed => None,
-                JointKind::Revolute { .. } | JointKind::Ball => Some(self.reach_of_joint(index)),
+                JointKind::Revolute { .. } | JointKind::Spherical => {
+                    Some(self.reach_of_joint(index))
+                }
                 JointKind::Prismatic { .. } => Some(1.0),
             }
         });
@@ -121,7 +123,7 @@ impl Speeds {
                 JointKind::Fixed => continue,
                 JointKind::Revolute { limits: None, .. } => math::angle_between(a[at], b[at]),
                 JointKind::Revolute { .. } | JointKind::Prismatic { .. } => (a[at] - b[at]).abs(),
-                JointKind::Ball => {
+                JointKind::Spherical => {
                     let dot: f64 = (at..at + 4).map(|i| a[i] * b[i]).sum();
                     2.0 * math::acos(dot.abs())
                 }

@@ -91,9 +91,13 @@ fn corner(word: &str, vertices: usize) -> Result<u32, String> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    pub fn read_text(text: &str) -> RawMesh {
+        parse(text).unwrap_or_else(|error| panic!("{error}"))
+    }
 
     fn parse(text: &str) -> Result<RawMesh, String> {
         read(Path::new("m.obj"), text.as_bytes()).map_err(|error| error.to_string())

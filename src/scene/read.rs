@@ -54,8 +54,7 @@ pub struct ReadMesh {
     pub stored_triangles: usize,
     /// Triangles with three different corners once near vertices are joined, repeated ones counted once.
     pub unique_triangles: usize,
-    /// Edges that an odd number of those share: 0 for a closed surface. The mesh itself lacks the flat
-    /// ones among them and may seem open at a seam that is none.
+    /// Edges that an odd number of those share: 0 for a closed surface.
     pub odd_edges: usize,
     /// The mean that became the origin, in the file's unit (after the turn); zero where it was not
     /// asked for.

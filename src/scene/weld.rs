@@ -16,8 +16,9 @@ pub(super) struct Surface {
 }
 
 impl Mesh {
-    /// Joins vertices, drops triangles without area, all but the first of triangles with the same
-    /// corners (many files store both sides) and vertices that no triangle uses.
+    /// Joins vertices, drops triangles without area (unless the surface is closed by them and not without
+    /// them), all but the first of triangles with the same corners (many files store both sides) and
+    /// vertices that no triangle uses.
     ///
     /// Each vertex joins the first one at most `tolerance` away, and takes its place to the bit; with 0,
     /// equal ones only. The tolerance is a length of the scene, not a share of its size: a file
@@ -39,10 +40,11 @@ impl Mesh {
         }
         let surface =
             Surface { unique_triangles: triangles.len(), odd_edges: odd_edges(&triangles) };
-        triangles.retain(|corners| {
-            let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
-            area_squared(a, b, c) > 0.0
-        });
+        let faces: Vec<[u32; 3]> = faces_of(&vertices, &triangles).collect();
+        // Flat triangles stay only where the surface is closed by them and not without them.
+        if faces.is_empty() || surface.odd_edges > 0 || odd_edges(&faces) == 0 {
+            triangles = faces;
+        }
         (without_unused(vertices, triangles), surface)
     }
 }
@@ -119,6 +121,17 @@ fn without_unused(vertices: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Mesh
 fn distance_squared(a: [f64; 3], b: [f64; 3]) -> f64 {
     let d = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
     d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
+}
+
+/// The triangles that have an area.
+pub(super) fn faces_of(
+    vertices: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+) -> impl Iterator<Item = [u32; 3]> {
+    triangles.iter().copied().filter(|corners| {
+        let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
+        area_squared(a, b, c) > 0.0
+    })
 }
 
 fn area_squared(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
@@ -201,6 +214,9 @@ mod tests {
         raw.triangles.push([0, 1, 8]);
         let (mesh, closed) = Mesh::weld(raw, [1.0; 3], 0.0);
         assert_eq!((closed.unique_triangles, closed.odd_edges), (14, 0));
-        assert_eq!(mesh.triangles.len(), 13);
+        assert_eq!((mesh.triangles.len(), mesh.faces().count()), (14, 13));
+        assert!(mesh.is_closed());
+        let again = super::super::obj::tests::read_text(&mesh.to_obj());
+        assert_eq!(Mesh::weld(again, [1.0; 3], 0.0).0, mesh);
     }
 }

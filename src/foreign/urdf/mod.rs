@@ -162,7 +162,7 @@ impl Reader<'_> {
             JointType::Prismatic => {
                 JointKind::Prismatic { axis: axis()?, limits: limits(LENGTH_MAX)? }
             }
-            JointType::Spherical => JointKind::Ball,
+            JointType::Spherical => JointKind::Spherical,
             JointType::Floating | JointType::Planar => {
                 return Err(fail("its type is not supported".to_owned()));
             }
