@@ -155,6 +155,24 @@ fn errors_name_file_and_line() {
             "room.robot:12: body 2 does not hang on the base",
         ),
         ("room.robot", "-0.5:0.5", "0.5", "room.robot:12: `0.5` found; limits min:max"),
+        ("room.robot", "-0.5:0.5", "0.5:-0.5", "room.robot:12: `0.5:-0.5` found; limits min:max"),
+        ("room.robot", "-0.5:0.5", "-1e9:1e9", "room.robot:12: `-1e9:1e9` found; limits min:max"),
+        ("room.robot", "0 2 Revolute", "0 2 Prismatic", "room.robot:12: `Prismatic` found; `Revol"),
+        // Bodies 2 and 3 hang on one another.
+        ("room.robot", "0 2 Revolute", "3 2 Revolute", "room.robot:12: body 2 does not hang"),
+        ("room.robot", "4\n#VIZMO", "1000000000\n#VIZMO", "room.robot:7: `Adjacencies"),
+        (
+            "room.env",
+            "2\n\nPassive",
+            "1000000000\n\nPassive",
+            "room.env:9: cut off; body 3 of 1000000000",
+        ),
+        (
+            "room.query",
+            "0.1 0.2 0.3",
+            "0.1 0.2 0.3 0.4",
+            "room.query:1: 11 numbers found; the robot",
+        ),
         (
             "room.robot",
             "Connections\n3",

@@ -13,12 +13,13 @@ use crate::foreign::{
     SceneOptions, read_ompl, read_parasol, read_urdf,
 };
 use crate::robot::{Joint, JointKind, Limits, Link, Robot};
-use crate::scene::{Body, Pose};
+use crate::scene::{Body, LENGTH_MAX, Pose};
 use crate::space::Motion;
 use crate::validity::{Bounds, BoundsMeaning};
 use std::path::Path;
 
-/// Reads a scene of OMPL.app or Parasol, told apart by its extension; `None` for any other file.
+/// Reads a scene of OMPL.app or Parasol, or a robot in URDF, told apart by the extension; `None` for any
+/// other file.
 pub(super) fn load(path: &Path, options: &SceneOptions) -> Option<Result<Problem, ProblemError>> {
     let extension = path.extension().and_then(|extension| extension.to_str());
     let (kind, what) = match extension.map(str::to_ascii_lowercase).as_deref() {
@@ -49,6 +50,10 @@ fn from_urdf(path: &Path) -> Result<Problem, ProblemError> {
     let motion = if links.iter().any(moves) { Motion::Fixed } else { Motion::Rigid3d };
     let robot = Robot { motion, base: Pose::IDENTITY, links, may_touch: Vec::new() };
     let reach = robot.reach();
+    if reach > LENGTH_MAX {
+        let message = format!("a reach of {reach:e} found; at most {LENGTH_MAX:e} expected");
+        return Err(ProblemError::file(path, message));
+    }
     notes.push("a robot without a scene: no obstacles, no query".to_owned());
     notes.push(match motion {
         Motion::Fixed => "the base stands still at the origin".to_owned(),

@@ -79,8 +79,8 @@ pub struct Limits {
 }
 
 impl Problem {
-    /// Reads and checks a problem file: TOML, or a scene of OMPL.app (`.cfg`) or Parasol (`.env`), see
-    /// `docs/foreign.md`. Relative paths of meshes start from the file's folder.
+    /// Reads and checks a problem file: TOML, a scene of OMPL.app (`.cfg`) or Parasol (`.env`), or a robot
+    /// alone (`.urdf`), see `docs/foreign.md`. Relative paths of meshes start from the file's folder.
     ///
     /// # Errors
     /// The first thing that is wrong, with its place in the file.

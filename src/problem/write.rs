@@ -7,7 +7,7 @@ use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::space::Motion;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::{Debug, Write};
+use std::fmt::Write;
 
 /// A problem as files.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -179,7 +179,7 @@ fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
         writeln!(out, "\n[[evaluators]]")?;
         let method = toml::Table::try_from(evaluator).expect("a method is a table");
         for (name, settings) in method {
-            writeln!(out, "{} = {settings}", value(&name).trim_matches('"'))?;
+            writeln!(out, "{name} = {settings}")?;
         }
     }
     let limits = &problem.limits;
@@ -194,7 +194,7 @@ fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
 }
 
 /// A value as TOML writes it, within one line.
-fn value<T: Serialize + Debug + ?Sized>(of: &T) -> String {
+fn value<T: Serialize + ?Sized>(of: &T) -> String {
     toml::Value::try_from(of).expect("problems hold what TOML can write").to_string()
 }
 

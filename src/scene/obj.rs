@@ -124,6 +124,17 @@ pub(super) mod tests {
         }
     }
 
+    #[test]
+    fn cut_off_files_are_errors_or_smaller_meshes() {
+        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0.5\nf 1/1/1 2//1 3\nf 1 2 3\n";
+        for end in 0..text.len() {
+            match parse(&text[..end]) {
+                Ok(mesh) => assert!(mesh.triangles.len() < 2 || end + 1 >= text.len()),
+                Err(error) => assert!(error.starts_with("m.obj:"), "{error}"),
+            }
+        }
+    }
+
     proptest! {
         #[test]
         fn no_text_panics(bytes in proptest::collection::vec(any::<u8>(), 0..200), lines in "([vf]( -?[0-9]{1,2}(/[0-9])?){0,4}\n){0,9}") {
