@@ -14,7 +14,10 @@ pub fn import(arguments: &ImportArguments) -> Result<Code, Failure> {
     let problem = load(&arguments.problem)?;
     let place = Place::of(&arguments.out)?;
     place.check(arguments.force)?;
-    let written = problem.to_toml(&place.meshes_name);
+    let mut written = problem.to_toml(&place.meshes_name);
+    let from = arguments.problem.file.file_name().unwrap_or_default();
+    // Quoted, for names may hold line breaks.
+    written.text = format!("# Imported from {from:?}.\n{}", written.text);
     let result = place.fill(&written).and_then(|()| {
         let file = place.staged.join(&place.file_name);
         let again = Problem::load(&file).map_err(Failure::system)?;
