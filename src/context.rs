@@ -28,6 +28,7 @@ impl Context {
         }
         let given = q.to_vec();
         space.canonicalize(q)?;
+        // What has stored form to within rounding stays as it is written, here too.
         for part in space.parts().iter().filter(|part| part.kind == PartKind::Rotation) {
             let four = part.at..part.at + 4;
             let quaternion = [0, 1, 2, 3].map(|i| given[part.at + i]);

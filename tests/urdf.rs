@@ -173,6 +173,9 @@ fn errors_name_file_line_and_joint() {
             }
         }
     }
+    let many = format!("<robot>{}</robot>", "<link name=\"a\"/>\n".repeat(1001));
+    let error = read(folder.path(), many.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("arm.urdf:1001: more than 1000 links"), "{error}");
     // Deeper than any stack.
     let deep = format!("<robot>{}", "<a>".repeat(200_000));
     assert!(read(folder.path(), deep.as_bytes()).is_err());

@@ -1,7 +1,7 @@
 //! Scenes of other programs as problems, with the defaults that a problem file would have.
 
 use super::error::ProblemError;
-use super::linkage::{LINKS_MAX, fitting_names, moves};
+use super::linkage::{fitting_names, moves};
 use super::resolve::{
     default_resolution, default_rotation_length, diagonal_of, fitting_name, too_far,
 };
@@ -12,7 +12,7 @@ use crate::foreign::{
     Base, ForeignBody, ForeignJoint, ForeignJointKind, ForeignLink, ForeignScene, SceneKind,
     SceneOptions, read_ompl, read_parasol, read_urdf,
 };
-use crate::robot::{Joint, JointKind, Limits, Link, Robot};
+use crate::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, Robot};
 use crate::scene::{Body, LENGTH_MAX, Pose};
 use crate::space::Motion;
 use crate::validity::{Bounds, BoundsMeaning};

@@ -6,15 +6,11 @@ use super::file::{FrameTable, JointKindTable, LinkTable, RobotTable};
 use super::source::Source;
 use super::source::Step::{self, Index, Key};
 use crate::foreign::read_urdf;
-use crate::robot::{Joint, JointKind, Limits, Link, Robot};
+use crate::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, Robot, TURN_MAX};
 use crate::scene::{LENGTH_MAX, Pose};
 use crate::space::Motion;
 use std::path::Path;
 
-/// Walks along a robot recurse.
-pub(super) const LINKS_MAX: usize = 1000;
-/// The farthest that a joint with limits turns: ten turns.
-const RADIANS_MAX: f64 = 20.0 * std::f64::consts::PI;
 /// Name of link 0 where the file gives none.
 const BASE: &str = "base";
 const NAME_EXPECTED: &str = "a name of its own of letters, digits, `-`, `_` and `.` expected";
@@ -192,7 +188,7 @@ fn kind_of(table: &JointKindTable) -> Result<JointKind, String> {
                     return Err("degrees and radians found; one of the two expected".to_owned());
                 }
                 (None, None) => None,
-                (None, Some(radians)) => Some(limits(*radians, RADIANS_MAX)?),
+                (None, Some(radians)) => Some(limits(*radians, TURN_MAX)?),
                 (Some(degrees), None) => {
                     let Limits { min, max } = limits(*degrees, 3600.0)?;
                     let radians = |degrees: f64| degrees / 180.0 * std::f64::consts::PI;

@@ -2,6 +2,9 @@ use crate::math;
 use crate::scene::Pose;
 use bincode::{Decode, Encode};
 
+/// The farthest that a joint with limits turns, in radians: ten turns.
+pub const TURN_MAX: f64 = 20.0 * std::f64::consts::PI;
+
 /// A joint: the child link's frame in the parent's is `before · motion(value) · after`.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Joint {

@@ -7,13 +7,16 @@
 mod joint;
 mod space;
 
-pub use joint::{Joint, JointKind, Limits};
+pub use joint::{Joint, JointKind, Limits, TURN_MAX};
 pub use space::Speeds;
 
 use crate::math;
 use crate::scene::{Body, Pose};
 use crate::space::Motion;
 use bincode::{Decode, Encode};
+
+/// The most links that a robot may have: walks along it recurse.
+pub const LINKS_MAX: usize = 1000;
 
 /// A robot.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]

@@ -10,6 +10,7 @@ use crate::foreign::frames::{compose, turn};
 use crate::foreign::{
     Base, DhOrder, ForeignBody, ForeignError, ForeignJoint, ForeignJointKind, ForeignLink,
 };
+use crate::robot::{LINKS_MAX, TURN_MAX};
 use crate::scene::Pose;
 use crate::space::Motion;
 use std::collections::BTreeSet;
@@ -59,6 +60,9 @@ pub(super) fn read(words: &mut Words, reader: &mut Reader) -> Result<Robot, Fore
     let count = words.count("the number of the robot's bodies")?;
     if count == 0 {
         return Err(words.error("0 bodies found; at least one expected"));
+    }
+    if count > LINKS_MAX {
+        return Err(words.error(format!("{count} bodies found; at most {LINKS_MAX} expected")));
     }
     let mut bodies = Vec::new();
     let mut names = BTreeSet::new();
@@ -163,7 +167,7 @@ fn connection(
         let ends = ends.and_then(|(low, high)| Some([number(low)? * PI, number(high)? * PI]));
         *limit = match ends {
             // Ten turns either way, as in problem files.
-            Some([low, high]) if low <= high && low.abs().max(high.abs()) <= 20.0 * PI => {
+            Some([low, high]) if low <= high && low.abs().max(high.abs()) <= TURN_MAX => {
                 [low, high]
             }
             _ => {

@@ -7,15 +7,13 @@ use super::bodies::{Meshes, Named};
 use super::error::read_text;
 use super::frames::roll_pitch_yaw;
 use super::{ForeignError, Solidity};
-use crate::robot::{Joint, JointKind, Limits, Link};
+use crate::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, TURN_MAX};
 use crate::scene::{Body, LENGTH_MAX, MeshOptions, Pose, Shape};
 use lines::Lines;
 use std::collections::BTreeMap;
 use std::path::Path;
 use urdf_rs::{Geometry, JointType};
 
-/// The farthest that a joint with limits turns, in radians: ten turns.
-const RADIANS_MAX: f64 = 20.0 * std::f64::consts::PI;
 /// How many folders above the file's own are searched for a package.
 const LEVELS_MAX: usize = 32;
 
@@ -28,6 +26,10 @@ const LEVELS_MAX: usize = 32;
 pub fn read_urdf(path: &Path) -> Result<(Vec<Link>, Vec<String>), ForeignError> {
     let text = read_text(path)?;
     let lines = Lines::of(path, &text)?;
+    if let Some((line, _)) = lines.links.get(LINKS_MAX) {
+        let message = format!("more than {LINKS_MAX} links found");
+        return Err(ForeignError::line(path, *line, message));
+    }
     let robot = urdf_rs::read_from_string(&text)
         .map_err(|error| ForeignError::whole(path, format!("not a URDF: {error}")))?;
     let mut reader = Reader { path, lines, meshes: Meshes::exact(), notes: Vec::new() };
@@ -157,7 +159,7 @@ impl Reader<'_> {
             JointType::Fixed => JointKind::Fixed,
             JointType::Continuous => JointKind::Revolute { axis: axis()?, limits: None },
             JointType::Revolute => {
-                JointKind::Revolute { axis: axis()?, limits: Some(limits(RADIANS_MAX)?) }
+                JointKind::Revolute { axis: axis()?, limits: Some(limits(TURN_MAX)?) }
             }
             JointType::Prismatic => {
                 JointKind::Prismatic { axis: axis()?, limits: limits(LENGTH_MAX)? }
