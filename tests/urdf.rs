@@ -96,7 +96,7 @@ fn errors_name_file_line_and_joint() {
             "arm.urdf:12: joint `shoulder`: type `screw` found",
         ),
         ("<axis", "<mimic joint=\"x\"/><axis", "arm.urdf:13: joint `shoulder`: <mimic> found"),
-        ("lower=\"-1\"", "lower=\"3\"", "arm.urdf: not a URDF: joint [shoulder]"),
+        ("lower=\"-1\"", "lower=\"3\"", "arm.urdf:14: limits 3 to 2 found"),
         (" version=\"1.2\"", "", "arm.urdf: not a URDF: "),
         (
             "version=\"1.2\">\n",
@@ -125,7 +125,7 @@ fn errors_name_file_line_and_joint() {
         (
             "<parent link=\"post\"/>",
             "<parent link=\"ball\"/>",
-            "arm.urdf:12: link `upper arm` does not hang on the root `post`: a closed loop",
+            "arm.urdf:11: link `hand` does not hang on the root `post`: a closed loop",
         ),
         ("<link name=\"ball\">", "<link name=\"post\">", "arm.urdf:10: a second link `post`"),
         (
@@ -133,11 +133,11 @@ fn errors_name_file_line_and_joint() {
             "<parent link=\"hand\"/><child link=\"post\"/>",
             "arm.urdf:10: links",
         ),
-        ("length=\"1\"", "length=\"-1\"", "arm.urdf: not a URDF: "),
+        ("length=\"1\"", "length=\"-1\"", "arm.urdf:8: length = `-1` found; a positive number"),
         (
             "radius=\"0.1\" length=\"0.4\"",
             "radius=\"1e40\" length=\"0.4\"",
-            "arm.urdf:10: a capsule with 1",
+            "arm.urdf:10: radius = `1e40` found",
         ),
         (
             "corner.obj",

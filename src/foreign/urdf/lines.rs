@@ -1,6 +1,7 @@
 //! What `urdf-rs` cannot say or lets pass: lines, broken numbers, and what is not supported.
 
 use crate::foreign::ForeignError;
+use crate::scene::LENGTH_MAX;
 use roxmltree::{Document, Node};
 use std::path::Path;
 
@@ -68,23 +69,42 @@ fn check(node: Node) -> Result<(), String> {
         _ => {}
     }
     for attribute in node.attributes() {
-        let count = match (name, attribute.name()) {
-            ("origin" | "axis", "xyz") | ("origin", "rpy") => 3,
-            ("box", "size") | ("mesh", "scale") => 3,
-            ("sphere" | "cylinder" | "capsule", "radius" | "length") => 1,
-            ("limit", "lower" | "upper") => 1,
+        let (count, positive) = match (name, attribute.name()) {
+            ("origin" | "axis", "xyz") | ("origin", "rpy") | ("mesh", "scale") => (3, false),
+            ("box", "size") => (3, true),
+            ("sphere" | "cylinder" | "capsule", "radius" | "length") => (1, true),
+            ("limit", "lower" | "upper") => (1, false),
             ("origin", "quat_xyzw") => {
                 return Err("quat_xyzw found; a rotation as rpy expected".to_owned());
             }
             _ => continue,
         };
-        let words = attribute.value().split_whitespace();
-        let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
-        if !numbers.is_some_and(|all| all.len() == count && all.iter().all(|x| x.is_finite())) {
+        // Written so that NaN fails it.
+        let fits = |x: &f64| x.abs() <= LENGTH_MAX && (!positive || *x > 0.0);
+        let numbers = numbers(attribute.value());
+        if !numbers.is_some_and(|all| all.len() == count && all.iter().all(fits)) {
             let (key, value) = (attribute.name(), attribute.value());
-            let expected = if count == 1 { "a finite number" } else { "three finite numbers" };
-            return Err(format!("{key} = `{value}` found; {expected} expected"));
+            let kind = if positive { "positive" } else { "finite" };
+            let expected = if count == 1 { "a" } else { "three" };
+            let plural = if count == 1 { "" } else { "s" };
+            return Err(format!(
+                "{key} = `{value}` found; {expected} {kind} number{plural} expected"
+            ));
+        }
+    }
+    if name == "limit" {
+        let end = |key| node.attribute(key).and_then(|text| text.trim().parse::<f64>().ok());
+        if let (Some(lower), Some(upper)) = (end("lower"), end("upper"))
+            && lower > upper
+        {
+            return Err(format!(
+                "limits {lower} to {upper} found; a least and a largest value expected"
+            ));
         }
     }
     Ok(())
+}
+
+fn numbers(text: &str) -> Option<Vec<f64>> {
+    text.split_whitespace().map(|word| word.parse().ok()).collect()
 }

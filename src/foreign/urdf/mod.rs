@@ -169,7 +169,7 @@ impl Reader<'_> {
                 return Err(fail("its type is not supported".to_owned()));
             }
         };
-        let before = pose(&joint.origin).map_err(fail)?;
+        let before = pose(&joint.origin);
         Ok(Joint { name: name.clone(), parent: parent as u32, kind, before, after: Pose::IDENTITY })
     }
 
@@ -181,8 +181,7 @@ impl Reader<'_> {
         }
         for (number, collision) in link.collision.iter().enumerate() {
             let line = self.lines.links[index].1[number];
-            let fail = |message| ForeignError::line(self.path, line, message);
-            let pose = pose(&collision.origin).map_err(fail)?;
+            let pose = pose(&collision.origin);
             let shape = match &collision.geometry {
                 Geometry::Mesh { filename, scale } => {
                     let scale = scale.map_or([1.0; 3], |scale| scale.0);
@@ -199,18 +198,6 @@ impl Reader<'_> {
                     Shape::Capsule { radius: *radius, height: *length }
                 }
             };
-            let extents = match &shape {
-                Shape::Box { size } => size.to_vec(),
-                Shape::Cylinder { radius, height } | Shape::Capsule { radius, height } => {
-                    vec![*radius, *height]
-                }
-                Shape::Sphere { radius } => vec![*radius],
-                Shape::Point | Shape::Mesh(_) => Vec::new(),
-            };
-            if let Some(bad) = extents.iter().find(|x| !(**x > 0.0 && **x <= LENGTH_MAX)) {
-                let expected = "positive lengths expected";
-                return Err(fail(format!("a {} with {bad} found; {expected}", shape.name())));
-            }
             bodies.push(Body { shape, pose, solid: true });
         }
         Ok(bodies)
@@ -277,13 +264,6 @@ impl Reader<'_> {
     }
 }
 
-fn pose(origin: &urdf_rs::Pose) -> Result<Pose, String> {
-    let translation = origin.xyz.0;
-    if translation.iter().chain(&origin.rpy.0).any(|value| value.abs() > LENGTH_MAX) {
-        return Err(format!(
-            "origin {:?} {:?} found; finite lengths expected",
-            translation, origin.rpy.0
-        ));
-    }
-    Ok(Pose { translation, rotation: roll_pitch_yaw(origin.rpy.0) })
+fn pose(origin: &urdf_rs::Pose) -> Pose {
+    Pose { translation: origin.xyz.0, rotation: roll_pitch_yaw(origin.rpy.0) }
 }
