@@ -13,7 +13,7 @@ const GOLDEN: [(&str, &str); 6] = [
     ("planar", "e99f59b51e5663e7f3c2be21d92cf23056d5efd9715aebfdf5486ef168b2f4d9"),
     ("meshes", "4f45115a3f95d0d341669f610369659336aad26cbd1858cb67e790d3f10efdeb"),
     ("slide", "59298bc3e1054a2863cab638c9f60e2d99d1f6d4daddba67d1d059339a8e7e21"),
-    ("sampled", "58d756eeb36381a34a8459dba58a33c1541f9551e7a2954e2932afb6eca71523"),
+    ("sampled", "f331e07eb14dc32f4cb2fc56405afdbeee8b188f62fdb5bdb738f2af9be399cb"),
 ];
 
 fn setup(name: &str) -> Arc<Setup> {

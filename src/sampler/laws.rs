@@ -125,10 +125,10 @@ fn beside([x, y]: [f64; 2], [left, bottom, width, height]: [f64; 4]) -> (f64, us
 /// From a uniform point in a box, in a uniform direction: a walk leaves by a side with the probability of
 /// the angle under which the point sees it.
 #[test]
-fn obprm_leaves_a_box_by_the_sides_that_its_law_says_and_stays_within_the_tolerance() {
+fn obprm_leaves_a_box_by_the_sides_that_its_law_says_and_stays_near() {
     let obstacle = [3.0, 4.0, 2.0, 1.0];
     let cx = plane(8.0, 9.0, &[obstacle]);
-    let text = "obprm = { start = \"colliding\", step = 0.3, tolerance = 0.01 }";
+    let text = "obprm = { start = \"colliding\", step = 0.32, halvings = 5 }";
     let mut counts = [0; 4];
     for point in points(&cx, text, 4000) {
         let (distance, side) = beside(point, obstacle);
@@ -157,14 +157,14 @@ fn obprm_leaves_a_box_by_the_sides_that_its_law_says_and_stays_within_the_tolera
 /// A ball among free space, seen from all sides: by symmetry the milestones of both directions are uniform
 /// on its surface, so each coordinate is (Archimedes).
 #[test]
-fn obprm_milestones_lie_on_a_ball_within_the_tolerance() {
+fn obprm_milestones_lie_on_a_ball() {
     let cx = context(
         "[space]\nmotion = \"translation-3d\"\nmin = [-2, -2, -2]\nmax = [2, 2, 2]\n\
          bounds = \"reference\"\n[robot]\nbodies = [{ shape = { point = {} } }]\n\
          [[obstacles]]\nshape = { sphere = { radius = 1.0 } }\n",
     );
     for (start, uniform) in [("colliding", true), ("free", false), ("either", false)] {
-        let text = format!("obprm = {{ start = \"{start}\", step = 0.1, tolerance = 0.004 }}");
+        let text = format!("obprm = {{ start = \"{start}\", step = 0.128, halvings = 5 }}");
         let configs = sets(&cx, &sampler(&text), 0..1, 2000, &mut Scratch::new());
         let mut octants = [0; 8];
         for q in configs.iter() {
@@ -184,7 +184,7 @@ fn obprm_milestones_lie_on_a_ball_within_the_tolerance() {
 #[test]
 fn obprm_milestones_lie_at_bounds_that_count_as_obstacles() {
     let cx = plane(4.0, 4.0, &[]);
-    let text = "obprm = { step = 0.1, tolerance = 0.001, bounds = true }";
+    let text = "obprm = { step = 0.128, halvings = 7, bounds = true }";
     let mut sides = [0; 4];
     for [x, y] in points(&cx, text, 1000) {
         let gaps = [x, 4.0 - x, y, 4.0 - y];

@@ -15,11 +15,12 @@ use serde::{Deserialize, Serialize};
 /// a random direction until the sample becomes collision-free (resp., in collision)"*).
 ///
 /// Draws a configuration and a direction uniformly and walks along it in steps until what collided is free,
-/// or what was free collides; then halves the last step until its two ends, one free and one colliding, are
-/// within the tolerance of each other in the space's metric. The free end is kept. A walk that gets out of
-/// bounds is dropped, unless `bounds` says that this is to collide.
+/// or what was free collides; then halves the last step, always to the part with one free and one colliding
+/// end. The free end is kept: it is within step / 2^halvings of the other in the space's metric. A walk that
+/// gets out of bounds is dropped, unless `bounds` says that this is to collide.
 ///
-/// The paper draws its colliding configurations obstacle by obstacle; here they are uniform among all.
+/// The paper draws its colliding configurations obstacle by obstacle; here they are uniform among all. The
+/// closer milestones come to the surface, the fewer motions between them are free.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct Obprm {
@@ -28,9 +29,9 @@ pub struct Obprm {
     pub start: Start,
     /// Length of a step in the space's metric. A surface thinner than that may be walked through.
     pub step: f64,
-    /// How far, in the metric, a milestone may be from a colliding configuration; a 64th of the step
-    /// unless given.
-    pub tolerance: Option<f64>,
+    /// How often the last step is halved.
+    #[serde(default = "default_halvings")]
+    pub halvings: u32,
     /// The most steps of one walk.
     #[serde(default = "default_steps")]
     pub steps: u32,
@@ -59,14 +60,13 @@ fn default_steps() -> u32 {
     1000
 }
 
-/// The least tolerance, in steps; bounds the halvings.
-const FINEST: f64 = 1e-9;
+fn default_halvings() -> u32 {
+    2
+}
+
+const HALVINGS_MAX: u32 = 30;
 
 impl Obprm {
-    fn tolerance(&self) -> f64 {
-        self.tolerance.unwrap_or(self.step / 64.0)
-    }
-
     /// Draws a walk's `start` and walks; whether `q` has become a milestone.
     fn walk(
         &self,
@@ -97,7 +97,7 @@ impl Obprm {
                 (Some(_), _) => {}
             }
             let (mut free, mut hit) = if inside { (here, last) } else { (last, here) };
-            while (free - hit).abs() > self.tolerance() {
+            for _ in 0..self.halvings {
                 let middle = (free + hit) / 2.0;
                 match at(middle).0 {
                     None => return false,
@@ -130,13 +130,8 @@ impl Sampler for Obprm {
         if let Some(complaint) = no_length("step", self.step) {
             return Some(complaint);
         }
-        let tolerance = self.tolerance();
-        if !(FINEST * self.step..=self.step).contains(&tolerance) {
-            return Some((
-                "tolerance",
-                tolerance.to_string(),
-                "a billionth of the step up to the step",
-            ));
+        if self.halvings > HALVINGS_MAX {
+            return Some(("halvings", self.halvings.to_string(), "0 to 30"));
         }
         if self.steps == 0 {
             return Some(("steps", "0".to_owned(), "at least 1"));

@@ -7,10 +7,11 @@
 //! So a set depends on nothing but its ordinal, and no two own the same point; and yet s sets hold together
 //! of the first sequence, and of every other that all of them used up, the valid ones among its first
 //! s · block points *without a gap*: what is even about the sequence is even about the union of the sets,
-//! however much of the space is blocked. Only the last sequence that a set begins it uses in part. With one
-//! sequence and blocks long enough for the worst set, most of each block would be passed over, and what
-//! remained would be no sequence any more; with a shift of its own for every set, only the sets would be
-//! even, and their union no more so than random points.
+//! however much of the space is blocked. Only the last sequence that a set begins it uses in part.
+//!
+//! One sequence in blocks long enough for the worst set would have gaps after every set; one block that all
+//! sets share, shifted at random for each, would make each set even. Both leave the union less so: of 24 sets
+//! of 20 in the square they had 3.6 to 5.4 times the discrepancy of this.
 
 use super::{GaveUp, collect};
 use crate::context::Context;
