@@ -4,7 +4,8 @@
 use super::tests::{context, sampler, sets};
 use super::*;
 use crate::math;
-use crate::seed::Seed;
+use crate::seed::{Purpose, Seed};
+use crate::space::{Motion, rigid_space};
 use std::f64::consts::PI;
 
 /// A point in the plane, in a box from the origin, among boxes given as x, y, width, height.
@@ -86,6 +87,22 @@ fn integrated(most: f64, density: impl Fn(f64) -> f64) -> impl Fn(f64) -> f64 {
         let below = (place as usize).min(steps - 1);
         (sums[below] + (sums[below + 1] - sums[below]) * (place - below as f64)) / sums[steps]
     }
+}
+
+/// Of a uniform point of the unit sphere every coordinate is uniform (Archimedes); here x, y and the turn,
+/// in the metric.
+#[test]
+fn directions_are_uniform_in_the_metric() {
+    let space = rigid_space(Motion::Rigid2d, [0.0; 3], [1.0; 3], 0.4);
+    let mut stream = Seed::of_set(3, "directions", 0).stream(Purpose::Sampling);
+    let mut coordinates = [(); 3].map(|()| Vec::new());
+    for _ in 0..4000 {
+        let mut q = [0.0; 3];
+        space.step(&[0.0; 3], 1.0, &mut stream, &mut q);
+        let shares = [q[0], q[1], 0.4 * q[2]];
+        coordinates.iter_mut().zip(shares).for_each(|(sample, share)| sample.push(share));
+    }
+    coordinates.into_iter().for_each(|sample| follows(sample, |share| (share + 1.0) / 2.0));
 }
 
 /// A half space is free, the rest an obstacle: what the Gaussian sampler does near a wide flat wall
