@@ -16,13 +16,13 @@ mod uobprm;
 methods! {
     /// The samplers, as a problem file names them; each variant holds its settings.
     pub enum SamplerKind: dyn Sampler {
-        Bridge(bridge::Bridge),
         Gaussian(gaussian::Gaussian),
+        Uniform(uniform::Uniform), // 2: the method, at the end, since ledgers know methods by number
+        Bridge(bridge::Bridge),
         Grid(grid::Grid),
         Halton(halton::Halton),
         Mix(mix::Mix),
         Obprm(obprm::Obprm),
-        Uniform(uniform::Uniform), // 2: the method
         Uobprm(uobprm::Uobprm),
     }
 }
