@@ -8,7 +8,8 @@ use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
 /// Several samplers in one set: each milestone is drawn by one of them, chosen with a probability
-/// proportional to its weight (the hybrid of D. Hsu, T. Jiang, J. Reif, Z. Sun 2003, §V, for any samplers).
+/// proportional to its weight (as D. Hsu, T. Jiang, J. Reif, Z. Sun 2003 mix the bridge test with uniform
+/// sampling).
 ///
 /// First all choices are drawn, from a stream of their own; then every sampler draws as many milestones as
 /// were left to it, one sampler after the other, with a seed of its own that follows from the set's. A mix

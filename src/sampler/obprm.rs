@@ -10,7 +10,7 @@ use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
 /// Obstacle-based sampling: milestones at the surfaces of C-obstacles (N. M. Amato, O. B. Bayazit,
-/// L. K. Dale, C. Jones, D. Vallejo, *OBPRM: An obstacle-based PRM for 3D workspaces*, 1998, §3;
+/// L. K. Dale, C. Jones, D. Vallejo, *OBPRM: An obstacle-based PRM for 3D workspaces*, 1998;
 /// TR05-007 §4.1: *"first generating a random colliding (resp., collision-free) sample and searching along
 /// a random direction until the sample becomes collision-free (resp., in collision)"*).
 ///

@@ -11,7 +11,8 @@
 //!
 //! One sequence in blocks long enough for the worst set would have gaps after every set; one block that all
 //! sets share, shifted at random for each, would make each set even. Both leave the union less so: of 24 sets
-//! of 20 in the square they had 3.6 to 5.4 times the discrepancy of this.
+//! of 20 in the square they had 3.6 to 5.4 times the discrepancy of this, and 1.3 to 2 times where 70 % of it
+//! was blocked.
 
 use super::{GaveUp, collect};
 use crate::context::Context;

@@ -11,13 +11,14 @@ use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// Uniform obstacle-based sampling: milestones spread evenly over the surfaces of C-obstacles (H.-Y. Yeh,
-/// S. Thomas, D. Eppstein, N. M. Amato, *UOBPRM: A uniformly distributed obstacle-based PRM*, 2012, §III).
+/// S. Thomas, D. Eppstein, N. M. Amato, *UOBPRM: A uniformly distributed obstacle-based PRM*, 2012;
+/// H.-Y. Yeh's dissertation, 2016, §4.1).
 ///
 /// Lays segments of one length anywhere and in any direction, both uniform, and looks at the configurations
 /// on them at every step. Where of two neighbours one is free and one collides, the free one is kept, so it
 /// is within a step of the surface, and a segment may give several milestones. A configuration out of
 /// bounds counts as colliding only if `bounds` says so; else it is neither. Segments start within the
-/// bounds widened by their length (§III-A), or else surfaces near the bounds would be hit less.
+/// bounds widened by their length (§4.1.1), or else surfaces near the bounds would be hit less.
 ///
 /// What a step leaps over is not noticed: corners and slivers of obstacles thinner than a step are hit less.
 /// A surplus of the last segment of a set is dropped.
