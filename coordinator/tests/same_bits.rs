@@ -213,6 +213,11 @@ fn same_bits_for_rotate_at_gaussian_and_every_evaluator() {
 }
 
 #[test]
+fn same_bits_for_every_sampler() {
+    processes_build_what_threads_build("sampled");
+}
+
+#[test]
 fn same_bits_for_a_turning_body_and_a_mesh() {
     same_bits_however_built(&RIGID_3D);
 }
