@@ -18,6 +18,7 @@ fn main() -> ExitCode {
         cli::Command::Build(arguments) => commands::build(&arguments),
         cli::Command::Query(arguments) => commands::query(&arguments),
         cli::Command::Check(arguments) => commands::check(&arguments),
+        cli::Command::Import(arguments) => commands::import(&arguments),
         cli::Command::Export(arguments) => commands::export(&arguments),
         cli::Command::Worker(arguments) => commands::worker(&arguments),
     };

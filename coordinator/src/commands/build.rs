@@ -1,3 +1,4 @@
+use super::load::load;
 use super::write_whole;
 use crate::cli::BuildArguments;
 use crate::cpu::CpuClock;
@@ -11,7 +12,7 @@ use roadmill::export::path_csv;
 use roadmill::img::{
     Core, Cut, Executor, Judgement, Observer, Progress, Round, Setup, Stop, Threads, drive,
 };
-use roadmill::problem::{Companions, Problem};
+use roadmill::problem::Problem;
 use roadmill::roadmap::Roadmap;
 use roadmill_workers::channel::private_umask;
 use std::io::Write;
@@ -140,9 +141,7 @@ fn end(
 
 /// The problem with what the command line changes of it.
 fn problem(arguments: &BuildArguments) -> Result<Problem, Failure> {
-    let companions =
-        Companions { robot: arguments.robot.as_deref(), query: arguments.query.as_deref() };
-    let mut problem = Problem::load_with(&arguments.problem, companions).map_err(Failure::usage)?;
+    let mut problem = load(&arguments.problem)?;
     problem.seed = arguments.seed.unwrap_or(problem.seed);
     let limits = &mut problem.limits;
     limits.nodes = arguments.max_nodes.unwrap_or(limits.nodes);

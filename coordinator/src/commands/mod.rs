@@ -4,12 +4,15 @@ mod batch;
 mod build;
 mod check;
 mod export;
+mod import;
+mod load;
 mod query;
 mod worker;
 
 pub use build::build;
 pub use check::check;
 pub use export::export;
+pub use import::import;
 pub use query::query;
 pub use worker::worker;
 
