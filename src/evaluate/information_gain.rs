@@ -12,14 +12,14 @@ use std::collections::BTreeMap;
 /// roadmap is sufficient if the information gain from the previous set of samples is below a
 /// threshold."*
 ///
-/// A new node tells something new in two ways: it lies where the roadmap did not reach, or it unites parts of
-/// the roadmap that were apart (M. Morales, R. Pearce, N. M. Amato, *Analysis of the evolution of
-/// C-space models built through incremental exploration*, 2007, call these *cc-create* and
-/// *cc-merge*). So two shares are measured, without asking for the validity of anything: of the
-/// nodes of the last rounds those in components without any earlier node, *unreached*; and of the
-/// pairs of earlier nodes that were not connected before those that now are, counted against all pairs of earlier nodes,
-/// *united*. The value is the larger one. Nodes that widen a component from its edge count as nothing
-/// new: telling them would take more validity checks.
+/// A new node tells something new in two ways: it lies where the roadmap did not reach, or it unites
+/// parts of the roadmap that were apart (M. Morales, R. Pearce, N. M. Amato, *Analysis of the
+/// evolution of C-space models built through incremental exploration*, 2007, call these *cc-create*
+/// and *cc-merge*). So two shares are measured, from the roadmap's own history: of the nodes of the
+/// last rounds those that are in a component without earlier nodes, *unreached*; and of all pairs of
+/// earlier nodes those that the last rounds connected, *united*. The value is the larger one. That
+/// a new node widens a component counts as nothing new: to tell which one does would take validity
+/// checks of its own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct InformationGain {

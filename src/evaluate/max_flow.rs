@@ -60,10 +60,6 @@ impl Evaluator for MaxFlow {
         "max-flow"
     }
 
-    fn measures(&self) -> &'static [&'static str] {
-        &["cut edges"]
-    }
-
     fn evaluate(
         &self,
         cx: &Context,
@@ -113,11 +109,8 @@ impl Evaluator for MaxFlow {
                 capacity: real(whole(edge.weight)),
             }));
         }
-        Verdict {
-            measures: vec![cut.len() as f64],
-            cut: Some(cut),
-            ..Verdict::at_least(self.flow, real(flow), scratch.take_asked())
-        }
+        let asked = scratch.take_asked();
+        Verdict { cut: Some(cut), ..Verdict::at_least(self.flow, real(flow), asked) }
     }
 
     fn needs_query(&self) -> bool {

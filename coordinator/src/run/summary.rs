@@ -104,6 +104,9 @@ impl fmt::Display for EvaluatorValue {
         for (name, value) in &self.measures {
             write!(f, ", {name} {value:.3}")?;
         }
+        if let Some(cut) = &self.cut {
+            write!(f, ", a least cut severs {} edges", cut.len())?;
+        }
         if let Some(length) = self.path_length {
             write!(f, ", path of length {length:.3}")?;
         }
