@@ -98,3 +98,6 @@ pub struct JoinInput {
 fn default_planners() -> Vec<Planner> {
     vec![Planner::StraightLine]
 }
+
+#[cfg(test)]
+mod tests;
