@@ -15,7 +15,7 @@ mod simulated;
 mod threads;
 
 pub use self::core::{
-    Command, Core, Cut, Event, Judgement, LOSSES_MAX, Progress, Round, RoundSet, Stop,
+    Command, Core, Cut, Event, Judgement, LOSSES_MAX, Past, Progress, Round, RoundSet, Stop,
 };
 pub use drive::{Executor, Observer, TICK, drive};
 pub use job::{Finished, Job, Joined, Outcome, Task};
