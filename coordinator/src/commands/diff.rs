@@ -23,7 +23,10 @@ pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
             (None, None) => break,
             (Some((round, a)), Some((_, b))) => {
                 let name = |set: &RoundSet, of: &Read| {
-                    format!("{}:{}", of.problem.strategies[set.strategy as usize].label, set.ordinal)
+                    format!(
+                        "{}:{}",
+                        of.problem.strategies[set.strategy as usize].label, set.ordinal
+                    )
                 };
                 let (a_name, b_name) = (name(&a, &left), name(&b, &right));
                 let found = if a_name == b_name {
@@ -42,7 +45,8 @@ pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
                 sets += 1;
             }
             (one, _) => {
-                let (longer, shorter) = if one.is_some() { (&left, &right) } else { (&right, &left) };
+                let (longer, shorter) =
+                    if one.is_some() { (&left, &right) } else { (&right, &left) };
                 return differs(format!(
                     "the same {sets} sets, then {} ends and {} goes on",
                     shorter.scan.folder().display(),
@@ -54,7 +58,9 @@ pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
     for (round, verdicts) in &ours.verdicts {
         let other = theirs.verdicts.get(round);
         if let Some(found) = other.and_then(|other| difference::of_verdicts(verdicts, other)) {
-            return differs(format!("the same {sets} sets, but judged otherwise in round {round}: {found}"));
+            return differs(format!(
+                "the same {sets} sets, but judged otherwise in round {round}: {found}"
+            ));
         }
     }
     println!("the same {sets} sets and judgements");
@@ -67,7 +73,8 @@ fn reasons(left: &[Chapter], right: &[Chapter]) -> Vec<String> {
     for (number, (a, b)) in left.iter().zip(right).enumerate() {
         let mut note = |what: &str, a: String, b: String| {
             if a != b {
-                let chapter = if number > 0 { format!("chapter {number}: ") } else { String::new() };
+                let chapter =
+                    if number > 0 { format!("chapter {number}: ") } else { String::new() };
                 reasons.push(format!("{chapter}{what}: {a} and {b}"));
             }
         };

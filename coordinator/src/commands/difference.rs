@@ -34,7 +34,8 @@ pub fn of_verdicts(left: &[Verdict], right: &[Verdict]) -> Option<String> {
     if left.len() != right.len() {
         return Some(format!("{} and {} verdicts", left.len(), right.len()));
     }
-    let differs = |(_, (a, b)): &(usize, (&Verdict, &Verdict))| wire::encode(*a) != wire::encode(*b);
+    let differs =
+        |(_, (a, b)): &(usize, (&Verdict, &Verdict))| wire::encode(*a) != wire::encode(*b);
     let (index, (a, b)) = left.iter().zip(right).enumerate().find(differs)?;
     let values = format!("values {:?} and {:?}", a.value, b.value);
     let what = if a.value.to_bits() == b.value.to_bits() { ", in its details" } else { "" };

@@ -120,7 +120,8 @@ pub(super) fn go_on(
     let present = scan.problem()?;
     if present.digest() != scan.chapter().problem_digest && bits == BITS_VERSION {
         let chapter = scan.chapters.len() - 1;
-        let message = format!("{}: chapter {chapter}: its problem has another digest", run.display());
+        let message =
+            format!("{}: chapter {chapter}: its problem has another digest", run.display());
         return Err(Failure::new(Code::BrokenRun, message));
     }
     let problem = change.apply(&scan, &present, arguments).map_err(refuse)?;
@@ -139,7 +140,10 @@ pub(super) fn go_on(
         let nodes = scan.last_round.as_ref().map_or(0, |end| end.nodes);
         let chapter = if is_chapter { ", in a new chapter" } else { "" };
         let rounds = scan.rounds();
-        eprintln!("{name}: goes on after {rounds} rounds and {nodes} nodes{chapter}, run folder {}", run.display());
+        eprintln!(
+            "{name}: goes on after {rounds} rounds and {nodes} nodes{chapter}, run folder {}",
+            run.display()
+        );
         if let Some(path) = torn {
             let (bytes, path) = (scan.torn_bytes, path.display());
             eprintln!("{name}: {bytes} bytes of an unfinished round were moved to {path}");

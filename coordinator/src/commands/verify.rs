@@ -7,7 +7,9 @@ use crate::run::ledger::{Chapter, Judged, job_name};
 use crate::run::{Replay, Scan, Told};
 use crate::signals::Signals;
 use roadmill::BITS_VERSION;
-use roadmill::img::{Event, Executor, Finished, Job, LOSSES_MAX, Outcome, RoundSet, Setup, TICK, Threads};
+use roadmill::img::{
+    Event, Executor, Finished, Job, LOSSES_MAX, Outcome, RoundSet, Setup, TICK, Threads,
+};
 use roadmill::problem::Problem;
 use roadmill::roadmap::Digest;
 use roadmill::validity::Scratch;
@@ -71,11 +73,7 @@ enum Choice {
 }
 
 impl Choice {
-    fn new(
-        arguments: &VerifyArguments,
-        scan: &Scan,
-        problem: &Problem,
-    ) -> Result<Choice, Failure> {
+    fn new(arguments: &VerifyArguments, scan: &Scan, problem: &Problem) -> Result<Choice, Failure> {
         if arguments.all {
             return Ok(Choice::All);
         }
@@ -208,7 +206,8 @@ impl Check<'_> {
         let place = set.place;
         let increment = Outcome::Increment(Ok((*set.increment).clone()));
         let joined = Outcome::Joined(set.joined.clone());
-        for (job, outcome) in [(Job::Generate { place }, increment), (Job::Join { place }, joined)] {
+        for (job, outcome) in [(Job::Generate { place }, increment), (Job::Join { place }, joined)]
+        {
             self.at_work.insert(job, (outcome, 0));
             executor.submit(job);
         }

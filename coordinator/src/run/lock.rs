@@ -124,8 +124,9 @@ impl RunLock {
             since: SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_secs(),
             beat: 0,
         };
-        let mut lock = RunLock { path, file, holder, last_beat: Instant::now() };
-        lock.write().map_err(|error| Failure::system(format!("{}: {error}", lock.path.display())))?;
+        let lock = RunLock { path, file, holder, last_beat: Instant::now() };
+        lock.write()
+            .map_err(|error| Failure::system(format!("{}: {error}", lock.path.display())))?;
         if watched {
             // Another may have watched as long; the last to write has it.
             sleep(Duration::from_secs(2));

@@ -104,9 +104,13 @@ impl fmt::Display for EvaluatorValue {
 /// CPU and wall seconds of a build.
 #[derive(Debug, Clone, Copy)]
 pub struct Times {
+    /// CPU seconds of all processes.
     pub cpu_seconds: f64,
+    /// Those of the coordinator alone.
     pub coordinator_cpu_seconds: f64,
+    /// Seconds from start to end.
     pub wall_seconds: f64,
+    /// Of these, those that went into the ledger.
     pub ledger_seconds: f64,
 }
 

@@ -32,8 +32,7 @@ impl LedgerReader {
         let path = folder.join(LEDGER);
         // Before the ledger, which may be growing.
         let durable = durable::read(folder);
-        let no_run =
-            |error| Failure::usage(format!("{}: no run here: {error}", path.display()));
+        let no_run = |error| Failure::usage(format!("{}: no run here: {error}", path.display()));
         let file = File::open(&path).map_err(no_run)?;
         let length = file.metadata().map_err(no_run)?.len();
         let mut source = BufReader::with_capacity(BUFFER_BYTES, file);

@@ -43,11 +43,7 @@ impl LedgerWriter {
     ///
     /// # Errors
     /// Exit code 1: the file cannot be written.
-    pub fn begin(
-        folder: &Path,
-        problem: &Problem,
-        lock: RunLock,
-    ) -> Result<LedgerWriter, Failure> {
+    pub fn begin(folder: &Path, problem: &Problem, lock: RunLock) -> Result<LedgerWriter, Failure> {
         let begun = folder.join(BEGUN);
         let begin = || -> io::Result<LedgerWriter> {
             let file = File::options().write(true).create(true).truncate(true).open(&begun)?;
