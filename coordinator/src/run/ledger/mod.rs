@@ -10,7 +10,7 @@ mod scan;
 mod stopped;
 mod writer;
 
-pub use durable::DURABLE;
+pub use durable::{DURABLE, DurableFile};
 pub use frame::Mark;
 pub use reader::LedgerReader;
 pub use record::{Chapter, Judged, Record, RoundEnd, Set};
