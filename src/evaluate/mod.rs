@@ -36,7 +36,8 @@ use crate::methods::{Complaint, methods};
 use crate::query::{Answer, Attachment};
 use crate::roadmap::Roadmap;
 use crate::validity::{Asked, Scratch};
-use bincode::{Decode, Encode};
+use crate::wire::decode_nested;
+use bincode::Encode;
 
 /// A criterion on roadmaps.
 pub trait Evaluator {
@@ -81,7 +82,7 @@ pub trait Evaluator {
 }
 
 /// What an evaluator says of a roadmap.
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq, Encode)]
 pub struct Verdict {
     /// Whether the criterion is met.
     pub satisfied: bool,
@@ -96,6 +97,8 @@ pub struct Verdict {
     /// What the evaluation cost.
     pub asked: Asked,
 }
+
+decode_nested!(Verdict { satisfied, value, threshold, answer, parts, asked });
 
 impl Verdict {
     /// The answer to the problem's query, wherever in the tree it was asked.
