@@ -10,23 +10,23 @@
 //! Two measures per scene, five rounds in turn, medians of CPU time. *Edges*: pairs of 10 nearest among
 //! 2000 valid uniform configurations, decided by each side in the same number of steps; where verdicts
 //! differ, the count says so. *Nodes*: one set of 5000 nodes with 10 neighbours, against
-//! `PRM::growRoadmap`. OMPL and FCL know no solids and no bounds of bodies: scenes with
-//! `bounds = "reference"` compare best.
+//! `PRM::growRoadmap`. OMPL and FCL know no solids and no bounds of bodies, so both sides race with
+//! surfaces and with bounds that hold the reference point.
+
+mod support;
 
 use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
 use roadmill::neighbor::k_nearest;
-use roadmill::problem::Problem;
 use roadmill::roadmap::Configs;
 use roadmill::sampler::{Sampler, Uniform};
-use roadmill::scene::{Body, Shape};
 use roadmill::seed::Seed;
 use roadmill::validity::Scratch;
-use rustix::time::{ClockId, clock_gettime};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
-use std::process::Command;
+use support::peer::{run, scene_text, surfaces};
+use support::{cpu_seconds, median};
 
 const ROUNDS: usize = 5;
 const CONFIGS: usize = 2000;
@@ -50,7 +50,7 @@ fn main() {
 }
 
 fn race(path: &Path, peer: &str) {
-    let problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
+    let problem = surfaces(path);
     let cx = problem.context();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = |name: &str| folder.path().join(name).display().to_string();
@@ -69,7 +69,7 @@ fn race(path: &Path, peer: &str) {
             .map(|(a, b)| cx.validity.motion(configs.get(*a), configs.get(*b), 1, scratch))
             .collect();
         ours.push(cpu_seconds() - begun);
-        theirs.push(run(peer, &["edges", &file("scene"), &file("pairs"), &file("verdicts")]));
+        theirs.push(run(peer, &["edges", &file("scene"), &file("pairs"), &file("verdicts")])[0]);
         let text = std::fs::read_to_string(file("verdicts")).expect("verdicts");
         peer_verdicts = text.lines().map(|line| line == "1").collect();
 
@@ -80,7 +80,7 @@ fn race(path: &Path, peer: &str) {
         assert!(!within.connect(&cx, &seed, &set, &mut Scratch::new()).is_empty());
         our_nodes.push(cpu_seconds() - begun);
         let (nodes, k, seed) = (NODES.to_string(), NEIGHBORS.to_string(), (round + 1).to_string());
-        their_nodes.push(run(peer, &["grow", &file("scene"), &nodes, &k, &seed]));
+        their_nodes.push(run(peer, &["grow", &file("scene"), &nodes, &k, &seed])[0]);
     }
     let rate = |count: usize, seconds: &mut Vec<f64>| count as f64 / median(seconds);
     let differ =
@@ -130,49 +130,4 @@ fn pairs_text(cx: &Context, configs: &Configs, pairs: &[(usize, usize)]) -> Stri
         writeln!(text, "{}", cx.validity.steps(a, b, 1)).expect("memory");
     }
     text
-}
-
-fn scene_text(problem: &Problem) -> String {
-    let mut text = String::new();
-    for value in problem.bounds.min.iter().chain(&problem.bounds.max) {
-        write!(text, "{value} ").expect("memory");
-    }
-    writeln!(text, "{} {}", problem.resolution, problem.robot.reach()).expect("memory");
-    let robot: Vec<Body> = problem.robot.bodies().cloned().collect();
-    for bodies in [&problem.obstacles, &robot] {
-        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
-        for body in bodies {
-            let Shape::Mesh(mesh) = &body.shape else { panic!("a scene of meshes expected") };
-            let first = vertices.len();
-            vertices.extend(mesh.vertices.iter().map(|vertex| body.pose.apply(*vertex)));
-            let shifted = |corners: &[u32; 3]| corners.map(|corner| corner as usize + first);
-            triangles.extend(mesh.triangles.iter().map(shifted));
-        }
-        writeln!(text, "{} {}", vertices.len(), triangles.len()).expect("memory");
-        for [x, y, z] in vertices {
-            writeln!(text, "{x} {y} {z}").expect("memory");
-        }
-        for [a, b, c] in triangles {
-            writeln!(text, "{a} {b} {c}").expect("memory");
-        }
-    }
-    text
-}
-
-/// Runs the peer; the CPU seconds that it prints first.
-fn run(peer: &str, words: &[&str]) -> f64 {
-    let output = Command::new(peer).args(words).output().expect("the peer starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8_lossy(&output.stdout);
-    text.split_whitespace().next().and_then(|word| word.parse().ok()).expect("seconds")
-}
-
-fn cpu_seconds() -> f64 {
-    let time = clock_gettime(ClockId::ThreadCPUTime);
-    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
-}
-
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

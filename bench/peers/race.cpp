@@ -3,8 +3,10 @@
 //   race edges SCENE PAIRS VERDICTS   decides the pairs with FCL, in as many steps as the file says;
 //                                     writes a verdict (1 free, 0 blocked) a line
 //   race grow SCENE NODES K SEED      OMPL's PRM::growRoadmap to NODES nodes with K neighbours
+//   race solve SCENE QUERY SEED LIMIT OMPL's PRM::solve from the first to the second configuration of the
+//                                     file, within LIMIT CPU seconds
 //
-// Each prints the CPU seconds of its one thread, and what it counted. Configurations are
+// Each prints the CPU seconds that it took, and what it counted. Configurations are
 // x y z qw qx qy qz. A motion is checked at the interior points of `steps` equal steps, like ours: in
 // steps that carry no robot point farther than the scene's resolution.
 //
@@ -209,8 +211,39 @@ static int race_grow(const Scene& scene, const std::shared_ptr<SE3>& space, unsi
   return 0;
 }
 
+/// PRM::solve works in two threads, so its cost is the process's.
+static double process_seconds() {
+  timespec time;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return time.tv_sec + 1e-9 * time.tv_nsec;
+}
+
+static int race_solve(const Scene& scene, const std::shared_ptr<SE3>& space, const char* query, double limit) {
+  auto si = std::make_shared<ob::SpaceInformation>(space);
+  si->setStateValidityChecker(std::make_shared<Checker>(si, scene));
+  si->setMotionValidator(std::make_shared<Validator>(si, scene));
+  si->setup();
+  ob::ScopedState<SE3> start(space), goal(space);
+  std::ifstream in(query);
+  double q[14];
+  for (double& value : q) in >> value;
+  if (!in) fail("two configurations expected");
+  set(start.get(), q);
+  set(goal.get(), q + 7);
+  auto problem = std::make_shared<ob::ProblemDefinition>(si);
+  problem->setStartAndGoalStates(start, goal);
+  ompl::geometric::PRM prm(si);
+  prm.setProblemDefinition(problem);
+  prm.setup();
+  const double begun = process_seconds();
+  const auto status = prm.solve(ob::PlannerTerminationCondition([&] { return process_seconds() - begun >= limit; }));
+  const double seconds = process_seconds() - begun;
+  std::printf("%.6f %lu %d\n", seconds, prm.milestoneCount(), status == ob::PlannerStatus::EXACT_SOLUTION);
+  return 0;
+}
+
 int main(int count, char** words) {
-  if (count < 5) fail("edges SCENE PAIRS VERDICTS or grow SCENE NODES K SEED expected");
+  if (count < 5) fail("edges SCENE PAIRS VERDICTS, grow SCENE NODES K SEED or solve SCENE QUERY SEED LIMIT expected");
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   const std::string mode = words[1];
   const Scene scene = read_scene(words[2]);
@@ -227,5 +260,9 @@ int main(int count, char** words) {
     ompl::RNG::setSeed(std::strtoul(words[5], nullptr, 10));
     return race_grow(scene, space, std::atoi(words[3]), std::atoi(words[4]));
   }
-  fail("edges or grow expected");
+  if (mode == "solve" && count == 6) {
+    ompl::RNG::setSeed(std::strtoul(words[4], nullptr, 10));
+    return race_solve(scene, space, words[3], std::strtod(words[5], nullptr));
+  }
+  fail("edges, grow or solve expected");
 }

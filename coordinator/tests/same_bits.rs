@@ -186,6 +186,37 @@ fn same_bits_however_built(case: &Case) {
     }
 }
 
+/// Worker processes on a problem of the library's own suite, whose digest is golden there.
+fn processes_build_what_threads_build(name: &str) {
+    let scratch = Scratch::new();
+    let problems = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/problems");
+    let problem = format!("{problems}/{name}.toml");
+    let build = |run: &str, option: &str, count: &str| {
+        // Their limits end them before their criteria are met.
+        let digest = scratch.build(run, &[&problem, option, count], 3);
+        (digest, scratch.ledger(run))
+    };
+    let expected = build("threads", "--threads", "1");
+    for workers in ["1", "2", "5"] {
+        assert!(build(workers, "--workers", workers) == expected, "{name}: {workers} workers");
+    }
+}
+
+#[test]
+fn same_bits_for_a_linkage() {
+    processes_build_what_threads_build("arm");
+}
+
+#[test]
+fn same_bits_for_rotate_at_gaussian_and_every_evaluator() {
+    processes_build_what_threads_build("judged");
+}
+
+#[test]
+fn same_bits_for_every_sampler() {
+    processes_build_what_threads_build("sampled");
+}
+
 #[test]
 fn same_bits_for_a_turning_body_and_a_mesh() {
     same_bits_however_built(&RIGID_3D);

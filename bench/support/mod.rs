@@ -1,0 +1,96 @@
+//! What the benches share.
+#![allow(dead_code, reason = "each bench uses its part")]
+
+pub mod peer;
+
+use roadmill::img::{Core, Cut, Judgement, Observer, Progress, Round, Serial, Setup, Stop, drive};
+use roadmill::roadmap::Roadmap;
+use roadmill::validity::Asked;
+use rustix::time::{ClockId, clock_gettime};
+use std::convert::Infallible;
+use std::sync::Arc;
+
+/// CPU seconds of this thread.
+pub fn cpu_seconds() -> f64 {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
+}
+
+/// Sorts the values; the middle one.
+pub fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// What a bench over scenes is asked for.
+pub struct Arguments {
+    pub seeds: u64,
+    pub seconds: f64,
+    pub scenes: Vec<String>,
+}
+
+/// Reads `[--seeds N] [--seconds S] SCENE …`.
+pub fn arguments(seeds: f64, seconds: f64) -> Arguments {
+    let mut arguments = Arguments { seeds: seeds as u64, seconds, scenes: Vec::new() };
+    let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
+    while let Some(word) = words.next() {
+        let mut number = || words.next().and_then(|word| word.parse::<f64>().ok());
+        match word.as_str() {
+            "--seeds" => arguments.seeds = number().expect("a number after --seeds") as u64,
+            "--seconds" => arguments.seconds = number().expect("a number after --seconds"),
+            _ => arguments.scenes.push(word),
+        }
+    }
+    arguments
+}
+
+/// What a build came to.
+pub struct Solved {
+    pub satisfied: bool,
+    pub nodes: u64,
+    pub seconds: f64,
+    /// What was asked of validity checking: by all sets, joins and evaluations.
+    pub asked: Asked,
+}
+
+/// Builds in this thread until all criteria are met or so many CPU seconds have gone by.
+pub fn solve(setup: &Arc<Setup>, seconds: f64) -> Solved {
+    let begun = cpu_seconds();
+    let mut core = Core::new(setup, 0);
+    let mut serial = Serial::new(setup.clone());
+    let mut watch = Watch { end: begun + seconds, asked: Asked::default() };
+    let Ok(stop) = drive(&mut core, &mut serial, &mut watch);
+    Solved {
+        satisfied: stop == Stop::Satisfied,
+        nodes: core.progress().nodes,
+        seconds: cpu_seconds() - begun,
+        asked: watch.asked,
+    }
+}
+
+/// Counts what is asked, and ends a build when the thread's CPU time is up.
+struct Watch {
+    end: f64,
+    asked: Asked,
+}
+
+impl Observer for Watch {
+    type Error = Infallible;
+
+    fn folded(&mut self, round: &Round, _: &Roadmap) -> Result<(), Infallible> {
+        for set in &round.sets {
+            self.asked += set.increment.asked;
+            self.asked += set.joined.asked;
+        }
+        Ok(())
+    }
+
+    fn judged(&mut self, judgement: &Judgement) -> Result<(), Infallible> {
+        judgement.verdicts.iter().for_each(|verdict| self.asked += verdict.asked);
+        Ok(())
+    }
+
+    fn tick(&mut self, _: &Progress, _: &Roadmap, _: usize) -> Option<Cut> {
+        (cpu_seconds() >= self.end).then_some(Cut::Time)
+    }
+}

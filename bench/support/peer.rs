@@ -1,0 +1,54 @@
+//! The other side of a race: a program that works on scenes of surfaces.
+
+use roadmill::problem::Problem;
+use roadmill::scene::{Body, Shape};
+use roadmill::validity::BoundsMeaning;
+use std::fmt::Write;
+use std::path::Path;
+use std::process::Command;
+
+/// The problem as the peer sees it: OMPL and FCL know no solids and no bounds of bodies, so both sides
+/// race with surfaces and with bounds that hold the reference point.
+pub fn surfaces(path: &Path) -> Problem {
+    let mut problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
+    problem.bounds.meaning = BoundsMeaning::Reference;
+    let robot = problem.robot.links.iter_mut().flat_map(|link| &mut link.bodies);
+    robot.chain(&mut problem.obstacles).for_each(|body| body.solid = false);
+    problem
+}
+
+/// The scene as text for the peer.
+pub fn scene_text(problem: &Problem) -> String {
+    let mut text = String::new();
+    for value in problem.bounds.min.iter().chain(&problem.bounds.max) {
+        write!(text, "{value} ").expect("memory");
+    }
+    writeln!(text, "{} {}", problem.resolution, problem.robot.reach()).expect("memory");
+    let robot: Vec<Body> = problem.robot.bodies().cloned().collect();
+    for bodies in [&problem.obstacles, &robot] {
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        for body in bodies {
+            let Shape::Mesh(mesh) = &body.shape else { panic!("a scene of meshes expected") };
+            let first = vertices.len();
+            vertices.extend(mesh.vertices.iter().map(|vertex| body.pose.apply(*vertex)));
+            let shifted = |corners: &[u32; 3]| corners.map(|corner| corner as usize + first);
+            triangles.extend(mesh.triangles.iter().map(shifted));
+        }
+        writeln!(text, "{} {}", vertices.len(), triangles.len()).expect("memory");
+        for [x, y, z] in vertices {
+            writeln!(text, "{x} {y} {z}").expect("memory");
+        }
+        for [a, b, c] in triangles {
+            writeln!(text, "{a} {b} {c}").expect("memory");
+        }
+    }
+    text
+}
+
+/// Runs the peer; the numbers that it prints, CPU seconds first.
+pub fn run(peer: &str, words: &[&str]) -> Vec<f64> {
+    let output = Command::new(peer).args(words).output().expect("the peer starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8_lossy(&output.stdout);
+    text.split_whitespace().map(|word| word.parse().expect("a number")).collect()
+}
