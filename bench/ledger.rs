@@ -10,6 +10,10 @@
 //! node and 6 joining edges to a set, is made, and opened as `resume` opens it: every hash is checked,
 //! every set decoded and folded, and the roadmap's digest compared after every round.
 
+#[path = "support/cage.rs"]
+mod cage;
+
+use cage::cage;
 use roadmill::img::{Executor, Joined, Round, RoundSet, Setup, Threads};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Configs, Edge, Increment, Roadmap};
@@ -36,8 +40,7 @@ fn main() {
 }
 
 fn share_of_a_build(folder: &Path, seconds: u64) {
-    let problem = folder.join("cage.toml");
-    std::fs::write(&problem, cage()).expect("a problem can be written");
+    let problem = cage(folder, 4_000_000);
     let out = folder.join("run");
     let done = Command::new(env!("CARGO_BIN_EXE_roadmill"))
         .arg("build")
@@ -73,7 +76,7 @@ fn opening(folder: &Path, nodes: u64) {
     println!("hashes     {:.2} s", begun.elapsed().as_secs_f64());
     let mut executor = Threads::new(Arc::new(Setup::new(problem.clone())), 1);
     let mut replay = Replay::new(&scan, &problem).expect("whole");
-    while let Some(told) = replay.next().expect("whole") {
+    while let Some(told) = replay.read().expect("whole") {
         if let Told::Round(round, digest) = told {
             executor.restore(&round);
             replay.check(executor.roadmap(), digest).expect("the same roadmap");
@@ -115,7 +118,7 @@ fn make(run: &Path, problem: &Problem, nodes: u64) {
 fn increment(space: &roadmill::space::Space, stream: &mut Stream) -> Increment {
     let mut configs = Configs::new(space.len());
     for _ in 0..SET_NODES {
-        let mut q: Vec<f64> = (0..space.len()).map(|_| stream.between(0.1, 1.0)).collect();
+        let mut q: Vec<f64> = (0..space.len()).map(|_| 0.1 + stream.unit()).collect();
         space.canonicalize(&mut q).expect("it can be stored");
         configs.push(&q);
     }
@@ -137,13 +140,4 @@ fn joined(first: u32, stream: &mut Stream) -> Joined {
         edges.push(Edge { low, high: first + index, planner: 0, weight: stream.unit() });
     }
     Joined { edges, asked: Asked::default() }
-}
-
-/// The cage without its query.
-fn cage() -> String {
-    let problems = Path::new(env!("CARGO_MANIFEST_DIR")).join("../problems");
-    let text = std::fs::read_to_string(problems.join("cage.toml")).expect("the cage ships");
-    let text = text.split("[query]").next().expect("a first part");
-    let meshes = format!("{}/meshes/", problems.display());
-    format!("{}\n[limits]\nnodes = 4000000\n", text.replace("meshes/", &meshes))
 }

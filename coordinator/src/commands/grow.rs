@@ -148,7 +148,7 @@ impl Watch {
     /// Folds what there is already.
     fn restore(&self, scan: &Scan, executor: &mut impl Executor) -> Result<Past, Failure> {
         let mut replay = Replay::new(scan, &self.setup.problem)?;
-        while let Some(told) = replay.next()? {
+        while let Some(told) = replay.read()? {
             if let Told::Round(round, digest) = told {
                 executor.restore(&round);
                 replay.check(executor.roadmap(), digest)?;

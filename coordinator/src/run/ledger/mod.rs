@@ -54,7 +54,7 @@ impl Ledger {
         let space = problem.space();
         let mut roadmap = Roadmap::new(&space);
         let mut replay = Replay::new(&scan, &problem)?;
-        while let Some(told) = replay.next()? {
+        while let Some(told) = replay.read()? {
             if let Told::Round(round, digest) = told {
                 let sets = round.sets.iter();
                 let sets = sets.map(|set| (&*set.increment, &set.joined.edges[..]));
