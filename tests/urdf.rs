@@ -45,7 +45,7 @@ fn folder() -> TempDir {
 fn read(folder: &Path, bytes: &[u8]) -> Result<(Vec<Link>, Vec<String>), ForeignError> {
     let path = folder.join("robots/arm/arm.urdf");
     fs::write(&path, bytes).expect("a robot");
-    read_urdf(&path)
+    read_urdf(&path).map(|robot| (robot.links, robot.notes))
 }
 
 fn close(a: [f64; 3], b: [f64; 3]) -> bool {

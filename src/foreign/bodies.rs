@@ -1,6 +1,7 @@
 //! Mesh files as bodies.
 
 use super::{ForeignBody, ForeignError, SceneOptions, Solidity};
+use crate::digest::SourceFile;
 use crate::scene::{Body, MESH_ITEMS_MAX, MeshOptions, Pose, ReadMesh, Shape, read_mesh_with};
 use std::path::{Path, PathBuf};
 
@@ -33,18 +34,20 @@ impl Named<'_> {
 pub(super) struct Meshes {
     triangles: usize,
     weld: f64,
+    /// The files read.
+    pub sources: Vec<SourceFile>,
 }
 
 impl Meshes {
     pub fn new(options: &SceneOptions, notes: &mut Vec<String>) -> Meshes {
         let weld = options.weld.unwrap_or(WELD);
         notes.push(format!("vertices at most {weld:e} apart joined (--weld)"));
-        Meshes { triangles: 0, weld }
+        Meshes { triangles: 0, weld, sources: Vec::new() }
     }
 
     /// Joins equal vertices only.
     pub fn exact() -> Meshes {
-        Meshes { triangles: 0, weld: 0.0 }
+        Meshes { triangles: 0, weld: 0.0, sources: Vec::new() }
     }
 
     /// Reads a mesh; the body stands at `pose`.
@@ -59,6 +62,10 @@ impl Meshes {
         let options = MeshOptions { weld: self.weld, ..*options };
         let read = read_mesh_with(&file, &options)
             .map_err(|error| ForeignError::mesh(error, named.scene, named.line))?;
+        let source = SourceFile { path: named.file.to_owned(), digest: read.digest };
+        if !self.sources.contains(&source) {
+            self.sources.push(source);
+        }
         // One line may name a large mesh, and many lines the same one.
         self.triangles += read.stored_triangles;
         if self.triangles > MESH_ITEMS_MAX {

@@ -17,8 +17,9 @@ pub use ompl::read_ompl;
 pub(crate) use options::SceneKind;
 pub use options::{DhOrder, SceneOptions, Solidity, Unit};
 pub use parasol::read_parasol;
-pub use urdf::read_urdf;
+pub use urdf::{UrdfRobot, read_urdf};
 
+use crate::digest::SourceFile;
 use crate::scene::{Body, Pose};
 use crate::space::Motion;
 use crate::validity::Bounds;
@@ -44,6 +45,8 @@ pub struct ForeignScene {
     pub query: Option<(Vec<f64>, Vec<f64>)>,
     /// What the reader decided or passed over, for people to read.
     pub notes: Vec<String>,
+    /// The files that it was read from, the one that names the others first.
+    pub sources: Vec<SourceFile>,
 }
 
 /// How a robot's first link moves.

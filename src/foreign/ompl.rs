@@ -10,6 +10,7 @@ use super::frames::turn;
 use super::{
     Base, ForeignBody, ForeignError, ForeignLink, ForeignScene, SceneOptions, Solidity, Unit,
 };
+use crate::digest::SourceFile;
 use crate::scene::{Centre, LENGTH_MAX, MeshOptions, Pose, Up, UpAxis};
 use crate::space::Motion;
 use crate::validity::{Bounds, BoundsMeaning};
@@ -30,6 +31,7 @@ pub fn read_ompl(path: &Path, options: &SceneOptions) -> Result<ForeignScene, Fo
     let file = Config::read(path, &text)?;
     let mut notes = Vec::new();
     let mut meshes = Meshes::new(options, &mut notes);
+    meshes.sources.push(SourceFile::named(path, text.as_bytes()));
     let world = file.mesh("world", options, &mut meshes, &mut notes)?;
     let robot = file.mesh("robot", options, &mut meshes, &mut notes)?;
     let corner = |which: &str| -> Result<[f64; 3], ForeignError> {
@@ -73,6 +75,7 @@ pub fn read_ompl(path: &Path, options: &SceneOptions) -> Result<ForeignScene, Fo
         may_touch: Vec::new(),
         query: Some(query),
         notes,
+        sources: meshes.sources,
     })
 }
 

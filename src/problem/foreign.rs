@@ -7,10 +7,11 @@ use super::resolve::{
 };
 use super::{DEFAULT_SEED, Problem, building};
 use crate::context::Ends;
+use crate::digest::SourceFile;
 use crate::evaluate::{EvaluatorKind, Query};
 use crate::foreign::{
     Base, ForeignBody, ForeignJoint, ForeignJointKind, ForeignLink, ForeignScene, SceneKind,
-    SceneOptions, read_ompl, read_parasol, read_urdf,
+    SceneOptions, UrdfRobot, read_ompl, read_parasol, read_urdf,
 };
 use crate::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, Robot};
 use crate::scene::{Body, LENGTH_MAX, Pose};
@@ -44,7 +45,7 @@ pub(super) fn load(path: &Path, options: &SceneOptions) -> Option<Result<Problem
 
 /// A robot alone, in a box as large as it can reach.
 fn from_urdf(path: &Path) -> Result<Problem, ProblemError> {
-    let (links, mut notes) =
+    let UrdfRobot { links, mut notes, sources } =
         read_urdf(path).map_err(|error| ProblemError::foreign(error.to_string()))?;
     let links = fitting_names(links);
     let motion = if links.iter().any(moves) { Motion::Fixed } else { Motion::Rigid3d };
@@ -63,7 +64,10 @@ fn from_urdf(path: &Path) -> Result<Problem, ProblemError> {
     let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
     let meaning = BoundsMeaning::Reference;
     let bounds = Bounds { min: [-reach; 3], max: [reach; 3], meaning };
-    finished(path, Parts { name, bounds, robot, obstacles: Vec::new(), query: None, notes })
+    finished(
+        path,
+        Parts { name, bounds, robot, obstacles: Vec::new(), query: None, notes, sources },
+    )
 }
 
 /// What a problem is made of where the rest takes its defaults.
@@ -74,17 +78,18 @@ struct Parts {
     obstacles: Vec<Body>,
     query: Option<(Vec<f64>, Vec<f64>)>,
     notes: Vec<String>,
+    sources: Vec<SourceFile>,
 }
 
 fn from_scene(path: &Path, scene: ForeignScene) -> Result<Problem, ProblemError> {
     let robot = robot_of(&scene);
     let obstacles = scene.obstacles.into_iter().map(|obstacle| obstacle.body).collect();
-    let ForeignScene { name, bounds, query, notes, .. } = scene;
-    finished(path, Parts { name, bounds, robot, obstacles, query, notes })
+    let ForeignScene { name, bounds, query, notes, sources, .. } = scene;
+    finished(path, Parts { name, bounds, robot, obstacles, query, notes, sources })
 }
 
 fn finished(path: &Path, parts: Parts) -> Result<Problem, ProblemError> {
-    let Parts { name: given, bounds, robot, obstacles, query, mut notes } = parts;
+    let Parts { name: given, bounds, robot, obstacles, query, mut notes, sources } = parts;
     if robot.bodies().next().is_none() {
         return Err(ProblemError::file(path, "the robot has no bodies; at least one expected"));
     }
@@ -119,6 +124,8 @@ fn finished(path: &Path, parts: Parts) -> Result<Problem, ProblemError> {
         evaluators: Vec::new(),
         limits: building::default_limits(),
         notes,
+        sources,
+        earlier: Vec::new(),
     };
     if let Some((mut start, mut goal)) = query {
         let cx = problem.context();

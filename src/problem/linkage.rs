@@ -99,10 +99,11 @@ fn urdf_links(
         return Err(source.error(&[Key("robot"), Key(key)], message.to_owned()));
     }
     let folder = source.path.parent().unwrap_or(Path::new(""));
-    let (links, own) = read_urdf(&folder.join(file))
+    let robot = read_urdf(&folder.join(file))
         .map_err(|error| source.error(&[Key("robot"), Key("urdf")], error.to_string()))?;
-    notes.extend(own);
-    Ok(fitting_names(links))
+    notes.extend(robot.notes);
+    robot.sources.into_iter().for_each(|file| source.read(file));
+    Ok(fitting_names(robot.links))
 }
 
 /// The links with names that fit and that no two have.

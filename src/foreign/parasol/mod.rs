@@ -13,6 +13,7 @@ mod words;
 use super::bodies::{Meshes, Named, why_solid};
 use super::error::read_text;
 use super::{Base, ForeignBody, ForeignError, ForeignScene, SceneOptions, Solidity};
+use crate::digest::SourceFile;
 use crate::scene::{Centre, MeshOptions, Pose};
 use crate::validity::{Bounds, BoundsMeaning};
 use std::path::{Path, PathBuf};
@@ -37,6 +38,7 @@ pub fn read_parasol(env: &Path, options: &SceneOptions) -> Result<ForeignScene, 
         reader.notes.push(format!("origins moved to {what}"));
     }
     let text = read_text(env)?;
+    reader.meshes.sources.push(SourceFile::named(env, text.as_bytes()));
     let found = env::read(&mut Words::new(env, &text), &mut reader)?;
     let robot = match (found.robot, options.robot) {
         (Some(_), Some(other)) => {
@@ -54,6 +56,7 @@ pub fn read_parasol(env: &Path, options: &SceneOptions) -> Result<ForeignScene, 
                 })?,
             };
             let text = read_text(&path)?;
+            reader.meshes.sources.push(SourceFile::named(&path, text.as_bytes()));
             let mut words = Words::new(&path, &text);
             let robot = robot::read(&mut words, &mut reader)?;
             words.end("the end after the connections")?;
@@ -67,7 +70,11 @@ pub fn read_parasol(env: &Path, options: &SceneOptions) -> Result<ForeignScene, 
         None => beside(env, "query", notes)?,
     };
     let query = match query {
-        Some(path) => Some(query::read(&path, &read_text(&path)?, &robot, notes)?),
+        Some(path) => {
+            let text = read_text(&path)?;
+            reader.meshes.sources.push(SourceFile::named(&path, text.as_bytes()));
+            Some(query::read(&path, &text, &robot, notes)?)
+        }
         None => None,
     };
     Ok(ForeignScene {
@@ -79,6 +86,7 @@ pub fn read_parasol(env: &Path, options: &SceneOptions) -> Result<ForeignScene, 
         may_touch: robot.may_touch,
         query,
         notes: reader.notes,
+        sources: reader.meshes.sources,
     })
 }
 

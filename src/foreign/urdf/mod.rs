@@ -7,6 +7,7 @@ use super::bodies::{Meshes, Named};
 use super::error::read_text;
 use super::frames::roll_pitch_yaw;
 use super::{ForeignError, Solidity};
+use crate::digest::SourceFile;
 use crate::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, TURN_MAX};
 use crate::scene::{Body, LENGTH_MAX, MeshOptions, Pose, Shape};
 use lines::Lines;
@@ -17,13 +18,24 @@ use urdf_rs::{Geometry, JointType};
 /// How many folders above the file's own are searched for a package.
 const LEVELS_MAX: usize = 32;
 
-/// Reads a robot: its links in the order of a walk from the root, with the shapes that are meant for
-/// collision tests; and what was decided, for people to read. Meshes are solid if they are closed.
+/// A robot without a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UrdfRobot {
+    /// Its links in the order of a walk from the root, with the shapes that are meant for collision
+    /// tests.
+    pub links: Vec<Link>,
+    /// What the reader decided, for people to read.
+    pub notes: Vec<String>,
+    /// The files read: the robot's own first.
+    pub sources: Vec<SourceFile>,
+}
+
+/// Reads a robot. Meshes are solid if they are closed.
 ///
 /// # Errors
 /// Names the file and line: no XML, a joint that is not supported, joints that make no tree, limits
 /// inside out, a shape without extent, a mesh that cannot be read.
-pub fn read_urdf(path: &Path) -> Result<(Vec<Link>, Vec<String>), ForeignError> {
+pub fn read_urdf(path: &Path) -> Result<UrdfRobot, ForeignError> {
     let text = read_text(path)?;
     let lines = Lines::of(path, &text)?;
     if let Some((line, _)) = lines.links.get(LINKS_MAX) {
@@ -33,6 +45,7 @@ pub fn read_urdf(path: &Path) -> Result<(Vec<Link>, Vec<String>), ForeignError> 
     let robot = urdf_rs::read_from_string(&text)
         .map_err(|error| ForeignError::whole(path, format!("not a URDF: {error}")))?;
     let mut reader = Reader { path, lines, meshes: Meshes::exact(), notes: Vec::new() };
+    reader.meshes.sources.push(SourceFile::named(path, text.as_bytes()));
     let mut links = Vec::new();
     for (link, joint) in reader.walk(&robot)? {
         let joint = match joint {
@@ -42,7 +55,7 @@ pub fn read_urdf(path: &Path) -> Result<(Vec<Link>, Vec<String>), ForeignError> 
         let bodies = reader.bodies(&robot.links[link], link)?;
         links.push(Link { name: robot.links[link].name.clone(), bodies, joint });
     }
-    Ok((links, reader.notes))
+    Ok(UrdfRobot { links, notes: reader.notes, sources: reader.meshes.sources })
 }
 
 /// Indices of a link and, unless it is the root, of the joint that moves it and of its parent in the
