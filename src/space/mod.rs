@@ -6,9 +6,11 @@
 //! per degree of freedom in the order of [`Space::dofs`]; a quaternion takes four values,
 //! `w x y z`.
 
+mod configs;
 mod quaternion;
 mod rigid;
 
+pub use configs::Configs;
 pub use quaternion::{canonical, slerp, stored_form};
 pub use rigid::{Motion, rigid_parts, rigid_space};
 
