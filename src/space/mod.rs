@@ -9,7 +9,7 @@
 mod quaternion;
 mod rigid;
 
-pub use quaternion::{canonical, slerp};
+pub use quaternion::{canonical, slerp, stored_form};
 pub use rigid::{Motion, rigid_parts, rigid_space};
 
 use crate::math;
