@@ -20,7 +20,7 @@ use roadmill::img::{Job, Joined, Outcome, Replica, Setup};
 use roadmill::problem::Problem;
 use roadmill::query::Attachment;
 use roadmill::seed::{Purpose, Seed};
-use roadmill::validity::{Scratch, State, Validity};
+use roadmill::validity::{Clearance, Scratch, State, Validity};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -61,6 +61,9 @@ impl Validity for Timed {
     }
     fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64 {
         self.0.steps(a, b, refinement)
+    }
+    fn clearance(&self, q: &[f64], scratch: &mut Scratch) -> Option<Clearance> {
+        self.0.clearance(q, scratch)
     }
 }
 
