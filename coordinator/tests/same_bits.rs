@@ -213,6 +213,11 @@ fn same_bits_for_rotate_at_gaussian_and_every_evaluator() {
 }
 
 #[test]
+fn same_bits_for_what_is_judged_by_the_roadmaps_history() {
+    processes_build_what_threads_build("settled");
+}
+
+#[test]
 fn same_bits_for_every_sampler() {
     processes_build_what_threads_build("sampled");
 }

@@ -3,8 +3,11 @@
 //! *Within* a node set and *among* sets are separate choices (TR05-007 §3.1: *"a (possibly
 //! different) user specified set of connection strategies"*). One file per method.
 
+mod candidates;
 mod component_pairs;
 mod nearest;
+mod nearest_nodes;
+mod until_joined;
 
 methods! {
     /// Connection within a node set, as a problem file names it.
@@ -17,11 +20,15 @@ methods! {
     /// Connection among node sets, as a problem file names it.
     pub enum AmongKind: dyn Among {
         ComponentPairs(component_pairs::ComponentPairs),
+        NearestNodes(nearest_nodes::NearestNodes),
+        UntilJoined(until_joined::UntilJoined),
     }
 }
 
 pub use component_pairs::ComponentPairs;
 pub use nearest::Nearest;
+pub use nearest_nodes::NearestNodes;
+pub use until_joined::UntilJoined;
 
 use crate::context::Context;
 use crate::local::Planner;
@@ -91,3 +98,6 @@ pub struct JoinInput {
 fn default_planners() -> Vec<Planner> {
     vec![Planner::StraightLine]
 }
+
+#[cfg(test)]
+mod tests;

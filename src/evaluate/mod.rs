@@ -7,9 +7,14 @@ mod all;
 mod any;
 mod connectivity;
 mod coverage;
+mod expansion;
+mod information_gain;
+mod max_flow;
+mod network;
 mod not;
 mod query;
 mod samples;
+mod verdict;
 
 methods! {
     /// The evaluators, as a problem file names them.
@@ -19,7 +24,10 @@ methods! {
         Connectivity(connectivity::Connectivity),
         All(all::All),
         Any(any::Any),
-        Not(not::Not),
+        Not(not::Not), // new ones at the end, since ledgers know methods by number
+        Expansion(expansion::Expansion),
+        MaxFlow(max_flow::MaxFlow),
+        InformationGain(information_gain::InformationGain),
     }
 }
 
@@ -27,17 +35,19 @@ pub use all::All;
 pub use any::Any;
 pub use connectivity::Connectivity;
 pub use coverage::Coverage;
+pub use expansion::Expansion;
+pub use information_gain::InformationGain;
+pub use max_flow::MaxFlow;
 pub use not::Not;
 pub use query::Query;
-pub use samples::Samples;
+pub use samples::{Drawn, Samples};
+pub use verdict::{Bound, CutEdge, Verdict};
 
 use crate::context::Context;
 use crate::methods::{Complaint, methods};
-use crate::query::{Answer, Attachment};
+use crate::query::Attachment;
 use crate::roadmap::Roadmap;
 use crate::validity::{Asked, Scratch};
-use crate::wire::decode_nested;
-use bincode::Encode;
 
 /// A criterion on roadmaps.
 pub trait Evaluator {
@@ -53,6 +63,11 @@ pub trait Evaluator {
         roadmap: &Roadmap,
         scratch: &mut Scratch,
     ) -> Verdict;
+
+    /// What the numbers are that its verdicts hold beside their value.
+    fn measures(&self) -> &'static [&'static str] {
+        &[]
+    }
 
     /// The criteria of which it is made.
     fn parts(&self) -> &[EvaluatorKind] {
@@ -81,32 +96,6 @@ pub trait Evaluator {
     }
 }
 
-/// What an evaluator says of a roadmap.
-#[derive(Clone, Debug, PartialEq, Encode)]
-pub struct Verdict {
-    /// Whether the criterion is met.
-    pub satisfied: bool,
-    /// The measured value.
-    pub value: f64,
-    /// The least value that meets the criterion.
-    pub threshold: f64,
-    /// Of the query evaluator: the answer, with the path.
-    pub answer: Option<Answer>,
-    /// Of a criterion made of others: what they say.
-    pub parts: Vec<Verdict>,
-    /// What the evaluation cost.
-    pub asked: Asked,
-}
-
-decode_nested!(Verdict { satisfied, value, threshold, answer, parts, asked });
-
-impl Verdict {
-    /// The answer to the problem's query, wherever in the tree it was asked.
-    pub fn answer(&self) -> Option<&Answer> {
-        self.answer.as_ref().or_else(|| self.parts.iter().find_map(Verdict::answer))
-    }
-}
-
 /// The verdict of a criterion made of `parts`, of which so many must be satisfied.
 fn combined(
     parts: &[EvaluatorKind],
@@ -125,14 +114,7 @@ fn combined(
         verdicts.push(verdict);
     }
     let satisfied = verdicts.iter().filter(|verdict| verdict.satisfied).count();
-    Verdict {
-        satisfied: satisfied >= needed,
-        value: satisfied as f64,
-        threshold: needed as f64,
-        answer: None,
-        parts: verdicts,
-        asked,
-    }
+    Verdict { parts: verdicts, ..Verdict::at_least(needed as f64, satisfied as f64, asked) }
 }
 
 #[cfg(test)]

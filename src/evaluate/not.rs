@@ -26,14 +26,9 @@ impl Evaluator for Not {
         scratch: &mut Scratch,
     ) -> Verdict {
         let verdict = self.0.method().evaluate(cx, &format!("{path}/0"), roadmap, scratch);
-        Verdict {
-            satisfied: !verdict.satisfied,
-            value: f64::from(u8::from(!verdict.satisfied)),
-            threshold: 1.0,
-            answer: None,
-            asked: verdict.asked,
-            parts: vec![verdict],
-        }
+        let value = f64::from(u8::from(!verdict.satisfied));
+        let asked = verdict.asked;
+        Verdict { parts: vec![verdict], ..Verdict::at_least(1.0, value, asked) }
     }
 
     fn parts(&self) -> &[EvaluatorKind] {

@@ -55,15 +55,9 @@ impl Evaluator for Query {
         let ends = (&query.start[..], &query.goal[..]);
         let attachment = self.how();
         let answer = solve(cx, roadmap, ends, &attachment, scratch);
-        let satisfied = answer.path.is_some();
-        Verdict {
-            satisfied,
-            value: f64::from(u8::from(satisfied)),
-            threshold: 1.0,
-            answer: Some(answer),
-            parts: Vec::new(),
-            asked: scratch.take_asked(),
-        }
+        let solved = f64::from(u8::from(answer.path.is_some()));
+        let asked = scratch.take_asked();
+        Verdict { answer: Some(answer), ..Verdict::at_least(1.0, solved, asked) }
     }
 
     fn needs_query(&self) -> bool {

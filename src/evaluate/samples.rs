@@ -7,6 +7,7 @@ use crate::methods::Complaint;
 use crate::neighbor::k_nearest;
 use crate::query::Attachment;
 use crate::roadmap::{Configs, Roadmap};
+use crate::sampler::SamplerKind;
 use crate::seed::{Purpose, Seed};
 use crate::validity::{Asked, Scratch};
 use bincode::{Decode, Encode};
@@ -38,6 +39,19 @@ pub enum Samples {
     Random(u32),
     /// These.
     Listed(Vec<Vec<f64>>),
+    /// So many from each of several samplers: TR05-007 §4.2 expects *"improvement … when a mixture of
+    /// configurations generated using different sampling strategies are used"*.
+    Drawn(Vec<Drawn>),
+}
+
+/// Samples of one sampler.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields)]
+pub struct Drawn {
+    /// The sampler.
+    pub sampler: SamplerKind,
+    /// How many samples it draws.
+    pub count: u32,
 }
 
 impl Samples {
@@ -49,12 +63,27 @@ impl Samples {
             Samples::Listed(list) if list.len() < 2 => {
                 Some(("samples.listed", list.len().to_string(), "at least 2 configurations"))
             }
+            Samples::Drawn(parts) if parts.iter().any(|part| part.count == 0) => {
+                Some(("samples.drawn: count", "0".to_owned(), "at least 1"))
+            }
+            Samples::Drawn(_) if !(2..=SAMPLES_MAX as usize).contains(&self.count()) => {
+                Some(("samples.drawn", self.count().to_string(), "2 to 1000000 together"))
+            }
+            Samples::Drawn(parts) => {
+                parts.iter().find_map(|part| part.sampler.method().complaint())
+            }
             Samples::Random(_) | Samples::Listed(_) => None,
         }
     }
 
-    /// Brings listed samples into stored form and checks them.
+    /// Brings listed samples into stored form and checks them, and whether samplers suit the problem.
     pub(super) fn settle(&mut self, cx: &Context) -> Result<(), String> {
+        if let Samples::Drawn(parts) = self {
+            for (index, part) in parts.iter().enumerate() {
+                let suits = part.sampler.method().suits(cx);
+                suits.map_err(|error| format!("samples.drawn[{index}]: {error}"))?;
+            }
+        }
         let Samples::Listed(list) = self else { return Ok(()) };
         for (index, q) in list.iter_mut().enumerate() {
             cx.settle(q).map_err(|error| format!("samples.listed[{index}]: {error}"))?;
@@ -66,6 +95,14 @@ impl Samples {
         let mut configs = Configs::new(cx.space.len());
         match self {
             Samples::Listed(list) => list.iter().for_each(|q| configs.push(q)),
+            Samples::Drawn(parts) => {
+                for (index, Drawn { sampler, count }) in parts.iter().enumerate() {
+                    let seed = Seed::of_evaluator(cx.base_seed, path).part(index as u64);
+                    // What a sampler that gave up did not find counts as missing.
+                    let _ =
+                        sampler.method().sample(cx, &seed, *count as usize, scratch, &mut configs);
+                }
+            }
             Samples::Random(count) => {
                 let seed = Seed::of_evaluator(cx.base_seed, path);
                 let mut stream = seed.stream(Purpose::Sampling);
@@ -89,6 +126,7 @@ impl Samples {
         match self {
             Samples::Random(count) => *count as usize,
             Samples::Listed(list) => list.len(),
+            Samples::Drawn(parts) => parts.iter().map(|part| part.count as usize).sum(),
         }
     }
 
@@ -125,14 +163,7 @@ impl Samples {
 /// The verdict on a share of something.
 pub(super) fn share(part: usize, whole: usize, threshold: f64, asked: Asked) -> Verdict {
     let value = if whole == 0 { 0.0 } else { part as f64 / whole as f64 };
-    Verdict {
-        satisfied: value >= threshold,
-        value,
-        threshold,
-        answer: None,
-        parts: Vec::new(),
-        asked,
-    }
+    Verdict::at_least(threshold, value, asked)
 }
 
 /// What is wrong with the settings that coverage and connectivity share.

@@ -1,6 +1,8 @@
 use super::*;
 use crate::img::{Setup, build};
 use crate::problem::Problem;
+use crate::roadmap::{Configs, Edge, Increment};
+use crate::space::{Motion, Space, rigid_space};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -29,6 +31,23 @@ sampler = { uniform = {} }
 sets = 1
 "#;
 
+/// A plane 30 by 40, and an empty roadmap of it.
+pub(super) fn hand_made() -> (Space, Roadmap) {
+    let space = rigid_space(Motion::Translation2d, [0.0; 3], [30.0, 40.0, 0.0], 0.0);
+    let roadmap = Roadmap::new(&space);
+    (space, roadmap)
+}
+
+/// Folds a round of one set with these nodes and joining edges.
+pub(super) fn grow(space: &Space, roadmap: &mut Roadmap, nodes: &[[f64; 2]], joins: &[(u32, u32)]) {
+    let mut configs = Configs::new(2);
+    nodes.iter().for_each(|q| configs.push(q));
+    let increment = Increment { configs, edges: Vec::new(), asked: Asked::default() };
+    let edge = |(low, high): &(u32, u32)| Edge { low: *low, high: *high, planner: 0, weight: 1.0 };
+    let joins: Vec<Edge> = joins.iter().map(edge).collect();
+    roadmap.fold_round(space, [(&increment, &joins[..])]);
+}
+
 fn verdict(evaluators: &str) -> Verdict {
     let text = format!("evaluators = [{evaluators}]\n{ROOMS}");
     let problem = Problem::parse(Path::new("rooms.toml"), &text).unwrap();
@@ -56,6 +75,61 @@ fn coverage_counts_samples_and_connectivity_pairs() {
         "{ connectivity = { samples = { listed = [[1, 1], [5, 3], [8, 2]] }, percent = 33 } }",
     );
     assert!(listed.satisfied && (listed.value - 1.0 / 3.0).abs() < 1e-12);
+}
+
+#[test]
+fn samples_of_several_samplers_are_judged_together() {
+    // Ten everywhere, ten within 0.01 of the wall, which are all in reach.
+    let near = "{ sampler = { gaussian = { deviation = 0.01 } }, count = 10 }";
+    let all = "{ sampler = { uniform = {} }, count = 10 }";
+    let drawn = verdict(&format!("{{ coverage = {{ samples = {{ drawn = [{near}, {all}] }} }} }}"));
+    assert!(drawn.satisfied && drawn.value == 1.0);
+    // A sampler that finds nothing leaves its share missing.
+    let never = "{ sampler = { gaussian = { deviation = 1e-9, attempts = 1 } }, count = 30 }";
+    let drawn =
+        verdict(&format!("{{ coverage = {{ samples = {{ drawn = [{never}, {all}] }} }} }}"));
+    assert!(!drawn.satisfied && drawn.value == 0.25, "{}", drawn.value);
+}
+
+#[test]
+fn flow_is_what_the_query_attaches_with_and_none_goes_through_the_wall() {
+    let across = verdict("{ max-flow = { flow = 1 } }");
+    assert!(!across.satisfied && across.value == 0.0);
+    assert_eq!(across.cut, Some(Vec::new()));
+    let within = verdict("{ max-flow = { flow = 1, to = [[5, 3], [5, 1]] } }");
+    assert!(within.satisfied && within.value > 1.0);
+    // From the start at node 200 ten edges lead away; a cut is no more than what they carry.
+    let cut = within.cut.expect("a cut");
+    let severed: f64 = cut.iter().map(|edge| edge.capacity).sum();
+    assert!((severed - within.value).abs() < 1e-9 * severed);
+    // The least weight bounds what any edge carries.
+    let bounded = verdict("{ max-flow = { flow = 1, to = [[5, 3]], least_weight = 2 } }");
+    assert_eq!(bounded.value, 5.0, "ten edges of 1/2 each");
+}
+
+#[test]
+fn rounds_that_tell_nothing_new_and_move_nothing_suffice() {
+    let rounds = |evaluators: &str, rounds: u32| {
+        let limits = format!("sets = {rounds}");
+        let text = ROOMS.replace("sets = 1", &limits).replace("nodes = 200", "nodes = 20");
+        let text = format!("evaluators = [{{ all = [{evaluators}, {{ query = {{}} }}] }}]\n{text}");
+        let problem = Problem::parse(Path::new("rooms.toml"), &text).unwrap();
+        let built = build(&Arc::new(Setup::new(problem)));
+        built.judgement.expect("it is judged").verdicts.remove(0).parts.remove(0)
+    };
+    let first = rounds("{ information-gain = {} }", 1);
+    assert!(!first.satisfied && first.value == 1.0 && first.bound == Bound::AtMost);
+    let later = rounds("{ information-gain = { rounds = 2 } }", 12);
+    assert!(later.satisfied && later.value == 0.0 && later.measures == [0.0, 0.0]);
+    let later = rounds("{ expansion = {} }", 3);
+    assert!(!later.satisfied && later.value == 1.0, "three rounds before the last are needed");
+    // Two rooms, 6.1 and 2 wide: what is measured at the end is near what there is to measure.
+    let later = rounds("{ expansion = { percent = 5 } }", 30);
+    let [width, separation, ..] = later.measures[..] else { panic!("four measures") };
+    let (left, right) = (52.0f64.sqrt(), 20.0f64.sqrt());
+    assert!(later.satisfied && (right..left).contains(&width), "{later:?}");
+    // The centres are 4 apart, and 3/8 of the pairs of nodes are in different rooms.
+    assert!((separation - 1.5).abs() < 0.3, "{separation}");
 }
 
 #[test]
@@ -90,6 +164,19 @@ fn wrong_settings_are_named() {
         ("{ coverage = { percent = 0 } }", "percent = 0 found"),
         ("{ coverage = { samples = { random = 1 } } }", "samples.random = 1 found"),
         ("{ all = [] }", "all = [] found"),
+        ("{ expansion = { rounds = 0 } }", "rounds = 0 found"),
+        ("{ expansion = { percent = 0 } }", "percent = 0 found"),
+        ("{ expansion = { components = 1001 } }", "components = 1001 found"),
+        ("{ information-gain = { percent = 100 } }", "percent = 100 found"),
+        ("{ max-flow = {} }", "missing field `flow`"),
+        ("{ max-flow = { flow = 0 } }", "flow = 0 found"),
+        ("{ max-flow = { flow = 1, least_weight = 0 } }", "least_weight = 0 found"),
+        ("{ max-flow = { flow = 1, from = [[1, 9]] } }", "from[0]: [1.0, 9.0] found"),
+        ("{ coverage = { samples = { drawn = [] } } }", "samples.drawn = 0 found"),
+        (
+            "{ coverage = { samples = { drawn = [{ sampler = { uniform = {} }, count = 0 }] } } }",
+            "samples.drawn: count = 0 found",
+        ),
         ("{ not = { connectivity = { neighbors = 0 } } }", "neighbors = 0 found"),
         ("{ connectivity = { planners = [{ rotate-at = { percent = 101 } }] } }", "percent = 101"),
         (

@@ -122,14 +122,14 @@ impl<T: Ranked> Best<T> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::seed::{Purpose, Seed};
     use crate::space::{Motion, rigid_space};
     use proptest::prelude::*;
 
     /// Random configurations, half of them on a coarse grid so that ties occur.
-    fn configs(motion: Motion, ordinal: u64) -> (Space, Configs) {
+    pub(in crate::neighbor) fn configs(motion: Motion, ordinal: u64) -> (Space, Configs) {
         let space = rigid_space(motion, [0.0; 3], [3.0; 3], 0.5);
         let mut stream = Seed::of_set(1, "neighbours", ordinal).stream(Purpose::Sampling);
         let mut configs = Configs::new(space.len());

@@ -2,5 +2,7 @@
 //! index comes later must return the same.
 
 mod brute;
+mod farthest;
 
 pub use brute::{NearPair, Neighbor, closest_pairs, k_nearest};
+pub use farthest::{FarPair, farthest_pair};

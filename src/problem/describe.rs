@@ -37,6 +37,9 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
             JointKind::Revolute { limits: Some(Limits { min, max }), .. } => {
                 writeln!(out, "                 {name}: turns from {min} to {max} radians")?;
             }
+            JointKind::Spherical => {
+                writeln!(out, "                 {name}: turns in every way; a unit quaternion")?;
+            }
             JointKind::Prismatic { limits: Limits { min, max }, .. } => {
                 writeln!(out, "                 {name}: slides from {min} to {max}")?;
             }

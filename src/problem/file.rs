@@ -41,6 +41,8 @@ pub(super) struct SpaceTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RobotTable {
+    pub name: Option<String>,
+    pub urdf: Option<PathBuf>,
     #[serde(default)]
     pub bodies: Vec<BodyTable>,
     pub base: Option<FrameTable>,
@@ -75,7 +77,8 @@ pub(super) struct JointTable {
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub(super) enum JointKindTable {
     Fixed {},
-    Revolute { axis: [f64; 3], degrees: Option<[f64; 2]> },
+    Spherical {},
+    Revolute { axis: [f64; 3], degrees: Option<[f64; 2]>, radians: Option<[f64; 2]> },
     Prismatic { axis: [f64; 3], range: [f64; 2] },
 }
 

@@ -13,15 +13,17 @@ mod foreign;
 mod linkage;
 mod resolve;
 mod source;
+mod write;
 
 pub use chapter::Earlier;
 pub use configuration::configuration;
 pub use error::ProblemError;
-pub use foreign::Companions;
+pub use write::Written;
 
 use crate::context::{Context, Ends};
 use crate::digest::SourceFile;
 use crate::evaluate::EvaluatorKind;
+use crate::foreign::SceneOptions;
 use crate::roadmap::Digest;
 use crate::robot::Robot;
 use crate::scene::Body;
@@ -84,21 +86,21 @@ pub struct Limits {
 }
 
 impl Problem {
-    /// Reads and checks a problem file: TOML, or a scene of OMPL.app (`.cfg`) or Parasol (`.env`), see
-    /// `docs/foreign.md`. Relative paths of meshes start from the file's folder.
+    /// Reads and checks a problem file: TOML, a scene of OMPL.app (`.cfg`) or Parasol (`.env`), or a robot
+    /// alone (`.urdf`), see `docs/foreign.md`. Relative paths of meshes start from the file's folder.
     ///
     /// # Errors
     /// The first thing that is wrong, with its place in the file.
     pub fn load(path: &Path) -> Result<Problem, ProblemError> {
-        Problem::load_with(path, Companions::default())
+        Problem::load_with(path, &SceneOptions::default())
     }
 
-    /// [`Problem::load`] with the files that stand beside a Parasol `.env`.
+    /// [`Problem::load`] with what is to be taken where a scene of another program leaves a choice.
     ///
     /// # Errors
     /// The first thing that is wrong, with its place in the file.
-    pub fn load_with(path: &Path, companions: Companions) -> Result<Problem, ProblemError> {
-        if let Some(problem) = foreign::load(path, companions) {
+    pub fn load_with(path: &Path, options: &SceneOptions) -> Result<Problem, ProblemError> {
+        if let Some(problem) = foreign::load(path, options) {
             return problem;
         }
         let text = std::fs::read_to_string(path).map_err(|error| {

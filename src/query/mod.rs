@@ -122,7 +122,7 @@ pub fn solve(
 
 /// The edges by which `q`, as node `id`, attaches to its nearest nodes, nearest first. Each is
 /// tried from the node, whose id is lower, to `q`.
-fn attach(
+pub(crate) fn attach(
     cx: &Context,
     roadmap: &Roadmap,
     q: &[f64],

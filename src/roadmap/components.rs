@@ -32,8 +32,18 @@ pub struct Components {
 impl Components {
     /// The components of a graph given whole.
     pub fn of(space: &Space, configs: &Configs, edges: &[super::Edge]) -> Components {
+        Components::built(space, configs, configs.iter(), edges)
+    }
+
+    /// The components of a graph over the first of `configs`, `nodes`.
+    pub(super) fn built<'a>(
+        space: &Space,
+        configs: &Configs,
+        nodes: impl Iterator<Item = &'a [f64]>,
+        edges: &[super::Edge],
+    ) -> Components {
         let mut components = Components::default();
-        components.add_nodes(space, configs);
+        components.add_nodes(space, nodes);
         for edge in edges {
             components.unite(edge.low, edge.high);
         }
@@ -56,14 +66,19 @@ impl Components {
         self.slot_of[a as usize] == self.slot_of[b as usize]
     }
 
+    /// Whether a node, which need not be one of the graph, is in a component.
+    pub fn contains(&self, component: &Component, node: u32) -> bool {
+        (node as usize) < self.slot_of.len() && self.of_node(node).name == component.name
+    }
+
     /// All components, in an order that depends on nothing but the graph's history.
     pub fn iter(&self) -> impl Iterator<Item = &Component> {
         self.live.iter().filter_map(|slot| self.slots[*slot as usize].as_ref())
     }
 
     /// Appends nodes, each a component of its own.
-    pub(super) fn add_nodes(&mut self, space: &Space, configs: &Configs) {
-        for q in configs.iter() {
+    pub(super) fn add_nodes<'a>(&mut self, space: &Space, nodes: impl Iterator<Item = &'a [f64]>) {
+        for q in nodes {
             let node = self.slot_of.len() as u32;
             let slot = self.slots.len() as u32;
             self.slot_of.push(slot);

@@ -25,8 +25,20 @@ pub struct Roadmap {
     configs: Configs,
     edges: Vec<Edge>,
     components: Components,
-    sets: u64,
+    rounds: Vec<Extent>,
     hasher: RoadmapHasher,
+}
+
+/// How far a roadmap went at the end of a round: everything before is what it then was, since nodes
+/// and edges are only ever appended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Extent {
+    /// Number of node sets.
+    pub sets: u64,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of edges.
+    pub edges: usize,
 }
 
 impl Roadmap {
@@ -36,7 +48,7 @@ impl Roadmap {
             configs: Configs::new(space.len()),
             edges: Vec::new(),
             components: Components::default(),
-            sets: 0,
+            rounds: Vec::new(),
             hasher: RoadmapHasher::new(space.len()),
         }
     }
@@ -52,7 +64,7 @@ impl Roadmap {
         for (increment, joins) in &sets {
             let first = self.configs.len() as u32;
             self.hasher.add_set(first, increment, joins);
-            self.components.add_nodes(space, &increment.configs);
+            self.components.add_nodes(space, increment.configs.iter());
             self.configs.extend(&increment.configs);
             for edge in &increment.edges {
                 let edge = edge.shifted(first);
@@ -66,7 +78,11 @@ impl Roadmap {
                 self.edges.push(*edge);
             }
         }
-        self.sets += sets.len() as u64;
+        self.rounds.push(Extent {
+            sets: self.sets() + sets.len() as u64,
+            nodes: self.configs.len(),
+            edges: self.edges.len(),
+        });
         self.components.refresh_centres(space, &self.configs);
     }
 
@@ -88,11 +104,51 @@ impl Roadmap {
 
     /// Number of node sets folded.
     pub fn sets(&self) -> u64 {
-        self.sets
+        self.rounds.last().map_or(0, |extent| extent.sets)
+    }
+
+    /// How far the roadmap went at the end of each round.
+    pub fn rounds(&self) -> &[Extent] {
+        &self.rounds
+    }
+
+    /// The connected components as they were when the roadmap went as far as `extent`.
+    pub fn components_at(&self, space: &Space, extent: Extent) -> Components {
+        let nodes = self.configs.iter().take(extent.nodes);
+        Components::built(space, &self.configs, nodes, &self.edges[..extent.edges])
     }
 
     /// The digest of the roadmap's canonical bytes; `docs/architecture.md` defines them.
     pub fn digest(&self) -> Digest {
         self.hasher.digest()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::img::{Setup, build};
+    use crate::problem::Problem;
+    use std::path::Path;
+    use std::sync::Arc;
+
+    #[test]
+    fn a_roadmap_knows_what_it_was_after_every_round() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems/judged.toml");
+        let mut problem = Problem::load(&path).unwrap();
+        problem.evaluators.clear();
+        let space = problem.space();
+        problem.limits.sets = 12;
+        let long = build(&Arc::new(Setup::new(problem.clone()))).roadmap;
+        assert_eq!(long.rounds().len(), 6);
+        for (index, extent) in long.rounds().iter().enumerate() {
+            problem.limits.sets = extent.sets;
+            let short = build(&Arc::new(Setup::new(problem.clone()))).roadmap;
+            assert_eq!(short.rounds(), &long.rounds()[..=index]);
+            let then = long.components_at(&space, *extent);
+            assert_eq!(then.count(), short.components().count());
+            for (a, b) in then.iter().zip(short.components().iter()) {
+                assert_eq!((a.name, &a.members, &a.centre), (b.name, &b.members, &b.centre));
+            }
+        }
     }
 }

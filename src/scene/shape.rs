@@ -59,7 +59,7 @@ impl Shape {
             }
             Shape::Mesh(mesh) => {
                 let vertices = mesh.vertices.iter().map(|v| Vector::from_array(*v)).collect();
-                let shape = parry::SharedShape::trimesh(vertices, mesh.triangles.clone())
+                let shape = parry::SharedShape::trimesh(vertices, mesh.faces().collect())
                     .expect("a validated mesh has triangles");
                 (shape, ParryPose::IDENTITY)
             }

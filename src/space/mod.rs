@@ -9,7 +9,7 @@
 mod quaternion;
 mod rigid;
 
-pub use quaternion::{canonical, slerp};
+pub use quaternion::{canonical, slerp, stored_form};
 pub use rigid::{Motion, rigid_parts, rigid_space};
 
 use crate::math;
@@ -244,6 +244,34 @@ impl Space {
             return None;
         }
         Some(self.distance(a, b))
+    }
+
+    /// [`Space::distance`], or `None` where it is cheaply known to be less than `bound`. The value,
+    /// when given, may be less too.
+    pub fn distance_unless_below(&self, a: &[f64], b: &[f64], bound: f64) -> Option<f64> {
+        let mut above = 0.0;
+        for part in &self.parts {
+            let difference = match part.kind {
+                PartKind::Real { .. } => a[part.at] - b[part.at],
+                PartKind::Angle => math::angle_between(a[part.at], b[part.at]),
+                // angle ≤ π √(1 − cos(angle / 2)) spares the arc cosine.
+                PartKind::Rotation => PI * (1.0 - dot(a, b, part.at).abs()).max(0.0).sqrt(),
+            } * part.weight;
+            above += difference * difference;
+        }
+        if bound > 0.0 && above * (1.0 + PRUNING_MARGIN) < bound * bound {
+            return None;
+        }
+        Some(self.distance(a, b))
+    }
+
+    /// The largest distance that two configurations can have.
+    pub fn diameter(&self) -> f64 {
+        let extent = |part: &Part| match part.kind {
+            PartKind::Real { min, max } => part.weight * (max - min),
+            PartKind::Angle | PartKind::Rotation => part.weight * PI,
+        };
+        self.parts.iter().map(|part| extent(part) * extent(part)).sum::<f64>().sqrt()
     }
 
     /// The configuration at distance `length` from `q` in a direction drawn uniformly:

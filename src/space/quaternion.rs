@@ -32,6 +32,14 @@ pub fn canonical(quaternion: [f64; 4]) -> Option<[f64; 4]> {
     Some(scaled.map(|value| value / length * sign + 0.0))
 }
 
+/// [`canonical`], but as it is where it has that form to within rounding: what is written out and read
+/// again stays the same to the bit.
+pub fn stored_form(quaternion: [f64; 4]) -> Option<[f64; 4]> {
+    let stored = canonical(quaternion)?;
+    let same = (0..4).all(|i| (stored[i] - quaternion[i]).abs() <= 2.0 * f64::EPSILON);
+    Some(if same { quaternion.map(|value| value + 0.0) } else { stored })
+}
+
 /// The rotation turned by a rotation vector (its direction the axis, its length the angle in radians),
 /// in stored form.
 pub(super) fn turned(from: [f64; 4], by: [f64; 3]) -> [f64; 4] {

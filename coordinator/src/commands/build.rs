@@ -1,4 +1,5 @@
 use super::grow::{Growth, limit, workers};
+use super::load::load;
 use super::resume::{Change, go_on};
 use crate::cli::BuildArguments;
 use crate::cpu::CpuClock;
@@ -6,7 +7,7 @@ use crate::exit::{Code, Failure};
 use crate::run::ledger::LEDGER;
 use crate::run::{LedgerWriter, RunFolder, RunLock};
 use crate::signals::Signals;
-use roadmill::problem::{Companions, Problem};
+use roadmill::problem::Problem;
 use roadmill_workers::channel::private_umask;
 use std::path::Path;
 use std::sync::Arc;
@@ -29,7 +30,15 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
         Some(out) if has_ledger(out) => RunFolder::of(out),
         Some(out) => RunFolder::make_or_take(out)?,
     };
-    let lock = RunLock::take(folder.path(), || signals.came())?;
+    let lock = match RunLock::take(folder.path(), || signals.came()) {
+        Ok(lock) => lock,
+        Err(failure) => {
+            if existing.is_none() {
+                folder.discard();
+            }
+            return Err(failure);
+        }
+    };
     // Looked for again now that nobody else can make it.
     if let Some(out) = existing.filter(|out| has_ledger(out)) {
         return go_on(out, lock, Change::None(&problem), growth, workers, signals, cpu);
@@ -51,9 +60,7 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
 
 /// The problem with what the command line changes of it.
 fn problem(arguments: &BuildArguments) -> Result<Problem, Failure> {
-    let companions =
-        Companions { robot: arguments.robot.as_deref(), query: arguments.query.as_deref() };
-    let mut problem = Problem::load_with(&arguments.problem, companions).map_err(Failure::usage)?;
+    let mut problem = load(&arguments.problem)?;
     problem.seed = arguments.seed.unwrap_or(problem.seed);
     problem.limits.seconds = arguments.growth.max_time.or(problem.limits.seconds);
     limit(&mut problem, &arguments.growth)?;

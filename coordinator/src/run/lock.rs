@@ -89,6 +89,8 @@ pub struct RunLock {
     file: File,
     holder: Holder,
     last_beat: Instant,
+    /// Whether other hosts may be looking.
+    is_shared: bool,
 }
 
 impl RunLock {
@@ -119,8 +121,9 @@ impl RunLock {
             Err(Errno::NOSYS | Errno::NOTSUP | Errno::NOLCK | Errno::INVAL) => false,
             Err(error) => return Err(cannot(error.into())),
         };
-        let here = is_locked && (caution.is_local)(&file);
-        let other = read(&path).filter(|other| !(here || is_locked && other.boot == boot()));
+        let is_shared = !(is_locked && (caution.is_local)(&file));
+        let is_dead = |other: &Holder| !is_shared || is_locked && other.boot == boot();
+        let other = read(&path).filter(|other| !is_dead(other));
         let watched = other.is_some();
         if let Some(other) = other {
             let begun = Instant::now();
@@ -143,7 +146,7 @@ impl RunLock {
             since: SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_secs(),
             beat: 0,
         };
-        let lock = RunLock { path, file, holder, last_beat: Instant::now() };
+        let lock = RunLock { path, file, holder, last_beat: Instant::now(), is_shared };
         lock.write()
             .map_err(|error| Failure::system(format!("{}: {error}", lock.path.display())))?;
         if watched {
@@ -188,7 +191,7 @@ impl RunLock {
         text.push(b'\n');
         self.file.write_all_at(&text, 0)?;
         // Other hosts see what has been sent to the server.
-        self.file.sync_data()
+        if self.is_shared { self.file.sync_data() } else { Ok(()) }
     }
 }
 

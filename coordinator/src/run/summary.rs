@@ -1,8 +1,9 @@
 use super::Stopped;
-use roadmill::evaluate::{EvaluatorKind, Verdict};
+use roadmill::evaluate::{Bound, CutEdge, EvaluatorKind, Verdict};
 use roadmill::problem::Problem;
 use roadmill::roadmap::Roadmap;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// What a build came to.
@@ -49,14 +50,20 @@ pub struct EvaluatorValue {
     pub name: &'static str,
     /// The value.
     pub value: f64,
-    /// The least value that would do.
+    /// What the value is compared with.
     pub threshold: f64,
+    /// Whether that is the least or the largest value that would do.
+    pub bound: Bound,
     /// Whether it does.
     pub satisfied: bool,
+    /// Further numbers by name.
+    pub measures: BTreeMap<&'static str, f64>,
     /// Of a query: edges left out because they failed the finer check.
     pub dropped_edges: Option<u64>,
     /// Of a solved query: the path's length in the space's metric.
     pub path_length: Option<f64>,
+    /// Of a max-flow: the edges of a least cut.
+    pub cut: Option<Vec<CutEdge>>,
 }
 
 impl EvaluatorValue {
@@ -75,13 +82,17 @@ impl EvaluatorValue {
     ) {
         for (evaluator, verdict) in evaluators.iter().zip(verdicts) {
             let answer = verdict.answer.as_ref();
+            let names = evaluator.method().measures();
             values.push(EvaluatorValue {
                 name: evaluator.method().name(),
                 value: verdict.value,
                 threshold: verdict.threshold,
+                bound: verdict.bound,
                 satisfied: verdict.satisfied,
+                measures: names.iter().copied().zip(verdict.measures.iter().copied()).collect(),
                 dropped_edges: answer.map(|answer| answer.dropped_edges),
                 path_length: answer.and_then(|answer| answer.path.as_ref()).map(|path| path.length),
+                cut: verdict.cut.clone(),
             });
             Self::collect(evaluator.method().parts(), &verdict.parts, values);
         }
@@ -90,7 +101,14 @@ impl EvaluatorValue {
 
 impl fmt::Display for EvaluatorValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {:.3} of {:.3}", self.name, self.value, self.threshold)?;
+        let of = if self.bound == Bound::AtMost { "of at most" } else { "of" };
+        write!(f, "{} {:.3} {of} {:.3}", self.name, self.value, self.threshold)?;
+        for (name, value) in &self.measures {
+            write!(f, ", {name} {value:.3}")?;
+        }
+        if let Some(cut) = &self.cut {
+            write!(f, ", a least cut severs {} edges", cut.len())?;
+        }
         if let Some(length) = self.path_length {
             write!(f, ", path of length {length:.3}")?;
         }

@@ -1,0 +1,104 @@
+//! Pairs of a new node and an old one near it, for the methods that choose by nodes.
+
+use super::JoinInput;
+use crate::context::Context;
+use crate::local::{self, Planner};
+use crate::neighbor::k_nearest;
+use crate::roadmap::{Components, Configs, Edge};
+use crate::validity::Scratch;
+
+/// The roadmap, or an earlier increment of the round.
+struct Part<'a> {
+    /// What its own node 0 is called after the round.
+    first: u32,
+    configs: &'a Configs,
+    components: &'a Components,
+}
+
+/// What came before an increment, and the increment.
+pub(super) struct Candidates<'a> {
+    old: Vec<Part<'a>>,
+    new: Part<'a>,
+}
+
+/// A pair to be tried; ids are those after the round.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub distance: f64,
+    pub new: u32,
+    pub old: u32,
+}
+
+impl<'a> Candidates<'a> {
+    /// `None` where there is nothing to join.
+    pub fn new(input: &'a JoinInput) -> Option<Candidates<'a>> {
+        let roadmap = &input.roadmap;
+        let (configs, components) = (roadmap.configs(), roadmap.components());
+        let mut old = vec![Part { first: 0, configs, components }];
+        let mut first = configs.len() as u32;
+        for built in &input.increments {
+            let (configs, components) = (&built.increment.configs, &built.components);
+            old.push(Part { first, configs, components });
+            first += configs.len() as u32;
+        }
+        let new = old.pop().filter(|_| !input.increments.is_empty())?;
+        Some(Candidates { old, new })
+    }
+
+    /// Each new node in order with its `neighbors` nearest old ones, nearest first, ties by id.
+    pub fn nearest(&self, cx: &Context, neighbors: u32) -> Vec<Candidate> {
+        let mut candidates = Vec::new();
+        for (index, q) in self.new.configs.iter().enumerate() {
+            let mut near = Vec::new();
+            for part in &self.old {
+                let all = 0..part.configs.len() as u32;
+                for mut neighbor in k_nearest(&cx.space, part.configs, all, q, neighbors as usize) {
+                    neighbor.id += part.first;
+                    near.push(neighbor);
+                }
+            }
+            near.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
+            near.truncate(neighbors as usize);
+            let new = self.new.first + index as u32;
+            candidates.extend(near.iter().map(|neighbor| Candidate {
+                distance: neighbor.distance,
+                new,
+                old: neighbor.id,
+            }));
+        }
+        candidates
+    }
+
+    /// Tries a pair, from the old node to the new.
+    pub fn connect(
+        &self,
+        cx: &Context,
+        planners: &[Planner],
+        pair: Candidate,
+        scratch: &mut Scratch,
+    ) -> Option<Edge> {
+        let ends = (self.config(pair.old), self.config(pair.new));
+        local::connect(cx, planners, ends, 1, scratch).map(|(planner, weight)| Edge {
+            low: pair.old,
+            high: pair.new,
+            planner: planner.tag(),
+            weight,
+        })
+    }
+
+    /// The smallest id in the component of a node, without any joining edge of the round.
+    pub fn component(&self, node: u32) -> u32 {
+        let part = self.part(node);
+        part.first + part.components.of_node(node - part.first).name
+    }
+
+    fn config(&self, node: u32) -> &[f64] {
+        let part = self.part(node);
+        part.configs.get((node - part.first) as usize)
+    }
+
+    fn part(&self, node: u32) -> &Part<'a> {
+        let mut parts = self.old.iter().chain([&self.new]).rev();
+        parts.find(|part| part.first <= node).expect("the first part begins at 0")
+    }
+}

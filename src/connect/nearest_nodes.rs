@@ -1,0 +1,48 @@
+use super::candidates::Candidates;
+use super::{Among, JoinInput, default_planners};
+use crate::context::Context;
+use crate::local::{self, Planner};
+use crate::methods::Complaint;
+use crate::roadmap::Edge;
+use crate::validity::Scratch;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+
+/// Each new node with its `neighbors` nearest nodes of the roadmap and of the round's earlier
+/// increments: as PRM connects (Kavraki et al. 1996). TR05-007 §5 calls its own way of merging *"a naive
+/// approach … that only attempts connections between nearby components"*; this one looks at nodes, so
+/// every one gets a chance, whatever the centre of its component. All pairs are tried and all
+/// successes kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields)]
+pub struct NearestNodes {
+    /// How many nearest nodes of each new one.
+    #[serde(default = "default_neighbors")]
+    pub neighbors: u32,
+    /// Local planners, tried in this order until one succeeds.
+    #[serde(default = "default_planners")]
+    pub planners: Vec<Planner>,
+}
+
+pub(super) fn default_neighbors() -> u32 {
+    10
+}
+
+impl Among for NearestNodes {
+    fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
+        let Some(candidates) = Candidates::new(input) else { return Vec::new() };
+        let pairs = candidates.nearest(cx, self.neighbors).into_iter();
+        pairs.filter_map(|pair| candidates.connect(cx, &self.planners, pair, scratch)).collect()
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        complaint(self.neighbors, &self.planners)
+    }
+}
+
+pub(super) fn complaint(neighbors: u32, planners: &[Planner]) -> Option<Complaint> {
+    if neighbors == 0 {
+        return Some(("neighbors", "0".to_owned(), "at least 1"));
+    }
+    local::complaint(planners)
+}

@@ -1,0 +1,146 @@
+use super::network::Network;
+use super::verdict::CutEdge;
+use super::{Evaluator, Verdict, samples};
+use crate::context::Context;
+use crate::local::Planner;
+use crate::methods::Complaint;
+use crate::query::{Attachment, attach};
+use crate::roadmap::{Edge, Roadmap};
+use crate::validity::Scratch;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+
+/// Enough can flow through the roadmap from one configuration, or any of several, to another: TR05-007 §3.2,
+/// *"If a roadmap edge weight, w(e), reflects the likelihood that the protein will move from one
+/// configuration to the next, then we can define edge capacity c(e) as 1/w(e). The evaluator returns
+/// success if the max-flow between the two configurations is above some threshold f."*
+///
+/// The configurations are attached to their nearest nodes as a query's are. Every edge carries its
+/// capacity in each direction. Weights below `least_weight` count as that, since 1/w has no bound. In
+/// units of 2⁻³² of the largest capacity, 1/`least_weight`, capacities are rounded to whole
+/// numbers; of these the flow is exact and equals the least cut, which the verdict holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields)]
+pub struct MaxFlow {
+    /// The least flow that will do, in units of one over those of weights.
+    pub flow: f64,
+    /// Where the flow begins; empty: at the query's start.
+    #[serde(default)]
+    pub from: Vec<Vec<f64>>,
+    /// Where it ends; empty: at the query's goal.
+    #[serde(default)]
+    pub to: Vec<Vec<f64>>,
+    /// The least weight that an edge counts with; none: a thousandth of the space's diameter.
+    pub least_weight: Option<f64>,
+    /// How many nearest nodes each configuration tries to connect to.
+    #[serde(default = "samples::default_neighbors")]
+    pub neighbors: u32,
+    /// Local planners, tried in this order until one succeeds.
+    #[serde(default = "samples::default_planners")]
+    pub planners: Vec<Planner>,
+}
+
+/// The largest capacity as a whole number.
+const SCALE: f64 = (1u64 << 32) as f64;
+const ENDS_MAX: usize = 10_000;
+
+impl MaxFlow {
+    fn how(&self) -> Attachment {
+        Attachment { neighbors: self.neighbors, planners: self.planners.clone() }
+    }
+
+    fn least_weight(&self, cx: &Context) -> f64 {
+        let chosen = self.least_weight.unwrap_or(cx.space.diameter() / 1000.0);
+        if chosen > 0.0 { chosen } else { 1.0 }
+    }
+}
+
+impl Evaluator for MaxFlow {
+    fn name(&self) -> &'static str {
+        "max-flow"
+    }
+
+    fn evaluate(
+        &self,
+        cx: &Context,
+        _path: &str,
+        roadmap: &Roadmap,
+        scratch: &mut Scratch,
+    ) -> Verdict {
+        scratch.take_asked();
+        let query = cx.query.as_ref();
+        let [from, to] =
+            [(&self.from, query.map(|ends| &ends.start)), (&self.to, query.map(|ends| &ends.goal))]
+                .map(|(listed, asked)| match asked {
+                    Some(asked) if listed.is_empty() => std::slice::from_ref(asked),
+                    _ => &listed[..],
+                });
+
+        let nodes = roadmap.configs().len();
+        let mut edges: Vec<Edge> = roadmap.edges().to_vec();
+        for (index, q) in from.iter().chain(to).enumerate() {
+            let id = (nodes + index) as u32;
+            edges.extend(attach(cx, roadmap, q, id, &self.how(), scratch));
+        }
+        let least = self.least_weight(cx);
+        let whole = |weight: f64| (least / weight.max(least) * SCALE).round() as u64;
+        let mut network = Network::new(nodes + from.len() + to.len(), 2 * edges.len());
+        for edge in &edges {
+            network.add(edge.low, edge.high, whole(edge.weight));
+            network.add(edge.high, edge.low, whole(edge.weight));
+        }
+        let ids = |first: usize, count: usize| {
+            (first..first + count).map(|id| id as u32).collect::<Vec<u32>>()
+        };
+        let (sources, sinks) = (ids(nodes, from.len()), ids(nodes + from.len(), to.len()));
+        let (flow, near) = network.flow(&sources, &sinks);
+
+        let real = |capacity: u64| capacity as f64 / SCALE / least;
+        let mut cut = Vec::new();
+        for edge in &edges {
+            let severed = match [edge.low, edge.high].map(|node| near[node as usize]) {
+                [true, false] => Some((edge.low, edge.high)),
+                [false, true] => Some((edge.high, edge.low)),
+                _ => None,
+            };
+            cut.extend(severed.map(|(from, to)| CutEdge {
+                from,
+                to,
+                capacity: real(whole(edge.weight)),
+            }));
+        }
+        let asked = scratch.take_asked();
+        Verdict { cut: Some(cut), ..Verdict::at_least(self.flow, real(flow), asked) }
+    }
+
+    fn needs_query(&self) -> bool {
+        self.from.is_empty() || self.to.is_empty()
+    }
+
+    fn attachment(&self) -> Option<Attachment> {
+        Some(self.how())
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        if !(self.flow > 0.0 && self.flow.is_finite()) {
+            return Some(("flow", self.flow.to_string(), "a positive number"));
+        }
+        if let Some(least) = self.least_weight.filter(|least| !(1e-30..=1e30).contains(least)) {
+            return Some(("least_weight", least.to_string(), "1e-30 to 1e30"));
+        }
+        let most = self.from.len().max(self.to.len());
+        if most > ENDS_MAX {
+            return Some(("from, to", most.to_string(), "at most 10000 configurations"));
+        }
+        self.how().complaint()
+    }
+
+    fn settle(&mut self, cx: &Context) -> Result<(), String> {
+        for (key, list) in [("from", &mut self.from), ("to", &mut self.to)] {
+            for (index, q) in list.iter_mut().enumerate() {
+                cx.settle(q).map_err(|error| format!("{key}[{index}]: {error}"))?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,99 @@
+//! Maximum flow, and the cut that bounds it.
+
+use petgraph::algo::dinics;
+use petgraph::graph::{DiGraph, NodeIndex};
+use petgraph::visit::EdgeRef;
+
+/// More than any flow.
+const UNBOUNDED: u64 = u64::MAX / 4;
+
+/// A directed network with capacities in whole numbers.
+pub(super) struct Network {
+    graph: DiGraph<(), u64>,
+}
+
+impl Network {
+    /// So many nodes without arcs.
+    pub fn new(nodes: usize, arcs: usize) -> Network {
+        let mut graph = DiGraph::with_capacity(nodes + 2, arcs);
+        (0..nodes + 2).for_each(|_| _ = graph.add_node(()));
+        Network { graph }
+    }
+
+    /// Adds an arc.
+    pub fn add(&mut self, from: u32, to: u32, capacity: u64) {
+        self.graph.add_edge(NodeIndex::from(from), NodeIndex::from(to), capacity);
+    }
+
+    /// The largest flow from all of `sources` to all of `sinks`, and for each node whether it is on the
+    /// sources' side of the least cut nearest to them. That side is what a largest flow leaves
+    /// reachable, and the same whichever largest flow it is.
+    pub fn flow(mut self, sources: &[u32], sinks: &[u32]) -> (u64, Vec<bool>) {
+        let nodes = self.graph.node_count() as u32 - 2;
+        let (source, sink) = (nodes, nodes + 1);
+        sources.iter().for_each(|from| self.add(source, *from, UNBOUNDED));
+        sinks.iter().for_each(|to| self.add(*to, sink, UNBOUNDED));
+        let (value, flows) = dinics(&self.graph, NodeIndex::from(source), NodeIndex::from(sink));
+
+        let mut reached = vec![false; self.graph.node_count()];
+        reached[source as usize] = true;
+        let mut open = vec![NodeIndex::from(source)];
+        while let Some(node) = open.pop() {
+            let onward =
+                self.graph.edges(node).filter(|arc| flows[arc.id().index()] < *arc.weight());
+            let back = self.graph.edges_directed(node, petgraph::Incoming);
+            let back = back.filter(|arc| flows[arc.id().index()] > 0).map(|arc| arc.source());
+            for next in onward.map(|arc| arc.target()).chain(back) {
+                if !std::mem::replace(&mut reached[next.index()], true) {
+                    open.push(next);
+                }
+            }
+        }
+        reached.truncate(nodes as usize);
+        (value, reached)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const NODES: u32 = 7;
+
+    /// What a side of the nodes lets out.
+    fn capacity(arcs: &[(u32, u32, u64)], side: impl Fn(u32) -> bool) -> u64 {
+        let severed = arcs.iter().filter(|(from, to, _)| side(*from) && !side(*to));
+        severed.map(|(_, _, capacity)| capacity).sum()
+    }
+
+    proptest! {
+        #[test]
+        fn the_flow_is_the_least_of_all_cuts(
+            arcs in proptest::collection::vec((0..NODES, 0..NODES, 0u64..20), 0..30),
+            sources in 1u32..8, sinks in 1u32..8,
+        ) {
+            let mut network = Network::new(NODES as usize, arcs.len());
+            arcs.iter().for_each(|(from, to, capacity)| network.add(*from, *to, *capacity));
+            // Of the first three nodes and of the last three.
+            let sources: Vec<u32> = (0..3).filter(|i| sources >> i & 1 == 1).collect();
+            let sinks: Vec<u32> = (0..3).filter(|i| sinks >> i & 1 == 1).map(|i| i + 4).collect();
+            let (flow, side) = network.flow(&sources, &sinks);
+
+            let has = |set: u32, node: u32| set >> node & 1 == 1;
+            let cuts = (0..1u32 << NODES).filter(|set| {
+                sources.iter().all(|node| has(*set, *node)) && !sinks.iter().any(|node| has(*set, *node))
+            });
+            let cuts: Vec<(u64, u32)> =
+                cuts.map(|set| (capacity(&arcs, |node| has(set, node)), set)).collect();
+            let least = cuts.iter().map(|(capacity, _)| *capacity).min();
+            prop_assert_eq!(Some(flow), least);
+            prop_assert_eq!(capacity(&arcs, |node| side[node as usize]), flow);
+            // Nearest to the sources: what all least cuts have in common.
+            let common = cuts.iter().filter(|cut| cut.0 == flow).fold(u32::MAX, |all, cut| all & cut.1);
+            for node in 0..NODES {
+                prop_assert_eq!(side[node as usize], has(common, node));
+            }
+        }
+    }
+}
