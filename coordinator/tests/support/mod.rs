@@ -150,7 +150,7 @@ impl Scratch {
         self.start_command(command, "")
     }
 
-    fn start_command(&self, mut command: Command, faults: &str) -> Running {
+    pub fn start_command(&self, mut command: Command, faults: &str) -> Running {
         let mut started = self.started.borrow_mut();
         let number = started.len();
         let [stdout, stderr] =
