@@ -2,7 +2,7 @@ use super::Problem;
 use crate::robot::{JointKind, Limits};
 use crate::scene::{Body, Shape};
 use crate::space::Motion;
-use crate::validity::BoundsMeaning;
+use crate::validity::{BoundsMeaning, Edges, TOLERANCE};
 use std::fmt::Write;
 
 pub(super) fn describe(problem: &Problem) -> String {
@@ -62,11 +62,11 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         &bounds.min[..axes],
         &bounds.max[..axes]
     )?;
-    writeln!(
-        out,
-        "resolution       {}: no robot point moves farther between two checks",
-        problem.resolution
-    )?;
+    let promise = match problem.edges {
+        Edges::Swept => format!("motions are free at all times, to a {TOLERANCE}th of it"),
+        Edges::Sampled => "no robot point moves farther between two checks".to_owned(),
+    };
+    writeln!(out, "resolution       {}: {promise}", problem.resolution)?;
     if problem.robot.motion.rotates() {
         writeln!(
             out,

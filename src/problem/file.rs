@@ -4,7 +4,7 @@ use crate::connect::{AmongKind, ComponentPairs, Nearest, WithinKind};
 use crate::evaluate::EvaluatorKind;
 use crate::sampler::{SamplerKind, Uniform};
 use crate::space::Motion;
-use crate::validity::BoundsMeaning;
+use crate::validity::{BoundsMeaning, Edges};
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -35,6 +35,8 @@ pub(super) struct SpaceTable {
     pub max: Vec<f64>,
     pub bounds: BoundsMeaning,
     pub resolution: Option<f64>,
+    #[serde(default)]
+    pub edges: Edges,
     pub rotation_length: Option<f64>,
 }
 

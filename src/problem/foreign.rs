@@ -16,7 +16,7 @@ use crate::foreign::{
 use crate::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, Robot};
 use crate::scene::{Body, LENGTH_MAX, Pose};
 use crate::space::Motion;
-use crate::validity::{Bounds, BoundsMeaning};
+use crate::validity::{Bounds, BoundsMeaning, Edges};
 use std::path::Path;
 
 /// Reads a scene of OMPL.app or Parasol, or a robot in URDF, told apart by the extension; `None` for any
@@ -114,6 +114,7 @@ fn finished(path: &Path, parts: Parts) -> Result<Problem, ProblemError> {
         seed: DEFAULT_SEED,
         bounds,
         resolution,
+        edges: Edges::default(),
         rotation_length,
         robot,
         obstacles,

@@ -29,7 +29,7 @@ use crate::robot::Robot;
 use crate::scene::Body;
 use crate::space::Space;
 use crate::strategy::Strategy;
-use crate::validity::{BodyValidity, Bounds};
+use crate::validity::{BodyValidity, Bounds, Edges};
 use bincode::{Decode, Encode};
 use std::path::Path;
 
@@ -48,6 +48,8 @@ pub struct Problem {
     pub bounds: Bounds,
     /// The farthest that any robot point moves between two checks of a motion; a length.
     pub resolution: f64,
+    /// What is promised of the motions along edges.
+    pub edges: Edges,
     /// Length that one radian of rotation counts for in the metric.
     pub rotation_length: f64,
     /// The robot.
@@ -124,7 +126,7 @@ impl Problem {
         let determining = (
             crate::BITS_VERSION,
             (self.seed, self.bounds),
-            (self.resolution, self.rotation_length),
+            (self.resolution, self.edges, self.rotation_length),
             (&self.robot, &self.obstacles),
             (&self.strategies, &self.schedule, self.sets_per_round, &self.earlier),
         );
@@ -144,7 +146,7 @@ impl Problem {
             space.clone(),
             &self.robot,
             self.bounds,
-            self.resolution,
+            (self.edges, self.resolution),
             &self.obstacles,
         );
         Context {

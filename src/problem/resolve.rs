@@ -42,6 +42,7 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
         seed,
         bounds,
         resolution,
+        edges: file.space.edges,
         rotation_length,
         robot,
         obstacles,

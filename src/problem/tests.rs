@@ -97,6 +97,7 @@ fn the_digest_covers_what_determines_entries_and_nothing_else() {
         (Problem { evaluators: Vec::new(), ..problem.clone() }, true),
         (Problem { seed: 2, ..problem.clone() }, false),
         (Problem { resolution: 0.01, ..problem.clone() }, false),
+        (Problem { edges: Edges::Sampled, ..problem.clone() }, false),
         (Problem { sets_per_round: 6, ..problem.clone() }, false),
         (Problem { obstacles: Vec::new(), ..problem.clone() }, false),
     ] {

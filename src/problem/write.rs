@@ -56,6 +56,7 @@ impl Writer<'_> {
         writeln!(out, "min = {:?}\nmax = {:?}", &bounds.min[..axes], &bounds.max[..axes])?;
         writeln!(out, "bounds = {}", value(&bounds.meaning))?;
         writeln!(out, "resolution = {:?}", problem.resolution)?;
+        writeln!(out, "edges = {}", value(&problem.edges))?;
         writeln!(out, "rotation_length = {:?}", problem.rotation_length)?;
 
         writeln!(out, "\n[robot]\nname = {}", value(&robot.links[0].name))?;

@@ -5,9 +5,11 @@
 //! those of the joints in the order of their links.
 
 mod joint;
+mod rates;
 mod space;
 
 pub use joint::{Joint, JointKind, Limits, TURN_MAX};
+pub(crate) use rates::{Chain, Rates};
 pub use space::Speeds;
 
 use crate::math;
@@ -137,5 +139,7 @@ impl Robot {
     }
 }
 
+#[cfg(test)]
+pub(crate) mod rates_tests;
 #[cfg(test)]
 mod tests;
