@@ -85,9 +85,11 @@ fn files_that_do_not_belong_to_the_build_are_refused_by_name() {
 
     // The beginning: kind, program, version of the bits, digest of the problem, label.
     let mut fields = Fields(&records[0]);
-    (fields.u32(), fields.text());
+    fields.u32();
+    fields.text();
     let bits = records[0].len() - fields.0.len();
-    (fields.u32(), fields.hash());
+    fields.u32();
+    fields.hash();
     assert_eq!(fields.text(), "a");
     assert_eq!((fields.u64(), fields.u64()), (0, 3));
     assert!(fields.0.is_empty());
