@@ -2,6 +2,7 @@
 
 use crate::exit;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::ops::Range;
 use std::path::PathBuf;
 
 /// Grows probabilistic roadmaps in many processes, the same bit for bit however many.
@@ -19,6 +20,8 @@ pub enum Command {
     /// Grow a roadmap until the problem's criteria are met
     #[command(allow_negative_numbers = true)]
     Build(BuildArguments),
+    /// Make sets apart from a build, which takes them in by --import
+    Generate(GenerateArguments),
     /// Go on with a build that was interrupted, or with a finished one by other criteria
     #[command(allow_negative_numbers = true)]
     Resume(ResumeArguments),
@@ -152,8 +155,34 @@ pub struct BuildArguments {
     /// Go on with the run that --out names, if there is one of this problem
     #[arg(long, requires = "out", conflicts_with = "force")]
     pub or_resume: bool,
+    /// Take sets from files that `generate` wrote: paths, or patterns in quotes ('parts/*.sets')
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub import: Vec<String>,
     #[command(flatten)]
     pub growth: GrowthArguments,
+}
+
+/// Of `generate`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct GenerateArguments {
+    #[command(flatten)]
+    pub problem: ProblemArguments,
+    /// Base seed, instead of the problem's
+    #[arg(long, value_name = "SEED")]
+    pub seed: Option<u64>,
+    /// Which sets: those of a strategy from one ordinal to before another (uniform:0..64)
+    #[arg(long, value_name = "LABEL:FIRST..END", value_parser = sets)]
+    pub sets: (String, Range<u64>),
+    /// The file to be written
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Replace the file that --out names
+    #[arg(long)]
+    pub force: bool,
+    /// Threads [default: the cores this process may use]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
 }
 
 /// Of everything that grows a roadmap: who does the work, and how far it goes.
@@ -377,6 +406,16 @@ fn bytes(text: &str) -> Result<u64, String> {
     let bytes = number.trim().parse::<u64>().ok().and_then(|number| number.checked_mul(unit));
     let expected = "a positive number of bytes, or with K, M, G or T behind it, expected";
     bytes.filter(|bytes| *bytes > 0).ok_or_else(|| expected.to_owned())
+}
+
+fn sets(text: &str) -> Result<(String, Range<u64>), String> {
+    let parse = || {
+        let (label, range) = text.rsplit_once(':')?;
+        let (first, end) = range.split_once("..")?;
+        let range: Range<u64> = first.parse().ok()?..end.parse().ok()?;
+        (!range.is_empty()).then(|| (label.to_owned(), range))
+    };
+    parse().ok_or_else(|| "LABEL:FIRST..END expected, with FIRST below END".to_owned())
 }
 
 /// A share in percent, as a fraction.

@@ -14,7 +14,7 @@ pub enum Code {
     Usage = 2,
     /// A limit was reached, or a roadmap searched, without success.
     NoSuccess = 3,
-    /// A run folder is damaged, or a job gave two different outcomes.
+    /// A run folder or a file of sets is damaged, or a job gave two different outcomes.
     BrokenRun = 4,
     /// The workers died faster than they could be replaced, or a job that kills them.
     WorkersLost = 5,
@@ -31,7 +31,7 @@ Exit codes:
   1  the system failed (disk full, no process can be started)
   2  usage: the command line, the problem or the run folder cannot be used, or is in use
   3  a limit was reached, or the roadmap searched, without success
-  4  broken run: a damaged run folder, or a job with two different outcomes
+  4  broken run: a damaged run folder or file of sets, or a job with two different outcomes
   5  workers lost: they died faster than they could be replaced, or one set killed them
   6  interrupted by a signal; the last complete round is saved
   7  not the same: a set recomputed by verify, or two runs compared by diff";

@@ -18,6 +18,7 @@ use std::process::ExitCode;
 pub fn main() -> ExitCode {
     let result = match cli::Arguments::parse().command {
         cli::Command::Build(arguments) => commands::build(&arguments),
+        cli::Command::Generate(arguments) => commands::generate(&arguments),
         cli::Command::Resume(arguments) => commands::resume(&arguments),
         cli::Command::Status(arguments) => commands::status(&arguments),
         cli::Command::Verify(arguments) => commands::verify(&arguments),

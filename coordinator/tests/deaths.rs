@@ -4,23 +4,12 @@ mod support;
 
 use rustix::process::Signal;
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::Path;
 use std::thread::sleep;
 use std::time::Duration;
-use support::{ENDLESS, Process, Running, Scratch, left_of, send, wait_until};
-
-/// A fixed pseudo-random sequence (xorshift), so that every run of a test does the same.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, end: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 % end as u64) as usize
-    }
-}
+use support::{
+    ENDLESS, Process, Random, Running, Scratch, left_of, processes_naming, send, wait_until,
+};
 
 fn start_endless(scratch: &Scratch, run: &str, workers: &str) -> Running {
     scratch.write("endless.toml", ENDLESS);
@@ -43,24 +32,12 @@ fn assert_readable(scratch: &Scratch, run: &str) {
     assert!(matches!(done.status.code(), Some(0 | 3)), "{done:?}");
 }
 
-/// Processes whose command line names this folder, as that of every worker does.
-fn processes_naming(folder: &Path) -> Vec<u32> {
-    let name = folder.to_string_lossy().into_owned();
-    let entries = fs::read_dir("/proc").expect("there is /proc").flatten();
-    let ids = entries.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
-    let names = |id: &u32| {
-        let command = fs::read(format!("/proc/{id}/cmdline")).unwrap_or_default();
-        String::from_utf8_lossy(&command).contains(&name)
-    };
-    ids.filter(names).collect()
-}
-
 #[test]
 fn workers_killed_at_any_moment_are_replaced_and_change_nothing() {
     const WORKERS: usize = 3;
     let scratch = Scratch::new();
     let build = start_endless(&scratch, "run", "3");
-    let mut random = Random(0x5eed);
+    let mut random = Random::new(0x5eed);
     let mut killed = BTreeSet::new();
     for kill in 1..=24 {
         let mut workers = Vec::new();
@@ -148,15 +125,17 @@ fn a_set_that_kills_its_workers_ends_the_build_by_name() {
     assert_readable(&scratch, "run");
 }
 
+/// Rubbish, an answer that was given before, and half a message: the worker is replaced.
 #[test]
-fn a_worker_that_talks_rubbish_is_replaced_and_changes_nothing() {
+fn a_worker_that_talks_nonsense_is_replaced_and_changes_nothing() {
     let scratch = Scratch::new();
     scratch.write("endless.toml", ENDLESS);
     let arguments = ["build", "endless.toml", "--out", "run", "--workers", "2", "--max-sets", "48"];
-    let mark = scratch.path("garbled");
-    let faults = format!("garble-at=a:5:{}", mark.display());
-    scratch.start_with_faults(&arguments, &faults).finish().assert_code(0);
-    assert!(mark.is_file(), "the fault came about");
+    let faults = [("garble-at", "a:5"), ("twice-at", "b:4"), ("half-at", "a:14")];
+    let mark = |name: &str| scratch.path(name);
+    let named = faults.map(|(name, set)| format!("{name}={set}:{}", mark(name).display()));
+    scratch.start_with_faults(&arguments, &named.join(",")).finish().assert_code(0);
+    assert!(faults.iter().all(|(name, _)| mark(name).is_file()), "the faults came about");
     assert_eq!(scratch.summary("run").digest, scratch.undisturbed_digest(48));
 }
 

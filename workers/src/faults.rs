@@ -1,25 +1,46 @@
-//! Faults that the process tests ask for: a worker that dies, or talks rubbish, at a given set.
+//! Faults that the process tests ask for: a worker that dies, talks rubbish, repeats itself or stops in
+//! the middle of a message, at a given set.
 //!
 //! Workers read them from the environment variable [`VARIABLE`], which is for tests only. A fault
 //! takes a worker's answer away; none can change an outcome.
 
 use crate::WorkerError;
+use crate::channel::CHUNK_BYTES;
 use roadmill::img::{Job, Setup};
 use rustix::process::{Signal, getpid, kill_process};
+use std::cell::Cell;
 use std::fs::File;
 use std::path::PathBuf;
 
 /// Faults separated by commas: `die-at=LABEL:ORDINAL` ends each worker that is to generate that
-/// set; `garble-at=LABEL:ORDINAL:FILE` makes the first one answer with rubbish, and `FILE`, which
-/// must not be there yet, marks that it has.
+/// set. The others come about once, and a `FILE`, which must not be there yet, marks that they have:
+/// `garble-at=LABEL:ORDINAL:FILE` makes the first worker answer with rubbish, `twice-at=…` makes it give
+/// its answer again instead of the one to its next job, and `half-at=…` ends it while it sends.
 const VARIABLE: &str = "ROADMILL_FAULTS";
 
 /// Bytes that decode as no message.
 const RUBBISH: [u8; 24] = [0xff; 24];
+/// So long that a worker waits for the coordinator many times while it sends it.
+const LONG_BYTES: usize = 64 * CHUNK_BYTES;
 
 enum Effect {
     Die,
-    GarbleOnce(PathBuf),
+    Once(PathBuf, Kind),
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Garble,
+    Twice,
+    Half,
+}
+
+/// What a worker does wrong.
+pub enum Slip {
+    /// It says this instead of its answer.
+    Instead(Vec<u8>),
+    /// It gives its answer, and once more after that.
+    Twice,
 }
 
 struct Fault {
@@ -29,7 +50,11 @@ struct Fault {
 }
 
 /// The faults of a worker; usually none.
-pub struct Faults(Vec<Fault>);
+pub struct Faults {
+    faults: Vec<Fault>,
+    /// Whether the worker ends when it next waits.
+    is_ending: Cell<bool>,
+}
 
 impl Faults {
     /// Reads the environment.
@@ -37,26 +62,41 @@ impl Faults {
     /// # Errors
     /// When it names faults that there are not: a test would pass without having tested.
     pub fn read() -> Result<Faults, WorkerError> {
+        let mut faults = Faults { faults: Vec::new(), is_ending: Cell::new(false) };
         let Some(text) = std::env::var_os(VARIABLE) else {
-            return Ok(Faults(Vec::new()));
+            return Ok(faults);
         };
         let text = text.to_string_lossy();
         let fault =
             |word| parse(word).ok_or_else(|| WorkerError::Faults(VARIABLE, text.to_string()));
-        text.split(',').map(fault).collect::<Result<_, _>>().map(Faults)
+        faults.faults = text.split(',').map(fault).collect::<Result<_, _>>()?;
+        Ok(faults)
     }
 
-    /// What happens instead of `job`: nothing, the end of the process, or an answer without sense.
-    pub fn instead_of(&self, job: Job, setup: &Setup) -> Option<Vec<u8>> {
+    /// What goes wrong with the answer to `job`: nothing, a slip, or the end of the process.
+    pub fn at(&self, job: Job, setup: &Setup) -> Option<Slip> {
         let Job::Generate { place } = job else {
             return None;
         };
         let (strategy, ordinal) = setup.plan.set_at(place);
         let label = &setup.problem.strategies[strategy as usize].label;
         let here = |fault: &&Fault| fault.ordinal == ordinal && fault.label == *label;
-        match &self.0.iter().find(here)?.effect {
+        match &self.faults.iter().find(here)?.effect {
             Effect::Die => die(),
-            Effect::GarbleOnce(mark) => File::create_new(mark).is_ok().then(|| RUBBISH.to_vec()),
+            Effect::Once(mark, _) if File::create_new(mark).is_err() => None,
+            Effect::Once(_, Kind::Garble) => Some(Slip::Instead(RUBBISH.to_vec())),
+            Effect::Once(_, Kind::Twice) => Some(Slip::Twice),
+            Effect::Once(_, Kind::Half) => {
+                self.is_ending.set(true);
+                Some(Slip::Instead(vec![0xff; LONG_BYTES]))
+            }
+        }
+    }
+
+    /// To be called whenever the worker waits for the coordinator.
+    pub fn at_wait(&self) {
+        if self.is_ending.get() {
+            die();
         }
     }
 }
@@ -68,7 +108,9 @@ fn parse(word: &str) -> Option<Fault> {
     let ordinal = parts.next()?.parse().ok()?;
     let effect = match (name, parts.next()) {
         ("die-at", None) => Effect::Die,
-        ("garble-at", Some(mark)) => Effect::GarbleOnce(mark.into()),
+        ("garble-at", Some(mark)) => Effect::Once(mark.into(), Kind::Garble),
+        ("twice-at", Some(mark)) => Effect::Once(mark.into(), Kind::Twice),
+        ("half-at", Some(mark)) => Effect::Once(mark.into(), Kind::Half),
         _ => return None,
     };
     Some(Fault { label, ordinal, effect })
@@ -93,7 +135,9 @@ mod tests {
     #[test]
     fn only_known_faults_are_read() {
         assert!(parse("die-at=a:3").is_some_and(|fault| fault.label == "a" && fault.ordinal == 3));
-        assert!(parse("garble-at=a:3:/x:y").is_some());
+        for word in ["garble-at=a:3:/x:y", "twice-at=a:3:x", "half-at=a:3:x"] {
+            assert!(parse(word).is_some(), "{word}");
+        }
         for word in
             ["", "die", "die-at=a", "die-at=a:x", "die-at=a:3:f", "garble-at=a:3", "lie-at=a:3"]
         {

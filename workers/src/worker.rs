@@ -1,5 +1,5 @@
 use crate::channel::{ChannelError, Link, WorkerId};
-use crate::faults::Faults;
+use crate::faults::{Faults, Slip};
 use crate::message::{Entry, FromWorker, PROTOCOL, ToWorker};
 use roadmill::img::{Outcome, Replica, Setup, Task};
 use roadmill::problem::Problem;
@@ -66,7 +66,10 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
     let mut link = Link::open(&arguments.directory, arguments.worker)?;
     // An orphan that its parent's death did not end ends itself here.
     let parent = arguments.coordinator;
-    let mut parent_lives = move || is_parent(parent);
+    let mut parent_lives = || {
+        faults.at_wait();
+        is_parent(parent)
+    };
     let mut call = |message: &[u8]| -> Result<ToWorker, WorkerError> {
         let reply = link.call(message, &mut parent_lives)?;
         Ok(wire::decode(&reply)?)
@@ -97,16 +100,22 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
         }
         message = match job {
             None => wire::encode(&FromWorker::More),
-            Some(job) => match faults.instead_of(job, &setup) {
-                Some(rubbish) => rubbish,
-                None => {
-                    let task = replica.task(&setup, job).ok_or(WorkerError::Turn("a job"))?;
-                    let outcome = wire::encode(&task.run(&setup, &mut scratch));
-                    // Free the inputs before the next fold, which would copy a shared roadmap.
-                    drop(task);
-                    wire::encode(&FromWorker::Finished { job, outcome })
+            Some(job) => {
+                let task = replica.task(&setup, job).ok_or(WorkerError::Turn("a job"))?;
+                let slip = faults.at(job, &setup);
+                let outcome = wire::encode(&task.run(&setup, &mut scratch));
+                // Free the inputs before the next fold, which would copy a shared roadmap.
+                drop(task);
+                let answer = wire::encode(&FromWorker::Finished { job, outcome });
+                match slip {
+                    None => answer,
+                    Some(Slip::Instead(rubbish)) => rubbish,
+                    Some(Slip::Twice) => {
+                        call(&answer)?;
+                        answer
+                    }
                 }
-            },
+            }
         };
     }
 }

@@ -5,7 +5,7 @@ use crate::cli::BuildArguments;
 use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
 use crate::run::ledger::LEDGER;
-use crate::run::{LedgerWriter, RunFolder, RunLock};
+use crate::run::{LedgerWriter, RunFolder, RunLock, SetFiles};
 use crate::signals::Signals;
 use roadmill::problem::Problem;
 use roadmill_workers::channel::private_umask;
@@ -20,6 +20,7 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
     let problem = problem(arguments)?;
     let growth = &arguments.growth;
     let workers = workers(&growth.crew)?;
+    let imports = SetFiles::open(&arguments.import, &problem)?;
     // Listened to from here on, so that a signal never leaves half a folder unexplained.
     let signals = Signals::listen().map_err(Failure::system)?;
     let signals = Arc::new(signals);
@@ -41,7 +42,7 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
     };
     // Looked for again now that nobody else can make it.
     if let Some(out) = existing.filter(|out| has_ledger(out)) {
-        return go_on(out, lock, Change::None(&problem), growth, workers, signals, cpu);
+        return go_on(out, lock, Change::None(&problem, imports), growth, workers, signals, cpu);
     }
     let ledger = match LedgerWriter::begin(folder.path(), &problem, lock) {
         Ok(ledger) => ledger,
@@ -54,8 +55,13 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
         let (name, seed) = (&problem.name, problem.seed);
         eprintln!("{name}: seed {seed}, run folder {}", folder.path().display());
         problem.notes.iter().for_each(|note| eprintln!("{name}: {note}"));
+        if imports.count() > 0 {
+            eprintln!("{name}: {} sets are imported when they are needed", imports.count());
+        }
     }
-    Growth { problem, folder, ledger, past: None, arguments: growth, workers, signals, cpu }.grow()
+    let past = None;
+    Growth { problem, folder, ledger, past, imports, arguments: growth, workers, signals, cpu }
+        .grow()
 }
 
 /// The problem with what the command line changes of it.

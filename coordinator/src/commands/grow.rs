@@ -5,9 +5,9 @@ use crate::cli::{CrewArguments, GrowthArguments};
 use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
 use crate::memory::resident_bytes;
-use crate::pool::Pool;
+use crate::pool::{Imported, Pool};
 use crate::progress::{Reporter, print_json};
-use crate::run::{LedgerWriter, Replay, RunFolder, Scan, Stopped, Summary, Times, Told};
+use crate::run::{LedgerWriter, Replay, RunFolder, Scan, SetFiles, Stopped, Summary, Times, Told};
 use crate::signals::Signals;
 use roadmill::evaluate::Verdict;
 use roadmill::export::path_csv;
@@ -34,6 +34,8 @@ pub(super) struct Growth<'a> {
     pub ledger: LedgerWriter,
     /// What there is already; its verdicts are those by the problem's own criteria.
     pub past: Option<Scan>,
+    /// Sets that need not be generated.
+    pub imports: SetFiles,
     pub arguments: &'a GrowthArguments,
     pub workers: usize,
     pub signals: Arc<Signals>,
@@ -43,7 +45,7 @@ pub(super) struct Growth<'a> {
 impl Growth<'_> {
     /// Grows the roadmap to its end.
     pub fn grow(self) -> Result<Code, Failure> {
-        let Growth { mut folder, past, arguments, workers, signals, .. } = self;
+        let Growth { mut folder, past, imports, arguments, workers, signals, .. } = self;
         let verdicts = past.as_ref().and_then(|past| past.verdicts.clone()).unwrap_or_default();
         let setup = Arc::new(Setup::new(self.problem));
         let mut watch = Watch {
@@ -59,12 +61,13 @@ impl Growth<'_> {
             weighed: (past.as_ref().map_or(0, Scan::rounds), None),
         };
         let (stop, roadmap) = if arguments.crew.threads.is_some() {
-            let mut threads = Threads::new(setup, workers);
+            let threads = Threads::new(setup.clone(), workers);
+            let mut threads = Imported::new(threads, setup, imports);
             folder.begun()?;
             let stop = watch.drive(past.as_ref(), &mut threads)?;
             (stop, threads.into_roadmap())
         } else {
-            let mut pool = match Pool::start(setup, workers, signals) {
+            let pool = match Pool::start(setup.clone(), workers, signals) {
                 Ok(pool) => pool,
                 Err(error) => {
                     if past.is_none() {
@@ -74,9 +77,10 @@ impl Growth<'_> {
                 }
             };
             folder.begun()?;
+            let mut pool = Imported::new(pool, setup, imports);
             let stop = watch.drive(past.as_ref(), &mut pool);
             // Also where the ledger cannot be written: the workers end before their channel does.
-            let (roadmap, closed) = pool.close();
+            let (roadmap, closed) = pool.into_inner().close();
             if let Err(error) = closed {
                 eprintln!("{}: {error}; the next run tries again", watch.setup.problem.name);
             }
@@ -134,7 +138,7 @@ impl Watch {
     fn drive(
         &mut self,
         past: Option<&Scan>,
-        executor: &mut impl Executor,
+        executor: &mut Imported<impl Executor>,
     ) -> Result<Stop, Failure> {
         let past = match past {
             Some(scan) => self.restore(scan, executor)?,
@@ -142,7 +146,8 @@ impl Watch {
         };
         let lookahead = LOOKAHEAD_PER_WORKER * self.workers as u64;
         let mut core = Core::resume(&self.setup, lookahead, past);
-        drive(&mut core, executor, self)
+        let stop = drive(&mut core, executor, self)?;
+        executor.take_failure().map_or(Ok(stop), Err)
     }
 
     /// Folds what there is already.

@@ -3,7 +3,7 @@ use crate::cli::{GrowthArguments, ResumeArguments};
 use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
 use crate::run::ledger::LEDGER;
-use crate::run::{LedgerWriter, RunFolder, RunLock, Scan, Stopped};
+use crate::run::{LedgerWriter, RunFolder, RunLock, Scan, SetFiles, Stopped};
 use crate::signals::Signals;
 use roadmill::BITS_VERSION;
 use roadmill::problem::Problem;
@@ -30,8 +30,8 @@ pub fn resume(arguments: &ResumeArguments) -> Result<Code, Failure> {
 
 /// What a build that goes on may change.
 pub(super) enum Change<'a> {
-    /// Nothing: it must be that of this problem.
-    None(&'a Problem),
+    /// Nothing: it must be that of this problem, of which sets may be imported.
+    None(&'a Problem, SetFiles),
     /// Criteria, limits and the schedule; a chapter is opened for it.
     Chapter { with: Option<&'a Problem>, accept_bits: bool },
 }
@@ -45,7 +45,7 @@ impl Change<'_> {
         arguments: &GrowthArguments,
     ) -> Result<Problem, String> {
         match self {
-            Change::None(problem) => {
+            Change::None(problem, _) => {
                 let mut problem = (*problem).clone();
                 let known = &scan.chapter().sources;
                 for file in problem.sources.iter().skip(1) {
@@ -143,8 +143,12 @@ pub(super) fn go_on(
             eprintln!("{name}: {bytes} bytes of an unfinished round were moved to {path}");
         }
     }
-    let folder = RunFolder::of(run);
-    Growth { problem, folder, ledger, past: Some(scan), arguments, workers, signals, cpu }.grow()
+    let imports = match change {
+        Change::None(_, imports) => imports,
+        Change::Chapter { .. } => SetFiles::default(),
+    };
+    let (folder, past) = (RunFolder::of(run), Some(scan));
+    Growth { problem, folder, ledger, past, imports, arguments, workers, signals, cpu }.grow()
 }
 
 /// Says that there is nothing to do, and ends as the build did.

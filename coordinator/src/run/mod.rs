@@ -13,9 +13,11 @@
 mod folder;
 pub mod ledger;
 mod lock;
+mod sets;
 mod summary;
 
 pub use folder::RunFolder;
 pub use ledger::{Ledger, LedgerWriter, Replay, Scan, Stopped, Told};
 pub use lock::{Holder, RunLock};
+pub use sets::{SetFiles, SetsWriter};
 pub use summary::{EvaluatorValue, Summary, Times};

@@ -19,9 +19,17 @@ pub fn hash(parts: &[&[u8]]) -> [u8; 32] {
     *hasher.finalize().as_bytes()
 }
 
+const LEDGER: &[u8; 16] = b"roadmill ledger\x02";
+pub const SETS: &[u8; 16] = b"roadmill sets  \x01";
+
 /// The records of a ledger, every length and hash checked.
 pub fn frames(ledger: &[u8]) -> Vec<Frame> {
-    assert_eq!(&ledger[..16], b"roadmill ledger\x02");
+    frames_behind(LEDGER, ledger)
+}
+
+/// The same of any file with this heading.
+pub fn frames_behind(heading: &[u8; 16], ledger: &[u8]) -> Vec<Frame> {
+    assert_eq!(&ledger[..16], heading);
     let (mut at, mut before) = (16, hash(&[&ledger[..16]]));
     let mut frames = Vec::new();
     while at < ledger.len() {
@@ -40,7 +48,12 @@ pub fn frames(ledger: &[u8]) -> Vec<Frame> {
 
 /// A ledger of these payloads.
 pub fn ledger_of(payloads: impl IntoIterator<Item = Vec<u8>>) -> Vec<u8> {
-    let mut ledger = b"roadmill ledger\x02".to_vec();
+    file_of(LEDGER, payloads)
+}
+
+/// A file with this heading of these payloads.
+pub fn file_of(heading: &[u8; 16], payloads: impl IntoIterator<Item = Vec<u8>>) -> Vec<u8> {
+    let mut ledger = heading.to_vec();
     let mut before = hash(&[&ledger]);
     for payload in payloads {
         let mut head = (payload.len() as u64).to_le_bytes().to_vec();

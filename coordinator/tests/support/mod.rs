@@ -68,6 +68,24 @@ pub fn wait_until(what: &str, mut is_true: impl FnMut() -> bool) {
     }
 }
 
+/// A fixed pseudo-random sequence (xorshift), so that every run of a test does the same.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Random {
+        // Seeds that follow one another begin alike otherwise; zero would stay zero.
+        Random((seed ^ 0x9e37_79b9_7f4a_7c15).wrapping_mul(0xff51_afd7_ed55_8ccd) | 1)
+    }
+
+    pub fn below(&mut self, end: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        // The low bits are the worst.
+        ((self.0 >> 16) % end as u64) as usize
+    }
+}
+
 /// A folder in which the binary is run. When it is dropped the runs must have tidied up.
 pub struct Scratch {
     folder: TempDir,
@@ -132,7 +150,7 @@ impl Scratch {
         self.start_command(command, "")
     }
 
-    fn start_command(&self, mut command: Command, faults: &str) -> Running {
+    pub fn start_command(&self, mut command: Command, faults: &str) -> Running {
         let mut started = self.started.borrow_mut();
         let number = started.len();
         let [stdout, stderr] =
@@ -193,6 +211,12 @@ impl Scratch {
         }
     }
 
+    /// What all coordinators started here have left of their channels.
+    pub fn left(&self) -> Vec<PathBuf> {
+        let started = self.started.borrow();
+        started.iter().flat_map(|pid| left_of(*pid, &self.temporary())).collect()
+    }
+
     /// The digest of an undisturbed build of [`ENDLESS`], in a single process, with `sets` sets.
     pub fn undisturbed_digest(&self, sets: u64) -> String {
         self.write("endless.toml", ENDLESS);
@@ -208,10 +232,8 @@ impl Drop for Scratch {
             assert_eq!(self.temporary_files(), [] as [PathBuf; 0], "left in TMPDIR");
         }
         // A test that has failed leaves no shared memory behind either.
-        for pid in self.started.borrow().iter() {
-            for path in left_of(*pid, &self.temporary()) {
-                let _ = fs::remove_file(path);
-            }
+        for path in self.left() {
+            let _ = fs::remove_file(path);
         }
     }
 }
@@ -246,12 +268,27 @@ impl Running {
         workers
     }
 
+    /// Whether it has not ended yet.
+    pub fn is_alive(&self) -> bool {
+        Process::of(self.pid()).is_some_and(|process| process.state != 'Z')
+    }
+
     pub fn signal(&self, signal: Signal) {
         send(self.pid(), signal);
     }
 
     /// Waits for the end. Unless the process was killed, nothing of it may be left.
-    pub fn finish(mut self) -> Done {
+    pub fn finish(self) -> Done {
+        let (pid, temporary) = (self.pid(), self.temporary.clone());
+        let done = self.end();
+        if done.status.signal() != Some(Signal::KILL.as_raw()) {
+            assert_eq!(left_of(pid, &temporary), [] as [PathBuf; 0]);
+        }
+        done
+    }
+
+    /// Waits for the end of a process that may have no time to tidy up.
+    pub fn end(mut self) -> Done {
         let begun = Instant::now();
         let status = loop {
             if let Some(status) = self.child.try_wait().expect("it can be waited for") {
@@ -265,9 +302,6 @@ impl Running {
         };
         let [stdout, stderr] = self.output();
         assert!(!stderr.contains("panicked"), "{stderr}");
-        if status.signal() != Some(Signal::KILL.as_raw()) {
-            assert_eq!(left_of(self.pid(), &self.temporary), [] as [PathBuf; 0]);
-        }
         Done { status, stdout, stderr }
     }
 
@@ -321,7 +355,17 @@ pub fn left_of(pid: u32, temporary: &Path) -> Vec<PathBuf> {
     left
 }
 
-fn children(folder: &Path) -> Vec<PathBuf> {
+/// Processes whose command line names this folder, as that of every worker does.
+pub fn processes_naming(folder: &Path) -> Vec<u32> {
+    let name = folder.to_string_lossy().into_owned();
+    let names = |id: &u32| {
+        let command = fs::read(format!("/proc/{id}/cmdline")).unwrap_or_default();
+        String::from_utf8_lossy(&command).contains(&name)
+    };
+    processes().map(|process| process.id).filter(names).collect()
+}
+
+pub fn children(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     entries.map(|entry| entry.path()).collect()
 }

@@ -24,7 +24,12 @@ pub struct Mark {
 impl Mark {
     /// The place before the first record.
     pub fn first() -> Mark {
-        Mark { offset: HEADING.len() as u64, records: 0, chain: Digest::of(HEADING) }
+        Mark::behind_heading(HEADING)
+    }
+
+    /// The place before the first record of a file with another heading.
+    pub fn behind_heading(heading: &[u8; 16]) -> Mark {
+        Mark { offset: heading.len() as u64, records: 0, chain: Digest::of(heading) }
     }
 
     fn behind(&self, length: u64, chain: Digest) -> Mark {

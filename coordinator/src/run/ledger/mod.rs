@@ -2,7 +2,7 @@
 //! verified. `docs/ledger.md` describes its bytes and what is promised of them.
 
 mod durable;
-mod frame;
+pub(in crate::run) mod frame;
 mod reader;
 mod record;
 mod replay;
@@ -69,7 +69,7 @@ impl Ledger {
 }
 
 /// Makes names in a folder durable.
-fn sync_folder(folder: &Path) -> std::io::Result<()> {
+pub(in crate::run) fn sync_folder(folder: &Path) -> std::io::Result<()> {
     // A relative path of one name has an empty parent.
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     File::open(folder)?.sync_all()

@@ -1,0 +1,88 @@
+use super::grow::workers;
+use super::load::load;
+use crate::cli::{CrewArguments, GenerateArguments};
+use crate::exit::{Code, Failure};
+use crate::run::SetsWriter;
+use crate::signals::Signals;
+use roadmill::img::Setup;
+use roadmill::roadmap::Increment;
+use roadmill::sampler::GaveUp;
+use roadmill::validity::Scratch;
+use roadmill_workers::channel::private_umask;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+/// Sets per thread that are held in memory before they are written.
+const BATCH_PER_THREAD: u64 = 16;
+
+type Made = (u64, Result<Increment, GaveUp>);
+
+/// Generates sets apart from a build.
+pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
+    private_umask();
+    let mut problem = load(&arguments.problem)?;
+    problem.seed = arguments.seed.unwrap_or(problem.seed);
+    let threads = workers(&CrewArguments { workers: None, threads: arguments.threads })?;
+    let (label, ordinals) = &arguments.sets;
+    let Some(strategy) = problem.strategies.iter().position(|known| known.label == *label) else {
+        let labels: Vec<_> = problem.strategies.iter().map(|known| &*known.label).collect();
+        let labels = labels.join(", ");
+        return Err(Failure::usage(format!("--sets: `{label}` found, one of {labels} expected")));
+    };
+    let signals = Signals::listen().map_err(Failure::system)?;
+    let out = &arguments.out;
+    let mut writer = SetsWriter::begin(out, arguments.force, &problem, label, ordinals.clone())?;
+    let setup = Setup::new(problem);
+    let batch = BATCH_PER_THREAD * threads as u64;
+    let mut left = ordinals.clone();
+    while !left.is_empty() {
+        let until = left.end.min(left.start.saturating_add(batch));
+        let made =
+            make(&setup, strategy, left.start..until, threads, &signals).ok_or_else(|| {
+                Failure::new(Code::WorkersLost, format!("a set of `{label}` cannot be generated"))
+            })?;
+        if signals.came() {
+            return Err(Failure::new(Code::Interrupted, "a signal came; nothing is written"));
+        }
+        for (ordinal, made) in made {
+            if let Err(gave_up) = &made {
+                eprintln!("set {label}:{ordinal}: {gave_up}");
+            }
+            writer.set(ordinal, made)?;
+        }
+        left.start = until;
+    }
+    writer.end()?;
+    let Range { start, end } = ordinals;
+    println!("{} sets {label}:{start}..{end} in {}", end - start, out.display());
+    Ok(Code::Done)
+}
+
+/// These sets in order, or fewer of them once a signal has come; `None` if one panics.
+fn make(
+    setup: &Setup,
+    strategy: usize,
+    ordinals: Range<u64>,
+    threads: usize,
+    signals: &Signals,
+) -> Option<Vec<Made>> {
+    let strategy = &setup.problem.strategies[strategy];
+    let ordinals = Mutex::new(ordinals);
+    // Nothing can go wrong while it is held.
+    let next = || ordinals.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let work = || {
+        let (mut scratch, mut made) = (Scratch::new(), Vec::new());
+        while let Some(ordinal) = next().filter(|_| !signals.came()) {
+            made.push((ordinal, strategy.generate(&setup.cx, ordinal, &mut scratch)));
+        }
+        made
+    };
+    let parts: thread::Result<Vec<_>> = thread::scope(|scope| {
+        let threads: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        threads.into_iter().map(|thread| thread.join()).collect()
+    });
+    let mut made = parts.ok()?.concat();
+    made.sort_unstable_by_key(|(ordinal, _)| *ordinal);
+    Some(made)
+}
