@@ -6,11 +6,12 @@ use roadmill::img::{
 };
 use roadmill::problem::Problem;
 use roadmill::roadmap::Roadmap;
+use roadmill::validity::Edges;
 use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
 
-const PROBLEMS: [&str; 3] = ["judged", "meshes", "slide"];
+const PROBLEMS: [&str; 4] = ["judged", "settled", "meshes", "slide"];
 
 fn load(name: &str) -> Problem {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems");
@@ -200,6 +201,7 @@ fn a_chapter_changes_nothing_that_sets_depend_on() {
     };
     assert!(refused(|p| p.seed += 1).contains("the seed is"));
     assert!(refused(|p| p.resolution *= 2.0).contains("resolution"));
+    assert!(refused(|p| p.edges = Edges::Sampled).contains("what is promised of edges"));
     assert!(refused(|p| p.bounds.max[0] += 1.0).contains("bounds"));
     assert!(refused(|p| p.obstacles.clear()).contains("obstacle"));
     let label = &problem.strategies[0].label;

@@ -136,6 +136,8 @@ impl<'a> Fields<'a> {
     pub fn verdict(&mut self) -> (bool, f64, Option<f64>) {
         let satisfied = self.u8() == 1;
         let (value, _threshold) = (self.f64(), self.f64());
+        assert!(self.u32() <= 1, "at least or at most");
+        self.list(Fields::f64);
         let length = self.option(|fields| {
             fields.bytes(4 + 4 + 1);
             let length = fields.option(|fields| {
@@ -146,6 +148,7 @@ impl<'a> Fields<'a> {
             fields.u64();
             length
         });
+        self.option(|fields| drop(fields.list(|fields| fields.bytes(4 + 4 + 8).len())));
         self.list(Fields::verdict);
         self.bytes(16);
         (satisfied, value, length.flatten())
