@@ -8,18 +8,20 @@
 //! ```
 //!
 //! Two measures per scene, five rounds in turn, medians of CPU time. *Edges*: pairs of 10 nearest among
-//! 2000 valid uniform configurations, decided by each side in the same number of steps; where verdicts
-//! differ, the count says so. *Nodes*: one set of 5000 nodes with 10 neighbours, against
-//! `PRM::growRoadmap`. OMPL and FCL know no solids and no bounds of bodies, so both sides race with
+//! 2000 valid uniform configurations, decided three times: free at all times (`swept`, the default), at the
+//! steps of the resolution (`sampled`), and by FCL at the same steps. `differ` counts the pairs of which
+//! the last two do not say the same, `refused` those that are free at the steps but not swept. *Nodes*: one
+//! set of 5000 nodes with 10 neighbours and swept edges, against `PRM::growRoadmap`. OMPL and FCL know no solids and no bounds of bodies, so both sides race with
 //! surfaces and with bounds that hold the reference point.
 
 mod support;
 
 use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
+use roadmill::problem::Problem;
 use roadmill::roadmap::Configs;
 use roadmill::seed::Seed;
-use roadmill::validity::Scratch;
+use roadmill::validity::{Edges, Scratch};
 use std::fmt::Write;
 use std::path::Path;
 use support::peer::{run, scene_text, surfaces};
@@ -37,37 +39,46 @@ fn main() {
         return;
     };
     println!(
-        "| scene | pairs | free | edges/s | FCL edges/s | ratio | differ | nodes/s | OMPL nodes/s | ratio |"
+        "| scene | pairs | free | swept/s | sampled/s | FCL/s | ratios | differ | refused | nodes/s | OMPL nodes/s | ratio |"
     );
-    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+    println!("|{}", " --- |".repeat(12));
     for scene in scenes {
         race(Path::new(&scene), &peer);
     }
 }
 
 fn race(path: &Path, peer: &str) {
-    let problem = surfaces(path);
+    let problem = Problem { edges: Edges::Swept, ..surfaces(path) };
     let cx = problem.context();
+    let stepwise = Problem { edges: Edges::Sampled, ..problem.clone() }.context();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = |name: &str| folder.path().join(name).display().to_string();
     std::fs::write(file("scene"), scene_text(&problem)).expect("the scene can be written");
     let (configs, pairs) = pairs(&cx, NEIGHBORS);
     std::fs::write(file("pairs"), pairs_text(&cx, &configs, &pairs)).expect("pairs can be written");
 
-    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
-    let (mut our_nodes, mut their_nodes) = (Vec::new(), Vec::new());
-    let (mut verdicts, mut peer_verdicts) = (Vec::new(), Vec::new());
-    for round in 0..ROUNDS {
+    let decide = |cx: &Context, seconds: &mut Vec<f64>| -> Vec<bool> {
         let begun = cpu_seconds();
         let scratch = &mut Scratch::new();
-        verdicts = pairs
-            .iter()
-            .map(|(a, b)| cx.validity.motion(configs.get(*a), configs.get(*b), 1, scratch))
-            .collect();
-        ours.push(cpu_seconds() - begun);
+        let motion = |(a, b): &(usize, usize)| {
+            cx.validity.motion(configs.get(*a), configs.get(*b), 1, scratch)
+        };
+        let verdicts = pairs.iter().map(motion).collect();
+        seconds.push(cpu_seconds() - begun);
+        verdicts
+    };
+    let (mut swept, mut sampled, mut theirs) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut our_nodes, mut their_nodes) = (Vec::new(), Vec::new());
+    let (mut differ, mut refused, mut free) = (0, 0, 0);
+    for round in 0..ROUNDS {
+        let proved = decide(&cx, &mut swept);
+        let at_steps = decide(&stepwise, &mut sampled);
         theirs.push(run(peer, &["edges", &file("scene"), &file("pairs"), &file("verdicts")])[0]);
         let text = std::fs::read_to_string(file("verdicts")).expect("verdicts");
-        peer_verdicts = text.lines().map(|line| line == "1").collect();
+        let peer_verdicts: Vec<bool> = text.lines().map(|line| line == "1").collect();
+        differ = at_steps.iter().zip(&peer_verdicts).filter(|(ours, peer)| ours != peer).count();
+        refused = at_steps.iter().zip(&proved).filter(|(steps, all)| **steps && !**all).count();
+        free = at_steps.iter().filter(|free| **free).count();
 
         let begun = cpu_seconds();
         let set = sample(&cx, NODES, round as u64);
@@ -79,18 +90,21 @@ fn race(path: &Path, peer: &str) {
         their_nodes.push(run(peer, &["grow", &file("scene"), &nodes, &k, &seed])[0]);
     }
     let rate = |count: usize, seconds: &mut Vec<f64>| count as f64 / median(seconds);
-    let differ =
-        verdicts.iter().zip(&peer_verdicts).filter(|(ours, theirs)| ours != theirs).count();
-    let free = verdicts.iter().filter(|free| **free).count();
-    let (edges, peer_edges) = (rate(pairs.len(), &mut ours), rate(pairs.len(), &mut theirs));
-    let (nodes, peer_nodes) = (rate(NODES, &mut our_nodes), rate(NODES, &mut their_nodes));
+    let edges = [&mut swept, &mut sampled, &mut theirs].map(|seconds| rate(pairs.len(), seconds));
+    let nodes = [&mut our_nodes, &mut their_nodes].map(|seconds| rate(NODES, seconds));
     println!(
-        "| {} | {} | {:.1} % | {edges:.0} | {peer_edges:.0} | {:.2} | {differ} | {nodes:.0} | {peer_nodes:.0} | {:.2} |",
+        "| {} | {} | {:.1} % | {:.0} | {:.0} | {:.0} | {:.1}, {:.1} | {differ} | {refused} | {:.0} | {:.0} | {:.1} |",
         problem.name,
         pairs.len(),
         100.0 * free as f64 / pairs.len() as f64,
-        edges / peer_edges,
-        nodes / peer_nodes,
+        edges[0],
+        edges[1],
+        edges[2],
+        edges[0] / edges[2],
+        edges[1] / edges[2],
+        nodes[0],
+        nodes[1],
+        nodes[0] / nodes[1],
     );
 }
 
