@@ -30,6 +30,7 @@
 //! it is the pose of the robot's frame in the world's.
 
 mod context;
+mod digest;
 
 pub mod connect;
 pub mod evaluate;
@@ -53,6 +54,7 @@ pub mod validity;
 pub mod wire;
 
 pub use context::{Context, Ends};
+pub use digest::SourceFile;
 pub use strategy::Strategy;
 
 /// Version of the bits: raised whenever the same problem and seed come to give another roadmap.

@@ -26,6 +26,12 @@ pub enum Purpose {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Seed([u8; 32]);
 
+impl std::fmt::Display for Seed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
+    }
+}
+
 impl Seed {
     /// Seed of the set `ordinal` (counted from 0) of the strategy `label`.
     pub fn of_set(base_seed: u64, label: &str, ordinal: u64) -> Seed {

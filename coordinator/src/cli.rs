@@ -19,6 +19,17 @@ pub enum Command {
     /// Grow a roadmap until the problem's criteria are met
     #[command(allow_negative_numbers = true)]
     Build(BuildArguments),
+    /// Go on with a build that was interrupted, or with a finished one by other criteria
+    #[command(allow_negative_numbers = true)]
+    Resume(ResumeArguments),
+    /// Say how far a build is, from its files alone
+    Status(StatusArguments),
+    /// Recompute sets from their seeds and compare
+    Verify(VerifyArguments),
+    /// Find the first set at which two runs differ, and why
+    Diff(DiffArguments),
+    /// List a build set by set
+    Log(LogArguments),
     /// Ask a roadmap for a path
     #[command(allow_negative_numbers = true)]
     Query(QueryArguments),
@@ -42,12 +53,6 @@ pub struct BuildArguments {
     /// The .query file of a Parasol .env [default: the one beside it]
     #[arg(long, value_name = "FILE")]
     pub query: Option<PathBuf>,
-    /// Worker processes [default: the cores this process may use]
-    #[arg(long, value_name = "N", conflicts_with = "threads")]
-    pub workers: Option<usize>,
-    /// Do the jobs in N threads of this process instead of worker processes
-    #[arg(long, value_name = "N")]
-    pub threads: Option<usize>,
     /// Base seed, instead of the problem's
     #[arg(long, value_name = "SEED")]
     pub seed: Option<u64>,
@@ -57,6 +62,18 @@ pub struct BuildArguments {
     /// Replace the run that --out names
     #[arg(long, requires = "out")]
     pub force: bool,
+    /// Go on with the run that --out names, if there is one of this problem
+    #[arg(long, requires = "out", conflicts_with = "force")]
+    pub or_resume: bool,
+    #[command(flatten)]
+    pub growth: GrowthArguments,
+}
+
+/// Of everything that grows a roadmap: who does the work, and how far it goes.
+#[derive(Debug, Args)]
+pub struct GrowthArguments {
+    #[command(flatten)]
+    pub crew: CrewArguments,
     /// Stop at the end of the first round with this many nodes
     #[arg(long, value_name = "N")]
     pub max_nodes: Option<u64>,
@@ -66,7 +83,92 @@ pub struct BuildArguments {
     /// Stop after this time: seconds, or with a unit (90s, 10m, 2h)
     #[arg(long, value_name = "TIME", value_parser = seconds)]
     pub max_time: Option<f64>,
+    /// Stop at the end of a round when all processes together hold this much memory: bytes, or with a
+    /// unit (500M, 16G)
+    #[arg(long, value_name = "SIZE", value_parser = bytes)]
+    pub max_memory: Option<u64>,
     /// Progress and summary as JSON, an object per line, on standard output
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Of everything that does jobs: who does them.
+#[derive(Debug, Args)]
+pub struct CrewArguments {
+    /// Worker processes [default: the cores this process may use]
+    #[arg(long, value_name = "N", conflicts_with = "threads")]
+    pub workers: Option<usize>,
+    /// Do the jobs in N threads of this process instead of worker processes
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+/// Of `resume`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct ResumeArguments {
+    /// The run folder
+    pub run: PathBuf,
+    /// Open a chapter: go on by this problem's query, criteria, limits and schedule
+    #[arg(long, value_name = "PROBLEM")]
+    pub with: Option<PathBuf>,
+    /// Open a chapter although the sets so far have other bits than this version's
+    #[arg(long)]
+    pub accept_bits: bool,
+    #[command(flatten)]
+    pub growth: GrowthArguments,
+}
+
+/// Of `status`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct StatusArguments {
+    /// The run folder
+    pub run: PathBuf,
+    /// Go on until the build has ended
+    #[arg(long)]
+    pub watch: bool,
+    /// As a JSON object per line
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Of `verify`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct VerifyArguments {
+    /// The run folder
+    pub run: PathBuf,
+    /// Recompute a share of all sets and judgements, at least one set [default: 1%]
+    #[arg(long, value_name = "PERCENT", value_parser = share)]
+    pub sample: Option<f64>,
+    /// Recompute everything
+    #[arg(long, conflicts_with = "sample")]
+    pub all: bool,
+    /// Recompute these sets, named as `log` names them
+    #[arg(long = "set", value_name = "LABEL:ORDINAL", conflicts_with_all = ["sample", "all"])]
+    pub sets: Vec<String>,
+    #[command(flatten)]
+    pub crew: CrewArguments,
+}
+
+/// Of `diff`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct DiffArguments {
+    /// A run folder
+    pub left: PathBuf,
+    /// Another
+    pub right: PathBuf,
+}
+
+/// Of `log`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct LogArguments {
+    /// The run folder
+    pub run: PathBuf,
+    /// As a JSON object per line
     #[arg(long)]
     pub json: bool,
 }
@@ -167,6 +269,27 @@ pub struct WorkerArguments {
     /// Process id of the coordinator.
     #[arg(long)]
     pub coordinator: u32,
+}
+
+fn bytes(text: &str) -> Result<u64, String> {
+    let (number, unit) = match text.char_indices().next_back() {
+        Some((at, 'K' | 'k')) => (&text[..at], 1u64 << 10),
+        Some((at, 'M')) => (&text[..at], 1 << 20),
+        Some((at, 'G')) => (&text[..at], 1 << 30),
+        Some((at, 'T')) => (&text[..at], 1 << 40),
+        _ => (text, 1),
+    };
+    let bytes = number.trim().parse::<u64>().ok().and_then(|number| number.checked_mul(unit));
+    let expected = "a positive number of bytes, or with K, M, G or T behind it, expected";
+    bytes.filter(|bytes| *bytes > 0).ok_or_else(|| expected.to_owned())
+}
+
+/// A share in percent, as a fraction.
+fn share(text: &str) -> Result<f64, String> {
+    match text.strip_suffix('%').unwrap_or(text).trim().parse::<f64>() {
+        Ok(percent) if percent > 0.0 && percent <= 100.0 => Ok(percent / 100.0),
+        _ => Err("a percentage above 0 and up to 100 expected".to_owned()),
+    }
 }
 
 fn seconds(text: &str) -> Result<f64, String> {

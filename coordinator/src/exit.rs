@@ -20,6 +20,8 @@ pub enum Code {
     WorkersLost = 5,
     /// A signal ended the build.
     Interrupted = 6,
+    /// What was recomputed or compared is not the same.
+    Differs = 7,
 }
 
 /// The table of exit codes, for `--help`.
@@ -27,11 +29,12 @@ pub const HELP: &str = "\
 Exit codes:
   0  done: the criteria are met, the path is found, the problem is sound
   1  the system failed (disk full, no process can be started)
-  2  usage: the command line, the problem or the output folder cannot be used
+  2  usage: the command line, the problem or the run folder cannot be used, or is in use
   3  a limit was reached, or the roadmap searched, without success
   4  broken run: a damaged run folder, or a job with two different outcomes
   5  workers lost: they died faster than they could be replaced, or one set killed them
-  6  interrupted by a signal; the last complete round is saved";
+  6  interrupted by a signal; the last complete round is saved
+  7  not the same: a set recomputed by verify, or two runs compared by diff";
 
 /// A failure with its exit code and one message.
 #[derive(Debug)]

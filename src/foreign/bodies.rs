@@ -1,6 +1,7 @@
 //! Mesh files as bodies.
 
 use super::{ForeignBody, ForeignError};
+use crate::digest::SourceFile;
 use crate::scene::{Body, MESH_ITEMS_MAX, MeshOptions, Pose, ReadMesh, Shape, read_mesh_with};
 use std::path::{Path, PathBuf};
 
@@ -42,6 +43,8 @@ impl Named<'_> {
 #[derive(Default)]
 pub(super) struct Meshes {
     triangles: usize,
+    /// The files read.
+    pub sources: Vec<SourceFile>,
 }
 
 impl Meshes {
@@ -57,6 +60,10 @@ impl Meshes {
         let options = MeshOptions { weld: WELD, ..*options };
         let read = read_mesh_with(&file, &options)
             .map_err(|error| ForeignError::mesh(error, named.scene, named.line))?;
+        let source = SourceFile { path: named.file.to_owned(), digest: read.digest };
+        if !self.sources.contains(&source) {
+            self.sources.push(source);
+        }
         // One line may name a large mesh, and many lines the same one.
         self.triangles += read.stored_triangles;
         if self.triangles > MESH_ITEMS_MAX {

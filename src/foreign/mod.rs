@@ -14,6 +14,7 @@ pub use error::ForeignError;
 pub use ompl::read_ompl;
 pub use parasol::read_parasol;
 
+use crate::digest::SourceFile;
 use crate::scene::{Body, Pose};
 use crate::space::Motion;
 use crate::validity::Bounds;
@@ -39,6 +40,8 @@ pub struct ForeignScene {
     pub query: Option<(Vec<f64>, Vec<f64>)>,
     /// What the reader decided or passed over, for people to read.
     pub notes: Vec<String>,
+    /// The files that it was read from, the one that names the others first.
+    pub sources: Vec<SourceFile>,
 }
 
 /// How a robot's first link moves.

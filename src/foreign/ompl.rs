@@ -8,6 +8,7 @@ use super::bodies::{Meshes, Named, Solid};
 use super::error::read_text;
 use super::frames::turn;
 use super::{Base, ForeignBody, ForeignError, ForeignLink, ForeignScene};
+use crate::digest::SourceFile;
 use crate::scene::{Centre, LENGTH_MAX, MeshOptions, Pose, ReadMesh, Up, UpAxis};
 use crate::space::Motion;
 use crate::validity::{Bounds, BoundsMeaning};
@@ -28,6 +29,7 @@ pub fn read_ompl(path: &Path) -> Result<ForeignScene, ForeignError> {
     let file = Config::read(path, &text)?;
     let mut notes = Vec::new();
     let mut meshes = Meshes::default();
+    meshes.sources.push(SourceFile::named(path, text.as_bytes()));
     let world = file.mesh("world", Centre::AsStored, Solid::Never, &mut meshes, &mut notes)?;
     let robot = file.mesh("robot", Centre::VertexMean, Solid::Auto, &mut meshes, &mut notes)?;
     let corner = |which: &str| -> Result<[f64; 3], ForeignError> {
@@ -67,6 +69,7 @@ pub fn read_ompl(path: &Path) -> Result<ForeignScene, ForeignError> {
         may_touch: Vec::new(),
         query: Some(query),
         notes,
+        sources: meshes.sources,
     })
 }
 

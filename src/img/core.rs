@@ -74,8 +74,12 @@ pub struct Judgement {
 impl Judgement {
     /// Whether all criteria are met; without criteria there is nothing to meet.
     pub fn satisfied(&self) -> bool {
-        !self.verdicts.is_empty() && self.verdicts.iter().all(|verdict| verdict.satisfied)
+        satisfied(&self.verdicts)
     }
+}
+
+fn satisfied(verdicts: &[Verdict]) -> bool {
+    !verdicts.is_empty() && verdicts.iter().all(|verdict| verdict.satisfied)
 }
 
 /// Why a build was ended from outside.
@@ -83,6 +87,8 @@ impl Judgement {
 pub enum Cut {
     /// The limit on seconds.
     Time,
+    /// The limit on memory, in bytes.
+    Memory(u64),
     /// A signal.
     Interrupted,
     /// No worker is left and none can be started.
@@ -132,6 +138,17 @@ pub struct Progress {
     pub verdicts: Vec<Verdict>,
 }
 
+/// How far a build had come that goes on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Past {
+    /// Rounds folded.
+    pub rounds: u64,
+    /// Their nodes.
+    pub nodes: u64,
+    /// The verdicts on the last of them; `None` where it is to be judged first.
+    pub verdicts: Option<Vec<Verdict>>,
+}
+
 /// The state of a build.
 pub struct Core {
     plan: Plan,
@@ -149,6 +166,8 @@ pub struct Core {
     joined: BTreeMap<u64, Joined>,
     /// Verdicts on the round before `round`, while they are awaited.
     awaited: Option<BTreeMap<u32, Verdict>>,
+    /// Of a build that goes on: whether its last round has been judged.
+    is_judged: bool,
     next_generate: u64,
     /// Nodes of the roadmap after the round of the last place to be generated.
     nodes_ahead: u64,
@@ -163,7 +182,15 @@ impl Core {
     /// The build of a problem, from the beginning. `lookahead` is how many sets beyond the
     /// current round may be generated; it changes how well workers are kept busy, never a result.
     pub fn new(setup: &Setup, lookahead: u64) -> Core {
+        Core::resume(setup, lookahead, Past::default())
+    }
+
+    /// The build of a problem from where it was interrupted; what was folded is known to the jobs
+    /// that come.
+    pub fn resume(setup: &Setup, lookahead: u64, past: Past) -> Core {
         let strategies = &setup.problem.strategies;
+        let sets = setup.plan.places_of(past.rounds).start;
+        let is_judged = past.verdicts.is_some();
         Core {
             plan: setup.plan.clone(),
             dofs: setup.cx.space.len(),
@@ -171,16 +198,23 @@ impl Core {
             limits: setup.problem.limits,
             evaluators: setup.problem.evaluators.len() as u32,
             lookahead,
-            round: 0,
+            round: past.rounds,
             early: BTreeMap::new(),
             published: Vec::new(),
             joined: BTreeMap::new(),
             awaited: None,
-            next_generate: 0,
-            nodes_ahead: 0,
+            is_judged,
+            next_generate: sets,
+            nodes_ahead: past.nodes,
             at_work: BTreeMap::new(),
             done: BTreeMap::new(),
-            progress: Progress::default(),
+            progress: Progress {
+                sets_generated: sets,
+                sets_joined: sets,
+                rounds: past.rounds,
+                nodes: past.nodes,
+                verdicts: past.verdicts.unwrap_or_default(),
+            },
             stopped: false,
         }
     }
@@ -188,6 +222,12 @@ impl Core {
     /// The first commands.
     pub fn start(&mut self) -> Vec<Command> {
         let mut commands = Vec::new();
+        match self.round.checked_sub(1) {
+            None => {}
+            // It may have been the last round.
+            Some(_) if self.is_judged => self.decide(&mut commands),
+            Some(last) => self.evaluate(last, &mut commands),
+        }
         self.advance(&mut commands);
         commands
     }
@@ -308,9 +348,13 @@ impl Core {
         let verdicts: Vec<Verdict> = awaited.into_values().collect();
         let judgement = Judgement { round: self.round - 1, verdicts };
         self.progress.verdicts = judgement.verdicts.clone();
-        let satisfied = judgement.satisfied();
         commands.push(Command::Judge(judgement));
-        if satisfied {
+        self.decide(commands);
+    }
+
+    /// Stops after the last round if its verdicts or a limit say so.
+    fn decide(&mut self, commands: &mut Vec<Command>) {
+        if satisfied(&self.progress.verdicts) {
             self.stop(Stop::Satisfied, commands);
         } else if self.progress.nodes >= self.limits.nodes {
             self.stop(Stop::NodeLimit, commands);
@@ -367,11 +411,16 @@ impl Core {
         commands.push(Command::Fold(Round { index: round, sets }));
         self.round += 1;
         self.progress.rounds += 1;
+        self.evaluate(round, commands);
+        true
+    }
+
+    /// Hands out the evaluations of the last round.
+    fn evaluate(&mut self, round: u64, commands: &mut Vec<Command>) {
         self.awaited = Some(BTreeMap::new());
         for evaluator in 0..self.evaluators {
             self.submit(Job::Evaluate { round, evaluator }, commands);
         }
-        true
     }
 
     /// Hands out sets up to the lookahead, but none past the round that reaches a limit.

@@ -12,6 +12,14 @@ pub trait Executor {
     /// Folds the increments published since the last fold.
     fn fold(&mut self, round: &Round);
 
+    /// Takes in a round that was folded before the build was interrupted.
+    fn restore(&mut self, round: &Round) {
+        for set in &round.sets {
+            self.publish(&set.increment);
+        }
+        self.fold(round);
+    }
+
     /// Takes on a job; everything that it reads has been published or folded before.
     fn submit(&mut self, job: Job);
 
@@ -47,8 +55,13 @@ pub trait Observer {
 
     /// Called between events, at least every [`TICK`]; a cut ends the build after the last fold.
     /// `alive` is the number of workers.
-    fn tick(&mut self, _progress: &Progress, _roadmap: &Roadmap, _alive: usize) -> Option<Cut> {
-        None
+    fn tick(
+        &mut self,
+        _progress: &Progress,
+        _roadmap: &Roadmap,
+        _alive: usize,
+    ) -> Result<Option<Cut>, Self::Error> {
+        Ok(None)
     }
 }
 
@@ -78,7 +91,7 @@ pub fn drive<E: Executor, O: Observer>(
                 Command::Stop(stop) => return Ok(stop),
             }
         }
-        let event = match observer.tick(core.progress(), executor.roadmap(), executor.alive()) {
+        let event = match observer.tick(core.progress(), executor.roadmap(), executor.alive())? {
             Some(cut) => Some(Event::Cut(cut)),
             None => executor.next(TICK),
         };

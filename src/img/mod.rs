@@ -15,7 +15,7 @@ mod simulated;
 mod threads;
 
 pub use self::core::{
-    Command, Core, Cut, Event, Judgement, LOSSES_MAX, Progress, Round, RoundSet, Stop,
+    Command, Core, Cut, Event, Judgement, LOSSES_MAX, Past, Progress, Round, RoundSet, Stop,
 };
 pub use drive::{Executor, Observer, TICK, drive};
 pub use job::{Finished, Job, Joined, Outcome, Task};
@@ -71,7 +71,19 @@ pub fn build_in_threads(setup: &Arc<Setup>, threads: usize) -> Build {
 }
 
 /// Builds a roadmap with any executor, up to `lookahead` sets beyond the current round at hand.
-pub fn build_with(setup: &Arc<Setup>, mut executor: impl Executor, lookahead: u64) -> Build {
+pub fn build_with(setup: &Arc<Setup>, executor: impl Executor, lookahead: u64) -> Build {
+    resume_with(setup, executor, lookahead, &[], None)
+}
+
+/// Goes on with a build after these rounds; `judgement` is that of the last of them, if it was judged.
+/// What comes of it is what would have come of the build without the interruption.
+pub fn resume_with(
+    setup: &Arc<Setup>,
+    mut executor: impl Executor,
+    lookahead: u64,
+    rounds: &[Round],
+    judgement: Option<Judgement>,
+) -> Build {
     struct Last(Option<Judgement>);
     impl Observer for Last {
         type Error = std::convert::Infallible;
@@ -80,8 +92,14 @@ pub fn build_with(setup: &Arc<Setup>, mut executor: impl Executor, lookahead: u6
             Ok(())
         }
     }
-    let mut core = Core::new(setup, lookahead);
-    let mut last = Last(None);
+    rounds.iter().for_each(|round| executor.restore(round));
+    let past = Past {
+        rounds: rounds.len() as u64,
+        nodes: executor.roadmap().configs().len() as u64,
+        verdicts: judgement.as_ref().map(|judgement| judgement.verdicts.clone()),
+    };
+    let mut core = Core::resume(setup, lookahead, past);
+    let mut last = Last(judgement);
     let stop = match drive(&mut core, &mut executor, &mut last) {
         Ok(stop) => stop,
         Err(never) => match never {},

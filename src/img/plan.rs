@@ -2,50 +2,110 @@ use crate::problem::Problem;
 use std::ops::Range;
 
 /// Which set comes where: sets stand in one sequence of *places*, a schedule over the strategies
-/// repeats along it, and every `sets_per_round` places make a round.
+/// repeats along it, and every `sets_per_round` places make a round. A build that was continued with
+/// another schedule has several phases; ordinals count on through all of them.
 #[derive(Clone, Debug)]
 pub struct Plan {
+    /// In order; the last has no end.
+    phases: Vec<Phase>,
+}
+
+#[derive(Clone, Debug)]
+struct Phase {
+    first_round: u64,
+    first_place: u64,
+    sets_per_round: u64,
     schedule: Vec<u32>,
     /// Per place of the schedule: how often its strategy came before it there.
     before: Vec<u64>,
     /// Per strategy: how often it comes in the schedule.
     per_cycle: Vec<u64>,
-    sets_per_round: u64,
+    /// Per strategy: its sets in earlier phases.
+    used: Vec<u64>,
+}
+
+impl Phase {
+    /// How many sets of each strategy have come before the place `within` of the phase.
+    fn used_until(&self, within: u64) -> Vec<u64> {
+        let length = self.schedule.len() as u64;
+        let mut used = self.used.clone();
+        for (strategy, used) in used.iter_mut().enumerate() {
+            *used += within / length * self.per_cycle[strategy];
+        }
+        for strategy in &self.schedule[..(within % length) as usize] {
+            used[*strategy as usize] += 1;
+        }
+        used
+    }
 }
 
 impl Plan {
     /// The plan of a problem.
     pub fn new(problem: &Problem) -> Plan {
-        let mut per_cycle = vec![0; problem.strategies.len()];
+        let mut plan = Plan { phases: Vec::new() };
+        let strategies = problem.strategies.len();
+        let mut start = (0, 0, vec![0; strategies]);
+        for earlier in &problem.earlier {
+            plan.push(start, &earlier.schedule, earlier.sets_per_round);
+            let phase = &plan.phases[plan.phases.len() - 1];
+            let places = earlier.rounds * phase.sets_per_round;
+            let round = phase.first_round + earlier.rounds;
+            start = (round, phase.first_place + places, phase.used_until(places));
+        }
+        plan.push(start, &problem.schedule, problem.sets_per_round);
+        plan
+    }
+
+    fn push(
+        &mut self,
+        (first_round, first_place, used): (u64, u64, Vec<u64>),
+        schedule: &[u32],
+        sets_per_round: u32,
+    ) {
+        let mut per_cycle = vec![0; used.len()];
         let mut before = Vec::new();
-        for strategy in &problem.schedule {
+        for strategy in schedule {
             before.push(per_cycle[*strategy as usize]);
             per_cycle[*strategy as usize] += 1;
         }
-        Plan {
-            schedule: problem.schedule.clone(),
+        self.phases.push(Phase {
+            first_round,
+            first_place,
+            sets_per_round: u64::from(sets_per_round),
+            schedule: schedule.to_vec(),
             before,
             per_cycle,
-            sets_per_round: u64::from(problem.sets_per_round),
-        }
+            used,
+        });
+    }
+
+    fn phase(&self, is_before: impl Fn(&Phase) -> bool) -> &Phase {
+        // The first begins at the first place of the first round, which nothing is before.
+        &self.phases[self.phases.partition_point(is_before).max(1) - 1]
     }
 
     /// The strategy of the set at `place`, and the set's ordinal within it.
     pub fn set_at(&self, place: u64) -> (u32, u64) {
-        let length = self.schedule.len() as u64;
-        let (cycle, within) = (place / length, (place % length) as usize);
-        let strategy = self.schedule[within];
-        (strategy, cycle * self.per_cycle[strategy as usize] + self.before[within])
+        let phase = self.phase(|phase| phase.first_place <= place);
+        let length = phase.schedule.len() as u64;
+        let within = place - phase.first_place;
+        let (cycle, within) = (within / length, (within % length) as usize);
+        let strategy = phase.schedule[within] as usize;
+        let ordinal = phase.used[strategy] + cycle * phase.per_cycle[strategy];
+        (strategy as u32, ordinal + phase.before[within])
     }
 
     /// The round to which `place` belongs.
     pub fn round_of(&self, place: u64) -> u64 {
-        place / self.sets_per_round
+        let phase = self.phase(|phase| phase.first_place <= place);
+        phase.first_round + (place - phase.first_place) / phase.sets_per_round
     }
 
     /// The places of a round.
     pub fn places_of(&self, round: u64) -> Range<u64> {
-        round * self.sets_per_round..(round + 1) * self.sets_per_round
+        let phase = self.phase(|phase| phase.first_round <= round);
+        let first = phase.first_place + (round - phase.first_round) * phase.sets_per_round;
+        first..first + phase.sets_per_round
     }
 }
 
@@ -54,20 +114,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_ordinal_of_every_strategy_comes_once_and_in_order() {
-        let plan = Plan {
-            schedule: vec![0, 1, 0, 2],
-            before: vec![0, 0, 1, 0],
-            per_cycle: vec![2, 1, 1],
-            sets_per_round: 3,
-        };
+    fn every_ordinal_of_every_strategy_comes_once_and_in_order_through_all_phases() {
+        let mut plan = Plan { phases: Vec::new() };
+        plan.push((0, 0, vec![0; 3]), &[0, 1, 0, 2], 3);
+        // Five rounds, three whole cycles and three places of the next.
+        let used = plan.phases[0].used_until(15);
+        assert_eq!(used, [8, 4, 3]);
+        plan.push((5, 15, used), &[2, 1], 4);
         let mut next = [0; 3];
-        for place in 0..40 {
+        let mut rounds = Vec::new();
+        for place in 0..60 {
             let (strategy, ordinal) = plan.set_at(place);
-            assert_eq!(strategy, [0, 1, 0, 2][place as usize % 4]);
+            let expected = match place {
+                0..15 => [0, 1, 0, 2][place as usize % 4],
+                _ => [2, 1][(place as usize - 15) % 2],
+            };
+            assert_eq!(strategy, expected);
             assert_eq!(ordinal, next[strategy as usize]);
             next[strategy as usize] += 1;
+            rounds.push(plan.round_of(place));
             assert!(plan.places_of(plan.round_of(place)).contains(&place));
         }
+        assert_eq!(rounds[..17], [0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4, 5, 5]);
+        assert_eq!((plan.places_of(4), plan.places_of(6)), (12..15, 19..23));
     }
 }

@@ -4,9 +4,10 @@ use super::error::ProblemError;
 use super::file::{BodyTable, ShapeTable, Solid, TurnTable};
 use super::source::Source;
 use super::source::Step::{self, Index, Key};
+use crate::digest::SourceFile;
 use crate::math;
 use crate::robot::Robot;
-use crate::scene::{Body, LENGTH_MAX, Pose, Shape, read_mesh};
+use crate::scene::{Body, LENGTH_MAX, MeshOptions, Pose, Shape, read_mesh_with};
 use crate::space::canonical;
 use std::path::Path;
 
@@ -131,8 +132,12 @@ fn shape_of(source: &Source, table: &BodyTable) -> Result<Shape, String> {
         ShapeTable::Mesh { file, scale } => {
             length("scale", *scale)?;
             let folder = source.path.parent().unwrap_or(Path::new(""));
-            let mesh = read_mesh(&folder.join(file), *scale).map_err(|error| error.to_string())?;
-            Shape::Mesh(mesh)
+            let options = MeshOptions { scale: *scale, ..MeshOptions::default() };
+            let read = read_mesh_with(&folder.join(file), &options);
+            let read = read.map_err(|error| error.to_string())?;
+            let path = file.to_string_lossy().into_owned();
+            source.read(SourceFile { path, digest: read.digest });
+            Shape::Mesh(read.mesh)
         }
     })
 }

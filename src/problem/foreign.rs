@@ -60,6 +60,8 @@ fn from_scene(path: &Path, scene: ForeignScene) -> Result<Problem, ProblemError>
         evaluators: Vec::new(),
         limits: building::default_limits(),
         notes,
+        sources: scene.sources,
+        earlier: Vec::new(),
     };
     if let Some((mut start, mut goal)) = scene.query {
         let cx = problem.context();

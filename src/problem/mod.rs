@@ -4,6 +4,7 @@
 
 mod bodies;
 mod building;
+mod chapter;
 mod configuration;
 mod describe;
 mod error;
@@ -13,11 +14,13 @@ mod linkage;
 mod resolve;
 mod source;
 
+pub use chapter::Earlier;
 pub use configuration::configuration;
 pub use error::ProblemError;
 pub use foreign::Companions;
 
 use crate::context::{Context, Ends};
+use crate::digest::SourceFile;
 use crate::evaluate::EvaluatorKind;
 use crate::roadmap::Digest;
 use crate::robot::Robot;
@@ -63,6 +66,10 @@ pub struct Problem {
     pub limits: Limits,
     /// What was chosen where the file leaves a choice, for people to read.
     pub notes: Vec<String>,
+    /// The files that it was read from, its own first.
+    pub sources: Vec<SourceFile>,
+    /// Of a build that was continued with another schedule: what came before, in order.
+    pub earlier: Vec<Earlier>,
 }
 
 /// Bounds on a build. It stops at the end of the first round that reaches one.
@@ -117,7 +124,7 @@ impl Problem {
             (self.seed, self.bounds),
             (self.resolution, self.rotation_length),
             (&self.robot, &self.obstacles),
-            (&self.strategies, &self.schedule, self.sets_per_round),
+            (&self.strategies, &self.schedule, self.sets_per_round, &self.earlier),
         );
         Digest::of(&crate::wire::encode(&determining))
     }

@@ -52,8 +52,11 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
         evaluators,
         limits,
         notes,
+        sources: Vec::new(),
+        earlier: Vec::new(),
     };
-    settled(&source, problem, file.query)
+    let problem = settled(&source, problem, file.query)?;
+    Ok(Problem { sources: source.files.into_inner(), ..problem })
 }
 
 fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {

@@ -2,6 +2,8 @@
 
 use super::error::ProblemError;
 use super::file::File;
+use crate::digest::SourceFile;
+use std::cell::RefCell;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
@@ -16,18 +18,29 @@ pub(super) struct Source<'a> {
     pub path: &'a Path,
     text: &'a str,
     tree: DeTable<'a>,
+    /// The files read so far, this one first.
+    pub files: RefCell<Vec<SourceFile>>,
 }
 
 impl<'a> Source<'a> {
     /// Parses the file's text.
     pub fn new(path: &'a Path, text: &'a str) -> Result<Source<'a>, ProblemError> {
         let tree = DeTable::parse(text).map_err(|error| syntax_error(path, text, &error))?;
-        Ok(Source { path, text, tree: tree.into_inner() })
+        let files = RefCell::new(vec![SourceFile::named(path, text.as_bytes())]);
+        Ok(Source { path, text, tree: tree.into_inner(), files })
     }
 
     /// Reads the tree into tables.
     pub fn file(&self) -> Result<File, ProblemError> {
         toml::from_str(self.text).map_err(|error| syntax_error(self.path, self.text, &error))
+    }
+
+    /// Notes that a file was read.
+    pub fn read(&self, file: SourceFile) {
+        let mut files = self.files.borrow_mut();
+        if !files.contains(&file) {
+            files.push(file);
+        }
     }
 
     /// An error at the deepest step of `place` that the file has.

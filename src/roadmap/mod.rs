@@ -7,9 +7,9 @@ mod digest;
 mod increment;
 mod search;
 
+pub use crate::digest::Digest;
 pub use components::{Component, Components};
 pub use configs::Configs;
-pub use digest::Digest;
 pub use increment::{Edge, Increment};
 pub use search::{Graph, Route};
 

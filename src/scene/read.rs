@@ -1,6 +1,7 @@
 use super::raw::{MeshError, RawMesh, UpAxis};
 use super::weld::Surface;
 use super::{LENGTH_MAX, Mesh, byu, collada, obj, ply, stl};
+use crate::digest::Digest;
 use std::path::Path;
 
 /// Which point of a mesh becomes the origin of its frame.
@@ -63,6 +64,8 @@ pub struct ReadMesh {
     pub up: Option<UpAxis>,
     /// Metres per unit of length, where the file says so. Nothing is converted.
     pub unit_metres: Option<f64>,
+    /// Digest of the file's bytes.
+    pub digest: Digest,
 }
 
 /// Reads a `.obj`, `.stl`, `.ply`, `.dae` or `.g` file and multiplies its coordinates by `scale`.
@@ -94,10 +97,15 @@ pub fn read_mesh_with(path: &Path, options: &MeshOptions) -> Result<ReadMesh, Me
     };
     let bytes = std::fs::read(path)
         .map_err(|error| MeshError::whole(path, format!("cannot read the mesh: {error}")))?;
-    finish(path, read(path, &bytes)?, options)
+    finish(path, read(path, &bytes)?, options, Digest::of(&bytes))
 }
 
-fn finish(path: &Path, mut raw: RawMesh, options: &MeshOptions) -> Result<ReadMesh, MeshError> {
+fn finish(
+    path: &Path,
+    mut raw: RawMesh,
+    options: &MeshOptions,
+    digest: Digest,
+) -> Result<ReadMesh, MeshError> {
     if raw.triangles.is_empty() {
         return Err(MeshError::whole(path, "no faces found; at least one triangle expected"));
     }
@@ -125,7 +133,16 @@ fn finish(path: &Path, mut raw: RawMesh, options: &MeshOptions) -> Result<ReadMe
         return Err(MeshError::whole(path, message));
     }
     let Surface { unique_triangles, odd_edges } = surface;
-    Ok(ReadMesh { mesh, stored_triangles, unique_triangles, odd_edges, centre, up, unit_metres })
+    Ok(ReadMesh {
+        mesh,
+        stored_triangles,
+        unique_triangles,
+        odd_edges,
+        centre,
+        up,
+        unit_metres,
+        digest,
+    })
 }
 
 fn check_size(path: &Path, raw: &RawMesh, scale: f64) -> Result<(), MeshError> {

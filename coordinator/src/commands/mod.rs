@@ -3,14 +3,26 @@
 mod batch;
 mod build;
 mod check;
+mod diff;
+mod difference;
 mod export;
+mod grow;
+mod log;
 mod query;
+mod resume;
+mod status;
+mod verify;
 mod worker;
 
 pub use build::build;
 pub use check::check;
+pub use diff::diff;
 pub use export::export;
+pub use log::log;
 pub use query::query;
+pub use resume::resume;
+pub use status::status;
+pub use verify::verify;
 pub use worker::worker;
 
 use crate::exit::Failure;

@@ -1,8 +1,13 @@
+use super::ledger::LEDGER;
+use super::lock::RunLock;
 use crate::exit::Failure;
 use std::fs::{self, DirBuilder};
 use std::io::ErrorKind;
 use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
+
+/// What there may be in a run folder before its ledger is.
+const BEFORE_LEDGER: [&str; 3] = [super::lock::LOCK, super::ledger::BEGUN, super::ledger::DURABLE];
 
 /// A run folder made for a build. Only its owner may enter it.
 #[derive(Debug)]
@@ -11,9 +16,6 @@ pub struct RunFolder {
     /// Where the run that is being replaced waits until the new one has begun.
     replaced: Option<PathBuf>,
 }
-
-/// The file that makes a folder a run folder.
-pub const LEDGER: &str = "ledger";
 
 impl RunFolder {
     /// Makes the folder that `--out` names, or a free one under `runs`. With `force` a run that
@@ -31,11 +33,44 @@ impl RunFolder {
         match DirBuilder::new().mode(0o700).create(&path) {
             Ok(()) => Ok(RunFolder { path, replaced }),
             Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Failure::usage(format!(
-                "{}: exists already; a new folder expected, or --force to replace a run",
+                "{}: exists already; a new folder expected, or --force to replace a run, or \
+                 --or-resume to go on with it",
                 path.display()
             ))),
             Err(error) => Err(cannot_make(&path, &error)),
         }
+    }
+
+    /// Makes the folder `path`, or takes one in which there is nothing, or only what a build leaves that
+    /// was killed before it began its ledger.
+    ///
+    /// # Errors
+    /// Exit code 2: it holds something else, or cannot be made.
+    pub fn make_or_take(path: &Path) -> Result<RunFolder, Failure> {
+        make_parents(path)?;
+        match DirBuilder::new().mode(0o700).create(path) {
+            Ok(()) => {}
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+                let entries = fs::read_dir(path).map_err(|error| cannot_make(path, &error))?;
+                for entry in entries {
+                    let name = entry.map_err(|error| cannot_make(path, &error))?.file_name();
+                    if !BEFORE_LEDGER.iter().any(|known| name == *known) {
+                        return Err(Failure::usage(format!(
+                            "{}: holds `{}` but no ledger; a run or a new folder expected",
+                            path.display(),
+                            name.to_string_lossy()
+                        )));
+                    }
+                }
+            }
+            Err(error) => return Err(cannot_make(path, &error)),
+        }
+        Ok(RunFolder { path: path.to_owned(), replaced: None })
+    }
+
+    /// The folder of a run that goes on.
+    pub fn of(path: &Path) -> RunFolder {
+        RunFolder { path: path.to_owned(), replaced: None }
     }
 
     fn make_numbered(name: &str) -> Result<RunFolder, Failure> {
@@ -112,6 +147,8 @@ fn set_run_aside(path: &Path) -> Result<Option<PathBuf>, Failure> {
     if !path.join(LEDGER).is_file() {
         return refuse("holds no ledger");
     }
+    // Not while somebody works on it.
+    drop(RunLock::take(path, || true)?);
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(format!(".replaced-{}", std::process::id()));
     let aside = path.with_file_name(name);

@@ -2,15 +2,20 @@
 //!
 //! ```text
 //! runs/walls/
-//!   ledger         the build, round by round; everything else follows from it
-//!   summary.json   the summary that the build printed
-//!   path.csv       the path of the problem's query, if one was found
+//!   ledger           the build, round by round; everything else follows from it
+//!   ledger.durable   how much of the ledger is durable
+//!   ledger.torn-1    what a killed build left unfinished behind its last round
+//!   lock             who works on the run; empty when nobody does
+//!   summary.json     the summary that the build printed
+//!   path.csv         the path of the problem's query, if one was found
 //! ```
 
 mod folder;
-mod ledger;
+pub mod ledger;
+mod lock;
 mod summary;
 
 pub use folder::RunFolder;
-pub use ledger::{Ledger, LedgerWriter, Stopped};
+pub use ledger::{Ledger, LedgerWriter, Replay, Scan, Stopped, Told};
+pub use lock::{Holder, RunLock};
 pub use summary::{EvaluatorValue, Summary, Times};

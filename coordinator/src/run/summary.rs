@@ -37,6 +37,8 @@ pub struct Summary {
     pub coordinator_cpu_seconds: f64,
     /// Seconds from start to end.
     pub wall_seconds: f64,
+    /// Of these, those that went into the ledger: encoding, hashing, writing and syncing.
+    pub ledger_seconds: f64,
     /// Digest of the roadmap.
     pub digest: String,
 }
@@ -120,9 +122,14 @@ impl fmt::Display for EvaluatorValue {
 /// CPU and wall seconds of a build.
 #[derive(Debug, Clone, Copy)]
 pub struct Times {
+    /// CPU seconds of all processes.
     pub cpu_seconds: f64,
+    /// Those of the coordinator alone.
     pub coordinator_cpu_seconds: f64,
+    /// Seconds from start to end.
     pub wall_seconds: f64,
+    /// Of these, those that went into the ledger.
+    pub ledger_seconds: f64,
 }
 
 impl Summary {
@@ -150,6 +157,7 @@ impl Summary {
             cpu_seconds: times.cpu_seconds,
             coordinator_cpu_seconds: times.coordinator_cpu_seconds,
             wall_seconds: times.wall_seconds,
+            ledger_seconds: times.ledger_seconds,
             digest: roadmap.digest().to_string(),
         }
     }
@@ -173,7 +181,8 @@ impl fmt::Display for Summary {
             "cpu         {:.2} s, {coordinator:.2} s of it the coordinator's",
             self.cpu_seconds
         )?;
-        writeln!(f, "wall        {:.2} s", self.wall_seconds)?;
+        let ledger = self.ledger_seconds;
+        writeln!(f, "wall        {:.2} s, {ledger:.2} s of it for the ledger", self.wall_seconds)?;
         write!(f, "digest {}", self.digest)
     }
 }

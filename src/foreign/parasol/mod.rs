@@ -13,6 +13,7 @@ mod words;
 use super::bodies::{Meshes, Named, Solid};
 use super::error::read_text;
 use super::{Base, ForeignBody, ForeignError, ForeignScene};
+use crate::digest::SourceFile;
 use crate::scene::{Centre, MeshOptions, Pose, ReadMesh};
 use crate::validity::{Bounds, BoundsMeaning};
 use std::path::{Path, PathBuf};
@@ -37,6 +38,7 @@ pub fn read_parasol(
     ];
     let mut meshes = Meshes::default();
     let text = read_text(env)?;
+    meshes.sources.push(SourceFile::named(env, text.as_bytes()));
     let found = env::read(&mut Words::new(env, &text), &mut meshes, &mut notes)?;
     let robot = match (found.robot, robot) {
         (Some(_), Some(other)) => {
@@ -54,6 +56,7 @@ pub fn read_parasol(
                 })?,
             };
             let text = read_text(&path)?;
+            meshes.sources.push(SourceFile::named(&path, text.as_bytes()));
             let mut words = Words::new(&path, &text);
             let robot = robot::read(&mut words, &mut meshes, &mut notes)?;
             words.end("the end after the connections")?;
@@ -66,7 +69,11 @@ pub fn read_parasol(
         None => beside(env, "query", &mut notes)?,
     };
     let query = match query {
-        Some(path) => Some(query::read(&path, &read_text(&path)?, &robot, &mut notes)?),
+        Some(path) => {
+            let text = read_text(&path)?;
+            meshes.sources.push(SourceFile::named(&path, text.as_bytes()));
+            Some(query::read(&path, &text, &robot, &mut notes)?)
+        }
         None => None,
     };
     Ok(ForeignScene {
@@ -78,6 +85,7 @@ pub fn read_parasol(
         may_touch: robot.may_touch,
         query,
         notes,
+        sources: meshes.sources,
     })
 }
 

@@ -1,0 +1,66 @@
+//! Naming the first thing in which two sets differ, bit by bit.
+
+use roadmill::evaluate::Verdict;
+use roadmill::img::Joined;
+use roadmill::roadmap::{Edge, Increment};
+use roadmill::space::Space;
+use roadmill::validity::Asked;
+use roadmill::wire;
+
+/// The first difference between two increments; each is named as what it is on either side.
+pub fn of_increments(space: &Space, left: &Increment, right: &Increment) -> Option<String> {
+    let (ours, theirs) = (left.configs.len(), right.configs.len());
+    let dofs = space.len().max(1);
+    let values = left.configs.values().iter().zip(right.configs.values());
+    let differing = values.enumerate().find(|(_, (a, b))| a.to_bits() != b.to_bits());
+    if let Some((index, (a, b))) = differing {
+        let name = &space.dofs()[index % dofs].name;
+        return Some(format!("node {}, {name}: {a:?} and {b:?}", index / dofs));
+    }
+    if ours != theirs {
+        return Some(format!("{ours} and {theirs} nodes"));
+    }
+    of_edges("edge", &left.edges, &right.edges).or_else(|| of_counts(left.asked, right.asked))
+}
+
+/// The first difference between two joins.
+pub fn of_joins(left: &Joined, right: &Joined) -> Option<String> {
+    let edges = of_edges("joining edge", &left.edges, &right.edges);
+    edges.or_else(|| of_counts(left.asked, right.asked))
+}
+
+/// The first difference between the verdicts on a round.
+pub fn of_verdicts(left: &[Verdict], right: &[Verdict]) -> Option<String> {
+    if left.len() != right.len() {
+        return Some(format!("{} and {} verdicts", left.len(), right.len()));
+    }
+    let differs =
+        |(_, (a, b)): &(usize, (&Verdict, &Verdict))| wire::encode(*a) != wire::encode(*b);
+    let (index, (a, b)) = left.iter().zip(right).enumerate().find(differs)?;
+    let values = format!("values {:?} and {:?}", a.value, b.value);
+    let what = if a.value.to_bits() == b.value.to_bits() { ", in its details" } else { "" };
+    Some(format!("evaluator {index}: {values}{what}"))
+}
+
+fn of_edges(what: &str, left: &[Edge], right: &[Edge]) -> Option<String> {
+    let bits = |edge: &Edge| (edge.low, edge.high, edge.planner, edge.weight.to_bits());
+    let text = |edge: &Edge| {
+        let Edge { low, high, planner, weight } = edge;
+        format!("{low}–{high} of weight {weight:?} by planner {planner}")
+    };
+    let mut pairs = left.iter().zip(right).enumerate();
+    if let Some((index, (a, b))) = pairs.find(|(_, (a, b))| bits(a) != bits(b)) {
+        return Some(format!("{what} {index}: {} and {}", text(a), text(b)));
+    }
+    let (ours, theirs) = (left.len(), right.len());
+    (ours != theirs).then(|| format!("{ours} and {theirs} {what}s"))
+}
+
+fn of_counts(left: Asked, right: Asked) -> Option<String> {
+    (left != right).then(|| {
+        format!(
+            "{} and {} configurations, {} and {} motions were checked",
+            left.configurations, right.configurations, left.motions, right.motions
+        )
+    })
+}

@@ -1,0 +1,246 @@
+//! What `build` and `resume` share: growing a roadmap from wherever it is.
+
+use super::write_whole;
+use crate::cli::{CrewArguments, GrowthArguments};
+use crate::cpu::CpuClock;
+use crate::exit::{Code, Failure};
+use crate::memory::resident_bytes;
+use crate::pool::Pool;
+use crate::progress::{Reporter, print_json};
+use crate::run::{LedgerWriter, Replay, RunFolder, Scan, Stopped, Summary, Times, Told};
+use crate::signals::Signals;
+use roadmill::evaluate::Verdict;
+use roadmill::export::path_csv;
+use roadmill::img::{
+    Core, Cut, Executor, Judgement, Observer, Past, Progress, Round, Setup, Stop, Threads, drive,
+};
+use roadmill::problem::Problem;
+use roadmill::roadmap::Roadmap;
+use std::io::Write;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// The most worker processes or threads.
+const WORKERS_MAX: usize = 4096;
+/// Sets per worker that may be generated ahead of the current round.
+const LOOKAHEAD_PER_WORKER: u64 = 4;
+/// Looking at every process's memory takes a moment.
+const MEMORY_PAUSE: Duration = Duration::from_secs(1);
+
+/// A roadmap to be grown, and by whom.
+pub(super) struct Growth<'a> {
+    pub problem: Problem,
+    pub folder: RunFolder,
+    pub ledger: LedgerWriter,
+    /// What there is already; its verdicts are those by the problem's own criteria.
+    pub past: Option<Scan>,
+    pub arguments: &'a GrowthArguments,
+    pub workers: usize,
+    pub signals: Arc<Signals>,
+    pub cpu: CpuClock,
+}
+
+impl Growth<'_> {
+    /// Grows the roadmap to its end.
+    pub fn grow(self) -> Result<Code, Failure> {
+        let Growth { mut folder, past, arguments, workers, signals, .. } = self;
+        let verdicts = past.as_ref().and_then(|past| past.verdicts.clone()).unwrap_or_default();
+        let setup = Arc::new(Setup::new(self.problem));
+        let mut watch = Watch {
+            setup: setup.clone(),
+            ledger: self.ledger,
+            reporter: Reporter::new(arguments.json),
+            signals: signals.clone(),
+            workers,
+            cpu: self.cpu,
+            verdicts,
+            seconds: arguments.max_time.or(setup.problem.limits.seconds),
+            memory: arguments.max_memory,
+            weighed: (past.as_ref().map_or(0, Scan::rounds), None),
+        };
+        let (stop, roadmap) = if arguments.crew.threads.is_some() {
+            let mut threads = Threads::new(setup, workers);
+            folder.begun()?;
+            let stop = watch.drive(past.as_ref(), &mut threads)?;
+            (stop, threads.into_roadmap())
+        } else {
+            let mut pool = match Pool::start(setup, workers, signals) {
+                Ok(pool) => pool,
+                Err(error) => {
+                    if past.is_none() {
+                        folder.discard();
+                    }
+                    return Err(Failure::system(error));
+                }
+            };
+            folder.begun()?;
+            let stop = watch.drive(past.as_ref(), &mut pool);
+            // Also where the ledger cannot be written: the workers end before their channel does.
+            let (roadmap, closed) = pool.close();
+            if let Err(error) = closed {
+                eprintln!("{}: {error}; the next run tries again", watch.setup.problem.name);
+            }
+            (stop?, roadmap)
+        };
+        watch.reporter.finish();
+        watch.end(arguments.json, &folder, &stop, &roadmap)
+    }
+}
+
+/// How many workers or threads there are to be.
+pub(super) fn workers(crew: &CrewArguments) -> Result<usize, Failure> {
+    let (option, workers) = match (crew.workers, crew.threads) {
+        (Some(workers), _) => ("--workers", workers),
+        (None, Some(threads)) => ("--threads", threads),
+        // Knows the process's affinity and its group's quota.
+        (None, None) => ("", std::thread::available_parallelism().map_or(1, usize::from)),
+    };
+    if (1..=WORKERS_MAX).contains(&workers) {
+        Ok(workers)
+    } else {
+        Err(Failure::usage(format!("{option}: {workers} found, 1 to {WORKERS_MAX} expected")))
+    }
+}
+
+/// Changes a problem's limits to those of the command line.
+pub(super) fn limit(problem: &mut Problem, arguments: &GrowthArguments) -> Result<(), Failure> {
+    let limits = &mut problem.limits;
+    limits.nodes = arguments.max_nodes.unwrap_or(limits.nodes);
+    limits.sets = arguments.max_sets.unwrap_or(limits.sets);
+    match limits.complaint() {
+        // The file's own limits have been checked.
+        Some((limit, message)) => Err(Failure::usage(format!("--max-{limit}: {message}"))),
+        None => Ok(()),
+    }
+}
+
+/// Keeps the ledger, tells how far the build is, and ends it when time is up, memory is short or a
+/// signal comes.
+struct Watch {
+    setup: Arc<Setup>,
+    ledger: LedgerWriter,
+    reporter: Reporter,
+    signals: Arc<Signals>,
+    workers: usize,
+    cpu: CpuClock,
+    verdicts: Vec<Verdict>,
+    seconds: Option<f64>,
+    memory: Option<u64>,
+    /// After which round the memory was looked at last, and when.
+    weighed: (u64, Option<Instant>),
+}
+
+impl Watch {
+    fn drive(
+        &mut self,
+        past: Option<&Scan>,
+        executor: &mut impl Executor,
+    ) -> Result<Stop, Failure> {
+        let past = match past {
+            Some(scan) => self.restore(scan, executor)?,
+            None => Past::default(),
+        };
+        let lookahead = LOOKAHEAD_PER_WORKER * self.workers as u64;
+        let mut core = Core::resume(&self.setup, lookahead, past);
+        drive(&mut core, executor, self)
+    }
+
+    /// Folds what there is already.
+    fn restore(&self, scan: &Scan, executor: &mut impl Executor) -> Result<Past, Failure> {
+        let mut replay = Replay::new(scan, &self.setup.problem)?;
+        while let Some(told) = replay.next()? {
+            if let Told::Round(round, digest) = told {
+                executor.restore(&round);
+                replay.check(executor.roadmap(), digest)?;
+            }
+            if self.signals.came() {
+                return Err(Failure::new(Code::Interrupted, "a signal came"));
+            }
+        }
+        let nodes = executor.roadmap().configs().len() as u64;
+        Ok(Past { rounds: scan.rounds(), nodes, verdicts: scan.verdicts.clone() })
+    }
+
+    /// Writes down and says what the build came to.
+    fn end(
+        mut self,
+        json: bool,
+        folder: &RunFolder,
+        stop: &Stop,
+        roadmap: &Roadmap,
+    ) -> Result<Code, Failure> {
+        let problem = &self.setup.problem;
+        let stopped = Stopped::new(stop, problem);
+        let answers = self.verdicts.iter().filter_map(Verdict::answer);
+        if let Some(path) = answers.filter_map(|answer| answer.path.as_ref()).next() {
+            write_whole(&folder.file("path.csv"), path_csv(&self.setup.cx.space, path))?;
+        }
+        let coordinator_cpu_seconds = self.cpu.own_seconds();
+        let times = Times {
+            cpu_seconds: coordinator_cpu_seconds + self.cpu.children_seconds(),
+            coordinator_cpu_seconds,
+            wall_seconds: self.reporter.seconds(),
+            ledger_seconds: self.ledger.seconds(),
+        };
+        let summary =
+            Summary::new(problem, folder.path(), roadmap, &self.verdicts, &stopped, times);
+        let text = serde_json::to_string_pretty(&summary).map_err(Failure::system)?;
+        write_whole(&folder.file("summary.json"), text + "\n")?;
+        // Last: a build that is killed before comes here again when it goes on.
+        self.ledger.stopped(&stopped)?;
+        if json {
+            print_json(&summary);
+        } else {
+            // Whoever closes the pipe does not want it.
+            let _ = writeln!(std::io::stdout(), "{summary}");
+        }
+        match stopped.outcome(problem) {
+            (Code::Done, _) => Ok(Code::Done),
+            (code, reason) => Err(Failure::new(code, reason)),
+        }
+    }
+
+    /// Whether memory is short, looked at after rounds.
+    fn is_short_of_memory(&mut self, rounds: u64) -> bool {
+        let (round, at) = self.weighed;
+        let Some(limit) = self.memory.filter(|_| round < rounds) else { return false };
+        if at.is_some_and(|at| at.elapsed() < MEMORY_PAUSE) {
+            return false;
+        }
+        self.weighed = (rounds, Some(Instant::now()));
+        resident_bytes() >= limit
+    }
+}
+
+impl Observer for Watch {
+    type Error = Failure;
+
+    fn folded(&mut self, round: &Round, roadmap: &Roadmap) -> Result<(), Failure> {
+        self.ledger.round(round, &self.setup.problem, roadmap)
+    }
+
+    fn judged(&mut self, judgement: &Judgement) -> Result<(), Failure> {
+        self.verdicts = judgement.verdicts.clone();
+        self.ledger.judged(judgement)
+    }
+
+    fn tick(
+        &mut self,
+        progress: &Progress,
+        roadmap: &Roadmap,
+        alive: usize,
+    ) -> Result<Option<Cut>, Failure> {
+        self.ledger.sync_if_due()?;
+        let workers = (alive, self.workers);
+        self.reporter.report(&self.setup.problem, progress, roadmap, workers);
+        Ok(if self.signals.came() {
+            Some(Cut::Interrupted)
+        } else if self.seconds.is_some_and(|limit| self.reporter.seconds() >= limit) {
+            Some(Cut::Time)
+        } else if self.is_short_of_memory(progress.rounds) {
+            self.memory.map(Cut::Memory)
+        } else {
+            None
+        })
+    }
+}

@@ -1,0 +1,81 @@
+use crate::cli::LogArguments;
+use crate::exit::{Code, Failure};
+use crate::progress::print_json;
+use crate::run::{Replay, Scan, Told};
+use roadmill::roadmap::Digest;
+use roadmill::seed::Seed;
+use roadmill::wire;
+use serde::Serialize;
+use std::io::Write;
+
+/// A set in the list.
+#[derive(Serialize)]
+struct Line<'a> {
+    place: u64,
+    round: u64,
+    label: &'a str,
+    ordinal: u64,
+    seed: String,
+    nodes: usize,
+    edges: usize,
+    joining_edges: usize,
+    configurations_checked: u64,
+    motions_checked: u64,
+    digest: String,
+}
+
+/// Lists a build set by set.
+pub fn log(arguments: &LogArguments) -> Result<Code, Failure> {
+    let scan = Scan::read(&arguments.run)?;
+    let problem = scan.problem()?;
+    let mut replay = Replay::new(&scan, &problem)?;
+    let mut out = std::io::stdout().lock();
+    if !arguments.json {
+        let heading = "round place set seed nodes edges joining configurations motions digest";
+        let _ = writeln!(out, "{heading}");
+    }
+    while let Some(told) = replay.next()? {
+        let Told::Round(round, _) = told else { continue };
+        for set in &round.sets {
+            let (increment, joined) = (&set.increment, &set.joined);
+            let label = &problem.strategies[set.strategy as usize].label;
+            let line = Line {
+                place: set.place,
+                round: round.index,
+                label,
+                ordinal: set.ordinal,
+                seed: Seed::of_set(problem.seed, label, set.ordinal).to_string(),
+                nodes: increment.configs.len(),
+                edges: increment.edges.len(),
+                joining_edges: joined.edges.len(),
+                configurations_checked: increment.asked.configurations
+                    + joined.asked.configurations,
+                motions_checked: increment.asked.motions + joined.asked.motions,
+                digest: Digest::of(&wire::encode(&(&**increment, joined))).to_string(),
+            };
+            if arguments.json {
+                print_json(&line);
+                continue;
+            }
+            let written = writeln!(
+                out,
+                "{} {} {label}:{} {} {} {} {} {} {} {}",
+                line.round,
+                line.place,
+                line.ordinal,
+                &line.seed[..16],
+                line.nodes,
+                line.edges,
+                line.joining_edges,
+                line.configurations_checked,
+                line.motions_checked,
+                &line.digest[..16],
+            );
+            if written.is_err() {
+                // Whoever closes the pipe has read enough.
+                return Ok(Code::Done);
+            }
+        }
+    }
+    Ok(Code::Done)
+}

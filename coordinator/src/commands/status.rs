@@ -1,0 +1,124 @@
+use crate::cli::StatusArguments;
+use crate::exit::{Code, Failure};
+use crate::progress::print_json;
+use crate::run::{EvaluatorValue, Holder, Scan};
+use roadmill::problem::Problem;
+use serde::Serialize;
+use std::fmt;
+use std::io::Write;
+use std::thread::sleep;
+use std::time::Duration;
+
+const PAUSE: Duration = Duration::from_millis(500);
+
+/// How far a build is, as its files tell.
+#[derive(Serialize, PartialEq)]
+struct Status {
+    event: &'static str,
+    run: String,
+    problem: String,
+    seed: u64,
+    program: String,
+    bits_version: u32,
+    chapters: usize,
+    rounds: u64,
+    sets: u64,
+    nodes: u64,
+    edges: u64,
+    components: u64,
+    evaluators: Vec<EvaluatorValue>,
+    /// `running`, `held` (on another host), `killed`, or the word of a stop.
+    state: String,
+    reason: String,
+    ledger_bytes: u64,
+    digest: Option<String>,
+}
+
+/// Says how far a build is.
+pub fn status(arguments: &StatusArguments) -> Result<Code, Failure> {
+    let mut scan = Scan::read(&arguments.run)?;
+    let mut chapter = (scan.chapters.len(), scan.problem()?);
+    let mut last = None;
+    loop {
+        let holder = Holder::read(&arguments.run);
+        let status = Status::new(&scan, &chapter.1, holder);
+        let is_over = !matches!(&*status.state, "running" | "held");
+        if last.as_ref() != Some(&status) {
+            if arguments.json {
+                print_json(&status);
+            } else if writeln!(std::io::stdout(), "{status}").is_err() {
+                return Ok(Code::Done);
+            }
+        }
+        last = Some(status);
+        if !arguments.watch || is_over {
+            return Ok(Code::Done);
+        }
+        sleep(PAUSE);
+        scan.read_on()?;
+        if chapter.0 != scan.chapters.len() {
+            chapter = (scan.chapters.len(), scan.problem()?);
+        }
+    }
+}
+
+impl Status {
+    fn new(scan: &Scan, problem: &Problem, holder: Option<Holder>) -> Status {
+        let lives = holder.as_ref().map(|holder| holder.lives());
+        let (state, reason) = match (&scan.stopped, holder, lives) {
+            (_, Some(holder), Some(Some(true))) => ("running".to_owned(), holder.to_string()),
+            (_, Some(holder), Some(None)) => ("held".to_owned(), holder.to_string()),
+            (Some(stopped), _, _) => (stopped.word.clone(), stopped.reason.clone()),
+            _ => ("killed".to_owned(), "nobody works on it; `resume` goes on".to_owned()),
+        };
+        let chapter = scan.chapter();
+        let end = scan.last_round.as_ref();
+        let count = |of: fn(&crate::run::ledger::RoundEnd) -> u64| end.map_or(0, of);
+        let verdicts = scan.verdicts.as_ref().unwrap_or(&scan.last_verdicts);
+        Status {
+            event: "status",
+            run: scan.folder().display().to_string(),
+            problem: chapter.name.clone(),
+            seed: chapter.seed,
+            program: chapter.program.clone(),
+            bits_version: chapter.bits_version,
+            chapters: scan.chapters.len(),
+            rounds: scan.rounds(),
+            sets: count(|end| end.sets),
+            nodes: count(|end| end.nodes),
+            edges: count(|end| end.edges),
+            components: count(|end| end.components),
+            evaluators: EvaluatorValue::all(problem, verdicts),
+            state,
+            reason,
+            ledger_bytes: scan.end.offset,
+            digest: end.map(|end| end.roadmap.to_string()),
+        }
+    }
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "problem     {} (seed {})", self.problem, self.seed)?;
+        writeln!(f, "run         {}", self.run)?;
+        writeln!(f, "program     roadmill {}, bits {}", self.program, self.bits_version)?;
+        if self.chapters > 1 {
+            writeln!(f, "chapters    {}", self.chapters)?;
+        }
+        let Status { rounds, sets, nodes, edges, components, .. } = self;
+        writeln!(f, "rounds      {rounds}")?;
+        writeln!(f, "sets        {sets}")?;
+        writeln!(f, "nodes       {nodes}")?;
+        writeln!(f, "edges       {edges}")?;
+        writeln!(f, "components  {components}")?;
+        for evaluator in &self.evaluators {
+            writeln!(f, "evaluator   {evaluator}")?;
+        }
+        writeln!(f, "ledger      {} bytes", self.ledger_bytes)?;
+        write!(f, "state       {}: {}", self.state, self.reason)?;
+        match &self.digest {
+            Some(digest) => write!(f, "\ndigest {digest}"),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,321 @@
+use super::difference;
+use super::grow::workers;
+use crate::cli::VerifyArguments;
+use crate::exit::{Code, Failure};
+use crate::pool::Pool;
+use crate::run::ledger::{Chapter, Judged, job_name};
+use crate::run::{Replay, Scan, Told};
+use crate::signals::Signals;
+use roadmill::BITS_VERSION;
+use roadmill::img::{
+    Event, Executor, Finished, Job, LOSSES_MAX, Outcome, RoundSet, Setup, TICK, Threads,
+};
+use roadmill::problem::Problem;
+use roadmill::roadmap::Digest;
+use roadmill::validity::Scratch;
+use roadmill::wire;
+use roadmill_workers::channel::private_umask;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// The share that is recomputed unless something else is asked for.
+const DEFAULT_SHARE: f64 = 0.01;
+/// Increments per worker that may be waited for while later rounds are read.
+const AHEAD_PER_WORKER: usize = 4;
+
+/// Recomputes sets from their seeds and compares them with the ledger.
+pub fn verify(arguments: &VerifyArguments) -> Result<Code, Failure> {
+    private_umask();
+    let workers = workers(&arguments.crew)?;
+    let signals = Arc::new(Signals::listen().map_err(Failure::system)?);
+    let scan = Scan::read(&arguments.run)?;
+    let problem = scan.problem()?;
+    let choice = Choice::new(arguments, &scan, &problem)?;
+    let setup = Arc::new(Setup::new(problem));
+    let check = Check {
+        scan: &scan,
+        setup: &setup,
+        choice,
+        signals: &signals,
+        ahead: AHEAD_PER_WORKER * workers,
+        at_work: BTreeMap::new(),
+        difference: None,
+        counts: (0, 0),
+    };
+    let counts = if arguments.crew.threads.is_some() {
+        check.run(&mut Threads::new(setup.clone(), workers))?
+    } else {
+        let pool = Pool::start(setup.clone(), workers, signals.clone());
+        let mut pool = pool.map_err(Failure::system)?;
+        let counts = check.run(&mut pool);
+        let (_, closed) = pool.close();
+        closed.map_err(Failure::system)?;
+        counts?
+    };
+    let (sets, judgements) = counts;
+    let whole = scan.last_round.as_ref().map_or(0, |end| end.sets);
+    println!("{sets} of {whole} sets and {judgements} judgements recomputed: all as recorded");
+    if let Some(end) = &scan.last_round {
+        println!("digest {}", end.roadmap);
+    }
+    Ok(Code::Done)
+}
+
+/// What is recomputed.
+enum Choice {
+    All,
+    /// Sets by label and ordinal.
+    Named(BTreeSet<(String, u64)>),
+    /// A share; which follows from the ledger's hash.
+    Share(f64, Digest),
+    /// As the least share: this place.
+    One(u64),
+}
+
+impl Choice {
+    fn new(arguments: &VerifyArguments, scan: &Scan, problem: &Problem) -> Result<Choice, Failure> {
+        if arguments.all {
+            return Ok(Choice::All);
+        }
+        if !arguments.sets.is_empty() {
+            let known = |label: &str| problem.strategies.iter().any(|known| known.label == label);
+            let parse = |text: &String| {
+                let (label, ordinal) = text.rsplit_once(':')?;
+                known(label).then_some((label.to_owned(), ordinal.parse().ok()?))
+            };
+            let parse = |text| {
+                parse(text).ok_or_else(|| {
+                    let labels: Vec<_> = problem.strategies.iter().map(|s| &*s.label).collect();
+                    let labels = labels.join(", ");
+                    let expected = format!("LABEL:ORDINAL expected, with a label of {labels}");
+                    Failure::usage(format!("--set: `{text}` found; {expected}"))
+                })
+            };
+            return arguments.sets.iter().map(parse).collect::<Result<_, _>>().map(Choice::Named);
+        }
+        let share = arguments.sample.unwrap_or(DEFAULT_SHARE);
+        let sets = scan.last_round.as_ref().map_or(0, |end| end.sets);
+        let lots = (0..sets).map(|place| (lot(&scan.end.chain, b"set", place), place));
+        Ok(match lots.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some((least, place)) if least >= share => Choice::One(place),
+            _ => Choice::Share(share, scan.end.chain),
+        })
+    }
+
+    fn has_set(&self, set: &RoundSet, label: &str) -> bool {
+        match self {
+            Choice::All => true,
+            Choice::Named(names) => names.contains(&(label.to_owned(), set.ordinal)),
+            Choice::Share(share, chain) => lot(chain, b"set", set.place) < *share,
+            Choice::One(place) => set.place == *place,
+        }
+    }
+
+    fn has_judgement(&self, round: u64) -> bool {
+        match self {
+            Choice::All => true,
+            Choice::Share(share, chain) => lot(chain, b"judgement", round) < *share,
+            Choice::Named(_) | Choice::One(_) => false,
+        }
+    }
+}
+
+/// A number in `[0, 1)` that looks drawn by lot.
+fn lot(chain: &Digest, what: &[u8], number: u64) -> f64 {
+    let bytes = [&chain.0, what, &number.to_le_bytes()].concat();
+    let [a, b, c, d, e, f, ..] = Digest::of(&bytes).0;
+    u64::from_le_bytes([a, b, c, d, e, f, 0, 0]) as f64 / (1u64 << 48) as f64
+}
+
+struct Check<'a> {
+    scan: &'a Scan,
+    setup: &'a Setup,
+    choice: Choice,
+    signals: &'a Signals,
+    ahead: usize,
+    /// What each job should come to, and how often it was lost.
+    at_work: BTreeMap<Job, (Outcome, u32)>,
+    /// The first job, in the order of the ledger, that came to something else.
+    difference: Option<((u64, u8), String)>,
+    /// Sets and judgements recomputed.
+    counts: (u64, u64),
+}
+
+impl Check<'_> {
+    fn run(mut self, executor: &mut impl Executor) -> Result<(u64, u64), Failure> {
+        let mut replay = Replay::new(self.scan, &self.setup.problem)?;
+        let mut judge: Option<(usize, Setup)> = None;
+        while let Some(told) = replay.next()? {
+            match told {
+                Told::Round(round, digest) => {
+                    let chapter = replay.chapter();
+                    for set in &round.sets {
+                        executor.publish(&set.increment);
+                        self.hand_out(set, chapter, executor)?;
+                    }
+                    // A fold takes the inputs of joins away.
+                    while self.joins() > 0 || self.at_work.len() > self.ahead {
+                        self.take(executor)?;
+                    }
+                    executor.fold(&round);
+                    replay.check(executor.roadmap(), digest)?;
+                }
+                Told::Judged(judged) if self.choice.has_judgement(judged.round) => {
+                    let chapter = replay.chapter();
+                    if judge.as_ref().is_none_or(|(known, _)| *known != chapter) {
+                        let problem = self.scan.problem_of(chapter)?;
+                        judge = Some((chapter, Setup::new(problem)));
+                    }
+                    if let Some((_, judge)) = &judge {
+                        self.judge(&judged, judge, chapter, executor)?;
+                    }
+                }
+                Told::Judged(_) => {}
+            }
+            if self.difference.is_some() {
+                break;
+            }
+        }
+        while !self.at_work.is_empty() {
+            self.take(executor)?;
+        }
+        match (self.difference, self.choice) {
+            (Some((_, what)), _) => {
+                let run = self.scan.folder().display();
+                Err(Failure::new(Code::Differs, format!("{run}: {what}")))
+            }
+            (None, Choice::Named(names)) if self.counts.0 < names.len() as u64 => {
+                Err(Failure::usage("--set: not every set that is named is in the run"))
+            }
+            (None, _) => Ok(self.counts),
+        }
+    }
+
+    /// Has a set recomputed if it is chosen.
+    fn hand_out(
+        &mut self,
+        set: &RoundSet,
+        chapter: usize,
+        executor: &mut impl Executor,
+    ) -> Result<(), Failure> {
+        let label = &self.setup.problem.strategies[set.strategy as usize].label;
+        if !self.choice.has_set(set, label) {
+            return Ok(());
+        }
+        needs_bits(&format!("set {label}:{}", set.ordinal), &self.scan.chapters[chapter])?;
+        let place = set.place;
+        let increment = Outcome::Increment(Ok((*set.increment).clone()));
+        let joined = Outcome::Joined(set.joined.clone());
+        for (job, outcome) in [(Job::Generate { place }, increment), (Job::Join { place }, joined)]
+        {
+            self.at_work.insert(job, (outcome, 0));
+            executor.submit(job);
+        }
+        self.counts.0 += 1;
+        Ok(())
+    }
+
+    fn joins(&self) -> usize {
+        self.at_work.keys().filter(|job| matches!(job, Job::Join { .. })).count()
+    }
+
+    /// Takes in what comes next from the executor.
+    fn take(&mut self, executor: &mut impl Executor) -> Result<(), Failure> {
+        if self.signals.came() {
+            return Err(Failure::new(Code::Interrupted, "a signal came"));
+        }
+        match executor.next(TICK) {
+            Some(Event::Done(job, finished)) => {
+                if let Some((expected, _)) = self.at_work.remove(&job) {
+                    self.compare(job, &expected, &finished);
+                }
+            }
+            Some(Event::Lost(job)) => {
+                if let Some((_, losses)) = self.at_work.get_mut(&job) {
+                    *losses += 1;
+                    if *losses == LOSSES_MAX {
+                        let name = job_name(job, &self.setup.problem);
+                        let message = format!("{name} killed its workers");
+                        return Err(Failure::new(Code::WorkersLost, message));
+                    }
+                    executor.submit(job);
+                }
+            }
+            Some(Event::Cut(cut)) => {
+                return Err(Failure::new(Code::WorkersLost, format!("{cut:?}")));
+            }
+            None => {}
+        }
+        Ok(())
+    }
+
+    fn compare(&mut self, job: Job, expected: &Outcome, finished: &Finished) {
+        if Digest::of(&wire::encode(expected)) == finished.digest {
+            return;
+        }
+        let (at, found) = match (job, expected, &finished.outcome) {
+            (
+                Job::Generate { place },
+                Outcome::Increment(Ok(recorded)),
+                Outcome::Increment(Ok(found)),
+            ) => {
+                let found = difference::of_increments(&self.setup.cx.space, recorded, found);
+                ((place, 0), found)
+            }
+            (Job::Generate { place }, _, Outcome::Increment(Err(gave_up))) => {
+                ((place, 0), Some(format!("a set and none: {gave_up}")))
+            }
+            (Job::Join { place }, Outcome::Joined(recorded), Outcome::Joined(found)) => {
+                ((place, 1), difference::of_joins(recorded, found))
+            }
+            (Job::Generate { place } | Job::Join { place }, _, _) => ((place, 2), None),
+            (Job::Evaluate { .. }, _, _) => return,
+        };
+        let found = found.unwrap_or_else(|| "what was recomputed is no such thing".to_owned());
+        let name = job_name(job, &self.setup.problem);
+        self.note(at, format!("{name}: recorded and recomputed differ: {found}"));
+    }
+
+    fn judge(
+        &mut self,
+        judged: &Judged,
+        judge: &Setup,
+        chapter: usize,
+        executor: &impl Executor,
+    ) -> Result<(), Failure> {
+        let name = format!("the judgement of round {}", judged.round);
+        needs_bits(&name, &self.scan.chapters[chapter])?;
+        let evaluators = judge.problem.evaluators.iter().enumerate();
+        let verdicts: Vec<_> = evaluators
+            .map(|(index, evaluator)| {
+                let method = evaluator.method();
+                let scratch = &mut Scratch::new();
+                method.evaluate(&judge.cx, &index.to_string(), executor.roadmap(), scratch)
+            })
+            .collect();
+        self.counts.1 += 1;
+        if let Some(found) = difference::of_verdicts(&judged.verdicts, &verdicts) {
+            let at = (self.setup.plan.places_of(judged.round).end, 0);
+            self.note(at, format!("{name}: recorded and recomputed differ: {found}"));
+        }
+        Ok(())
+    }
+
+    fn note(&mut self, at: (u64, u8), what: String) {
+        if self.difference.as_ref().is_none_or(|(first, _)| at < *first) {
+            self.difference = Some((at, what));
+        }
+    }
+}
+
+/// Whether this program makes the bits of a chapter.
+fn needs_bits(what: &str, chapter: &Chapter) -> Result<(), Failure> {
+    let Chapter { bits_version: bits, program, .. } = chapter;
+    if *bits == BITS_VERSION {
+        return Ok(());
+    }
+    Err(Failure::usage(format!(
+        "{what} needs a roadmill with bits of version {bits}, as roadmill {program} has; this one has \
+         version {BITS_VERSION}"
+    )))
+}

@@ -1,0 +1,36 @@
+//! `roadmill`: the coordinator of builds, and the command line around it.
+
+mod cli;
+mod commands;
+mod cpu;
+pub mod exit;
+mod memory;
+mod pool;
+mod progress;
+pub mod run;
+mod signals;
+
+use clap::Parser;
+use exit::Failure;
+use std::process::ExitCode;
+
+/// Runs the program with the command line that the process was given.
+pub fn main() -> ExitCode {
+    let result = match cli::Arguments::parse().command {
+        cli::Command::Build(arguments) => commands::build(&arguments),
+        cli::Command::Resume(arguments) => commands::resume(&arguments),
+        cli::Command::Status(arguments) => commands::status(&arguments),
+        cli::Command::Verify(arguments) => commands::verify(&arguments),
+        cli::Command::Diff(arguments) => commands::diff(&arguments),
+        cli::Command::Log(arguments) => commands::log(&arguments),
+        cli::Command::Query(arguments) => commands::query(&arguments),
+        cli::Command::Check(arguments) => commands::check(&arguments),
+        cli::Command::Export(arguments) => commands::export(&arguments),
+        cli::Command::Worker(arguments) => commands::worker(&arguments),
+    };
+    let code = result.unwrap_or_else(|Failure { code, message }| {
+        eprintln!("roadmill: {message}");
+        code
+    });
+    ExitCode::from(code as u8)
+}

@@ -1,0 +1,76 @@
+//! The ledger: an append-only file of records from which a build can be read again, continued and
+//! verified. `docs/ledger.md` describes its bytes and what is promised of them.
+
+mod durable;
+mod frame;
+mod reader;
+mod record;
+mod replay;
+mod scan;
+mod stopped;
+mod writer;
+
+pub use durable::DURABLE;
+pub use frame::Mark;
+pub use reader::LedgerReader;
+pub use record::{Chapter, Judged, Record, RoundEnd, Set};
+pub use replay::{Replay, Told};
+pub use scan::Scan;
+pub use stopped::{Stopped, name as job_name};
+pub use writer::{BEGUN, LedgerWriter};
+
+use crate::exit::Failure;
+use roadmill::evaluate::Verdict;
+use roadmill::problem::Problem;
+use roadmill::roadmap::Roadmap;
+use std::fs::File;
+use std::path::Path;
+
+/// The file that makes a folder a run folder.
+pub const LEDGER: &str = "ledger";
+
+/// A ledger read back.
+#[derive(Debug)]
+pub struct Ledger {
+    /// The problem, all chapters taken together.
+    pub problem: Problem,
+    /// The roadmap of the complete rounds.
+    pub roadmap: Roadmap,
+    /// The path that the last judgement found.
+    pub path: Option<roadmill::query::Path>,
+    /// Why the build stopped; `None` while it runs or where it was killed.
+    pub stopped: Option<Stopped>,
+}
+
+impl Ledger {
+    /// Reads a run folder's ledger up to the last complete round, and checks every record and
+    /// the roadmap's digest after every round.
+    ///
+    /// # Errors
+    /// Exit code 2 if there is no ledger, 4 if it is damaged or of another format.
+    pub fn read(folder: &Path) -> Result<Ledger, Failure> {
+        let scan = Scan::read(folder)?;
+        let problem = scan.problem()?;
+        let space = problem.space();
+        let mut roadmap = Roadmap::new(&space);
+        let mut replay = Replay::new(&scan, &problem)?;
+        while let Some(told) = replay.next()? {
+            if let Told::Round(round, digest) = told {
+                let sets = round.sets.iter();
+                let sets = sets.map(|set| (&*set.increment, &set.joined.edges[..]));
+                roadmap.fold_round(&space, sets);
+                replay.check(&roadmap, digest)?;
+            }
+        }
+        let answers = scan.last_verdicts.iter().filter_map(Verdict::answer);
+        let path = answers.filter_map(|answer| answer.path.clone()).next();
+        Ok(Ledger { problem, roadmap, path, stopped: scan.stopped })
+    }
+}
+
+/// Makes names in a folder durable.
+fn sync_folder(folder: &Path) -> std::io::Result<()> {
+    // A relative path of one name has an empty parent.
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    File::open(folder)?.sync_all()
+}

@@ -1,0 +1,107 @@
+use super::reader::LedgerReader;
+use super::record::{Judged, Record, Set};
+use super::scan::Scan;
+use crate::exit::Failure;
+use roadmill::img::{Plan, Round, RoundSet};
+use roadmill::problem::Problem;
+use roadmill::roadmap::{Digest, Roadmap};
+
+/// What a ledger tells of a build, in order.
+pub enum Told {
+    /// A round was folded, and the roadmap then had this digest.
+    Round(Round, Digest),
+    /// The last round was judged.
+    Judged(Judged),
+}
+
+/// Reads the rounds of a scanned ledger again, with their sets.
+pub struct Replay<'a> {
+    reader: LedgerReader,
+    scan: &'a Scan,
+    plan: Plan,
+    problem: &'a Problem,
+    /// Sets and nodes before the next round.
+    place: u64,
+    nodes: u64,
+    round: u64,
+    dofs: usize,
+    chapters: usize,
+}
+
+impl<'a> Replay<'a> {
+    /// Begins at the first round. `problem` is the scan's own.
+    ///
+    /// # Errors
+    /// As [`Scan::read`].
+    pub fn new(scan: &'a Scan, problem: &'a Problem) -> Result<Replay<'a>, Failure> {
+        let reader = LedgerReader::open(scan.folder())?;
+        let (plan, dofs) = (Plan::new(problem), problem.space().len());
+        Ok(Replay { reader, scan, plan, problem, place: 0, nodes: 0, round: 0, dofs, chapters: 0 })
+    }
+
+    /// The next round or judgement, up to the scan's end.
+    ///
+    /// # Errors
+    /// Exit code 4: a record is damaged, or a set that cannot be.
+    pub fn next(&mut self) -> Result<Option<Told>, Failure> {
+        let mut sets = Vec::new();
+        while self.reader.at().offset < self.scan.end.offset {
+            match self.reader.next_record()? {
+                Some(Record::Set(set)) => sets.push(self.set(set)?),
+                Some(Record::RoundEnd(end)) => {
+                    let places = self.plan.places_of(self.round);
+                    if self.place != places.end || end.nodes != self.nodes {
+                        return Err(self.reader.wrong("not the sets of its round"));
+                    }
+                    let index = self.round;
+                    self.round += 1;
+                    return Ok(Some(Told::Round(Round { index, sets }, end.roadmap)));
+                }
+                Some(Record::Judged(judged)) => return Ok(Some(Told::Judged(judged))),
+                Some(Record::Chapter(_)) => self.chapters += 1,
+                Some(Record::Stopped(_)) => {}
+                None => break,
+            }
+        }
+        Ok(None)
+    }
+
+    /// Index of the chapter to which belongs what was told last.
+    pub fn chapter(&self) -> usize {
+        self.chapters.saturating_sub(1)
+    }
+
+    /// Checks that the last round has given this roadmap.
+    ///
+    /// # Errors
+    /// Exit code 4: it has not.
+    pub fn check(&self, roadmap: &Roadmap, told: Digest) -> Result<(), Failure> {
+        if roadmap.digest() == told {
+            Ok(())
+        } else {
+            Err(self.reader.wrong("the roadmap's digest differs"))
+        }
+    }
+
+    /// A set whose folding cannot go out of range, and which is the one that comes here.
+    fn set(&mut self, set: Set) -> Result<RoundSet, Failure> {
+        let (strategy, ordinal) = self.plan.set_at(self.place);
+        let label = &self.problem.strategies[strategy as usize].label;
+        if (set.place, &set.label, set.ordinal) != (self.place, label, ordinal) {
+            let found = format!("set {}:{} at place {}", set.label, set.ordinal, set.place);
+            let expected = format!("{label}:{ordinal} at place {}", self.place);
+            return Err(self.reader.wrong(&format!("{found} found, {expected} expected")));
+        }
+        self.nodes += set.increment.configs.len() as u64;
+        let joins = &set.joined.edges;
+        let sound = self.nodes < u64::from(u32::MAX)
+            && set.increment.is_sound(self.dofs)
+            && joins.iter().all(|e| e.low < e.high && u64::from(e.high) < self.nodes);
+        if !sound {
+            return Err(self.reader.wrong("a set that cannot be"));
+        }
+        self.place += 1;
+        let Set { place, increment, joined, .. } = set;
+        Ok(RoundSet { place, strategy, ordinal, increment, joined })
+    }
+}

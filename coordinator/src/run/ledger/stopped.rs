@@ -1,0 +1,90 @@
+use crate::exit::Code;
+use bincode::{Decode, Encode};
+use roadmill::img::{Cut, Job, Plan, Stop};
+use roadmill::problem::Problem;
+
+/// How a build ended, as the ledger keeps it.
+#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+pub struct Stopped {
+    /// One word for programs: `satisfied`, `node-limit`, …
+    pub word: String,
+    /// The same for people.
+    pub reason: String,
+}
+
+impl Stopped {
+    /// Puts a stop into words.
+    pub fn new(stop: &Stop, problem: &Problem) -> Stopped {
+        let label = |strategy: u32| &problem.strategies[strategy as usize].label;
+        let (word, reason) = match stop {
+            Stop::Satisfied => ("satisfied", "all criteria are met".to_owned()),
+            Stop::NodeLimit => {
+                ("node-limit", format!("the limit of {} nodes is reached", problem.limits.nodes))
+            }
+            Stop::SetLimit => {
+                ("set-limit", format!("the limit of {} sets is reached", problem.limits.sets))
+            }
+            Stop::GaveUp { strategy, ordinal, gave_up } => {
+                ("gave-up", format!("set {}:{ordinal}: {gave_up}", label(*strategy)))
+            }
+            Stop::Deadly(job) => {
+                ("deadly-job", format!("{} killed its workers", name(*job, problem)))
+            }
+            Stop::Contradiction(job) => {
+                ("contradiction", format!("{} gave two different outcomes", name(*job, problem)))
+            }
+            Stop::Nonsense(job) => {
+                ("nonsense", format!("{} gave an outcome that it cannot have", name(*job, problem)))
+            }
+            Stop::Cut(Cut::Time) => ("time-limit", "the limit of time is reached".to_owned()),
+            Stop::Cut(Cut::Memory(bytes)) => {
+                ("memory-limit", format!("the limit of {bytes} bytes of memory is reached"))
+            }
+            Stop::Cut(Cut::Interrupted) => ("interrupted", "a signal came".to_owned()),
+            Stop::Cut(Cut::WorkersLost(why)) => ("workers-lost", why.clone()),
+        };
+        Stopped { word: word.to_owned(), reason }
+    }
+
+    /// Whether the build would stop again at once: its problem must change for it to go on.
+    pub fn is_final(&self) -> bool {
+        matches!(&*self.word, "satisfied" | "node-limit" | "set-limit" | "gave-up")
+    }
+
+    /// What a build that ends so ends with, and what it says if that is no success.
+    pub fn outcome(&self, problem: &Problem) -> (Code, String) {
+        let code = match &*self.word {
+            "satisfied" => Code::Done,
+            // Without criteria the limit is what was asked for.
+            "node-limit" | "set-limit" | "time-limit" | "memory-limit" => {
+                if problem.evaluators.is_empty() {
+                    Code::Done
+                } else {
+                    let reason = format!("{} before all criteria are met", self.reason);
+                    return (Code::NoSuccess, reason);
+                }
+            }
+            "gave-up" => Code::NoSuccess,
+            "deadly-job" | "workers-lost" => Code::WorkersLost,
+            "interrupted" => Code::Interrupted,
+            _ => Code::BrokenRun,
+        };
+        (code, self.reason.clone())
+    }
+}
+
+/// A job as people name it: by its set's label and ordinal.
+pub fn name(job: Job, problem: &Problem) -> String {
+    let set = |place: u64| {
+        let (strategy, ordinal) = Plan::new(problem).set_at(place);
+        format!("{}:{ordinal}", problem.strategies[strategy as usize].label)
+    };
+    match job {
+        Job::Generate { place } => format!("generating set {}", set(place)),
+        Job::Join { place } => format!("joining set {}", set(place)),
+        Job::Evaluate { round, evaluator } => {
+            let evaluator = problem.evaluators[evaluator as usize].method().name();
+            format!("the {evaluator} evaluation after round {round}")
+        }
+    }
+}

@@ -1,0 +1,218 @@
+use super::durable::{DURABLE, DurableFile};
+use super::frame::{self, HEADING, Mark};
+use super::record::{Chapter, Judged, Record, RoundEnd, Set};
+use super::scan::Scan;
+use super::stopped::Stopped;
+use super::{LEDGER, sync_folder};
+use crate::exit::Failure;
+use crate::run::RunLock;
+use roadmill::img::{Judgement, Round};
+use roadmill::problem::Problem;
+use roadmill::roadmap::Roadmap;
+use roadmill::wire;
+use std::fs::{self, File};
+use std::io::{self, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Rounds that end within this time of one another are made durable together. They are written at
+/// once: only the failure of the whole machine can lose them, never that of a process.
+const SYNC_PAUSE_MIN: Duration = Duration::from_secs(1);
+/// On a slow disk the pause is this many times what a sync takes.
+const SYNC_PAUSE_TIMES: u32 = 100;
+/// Where a ledger is written before it has its beginning.
+pub const BEGUN: &str = "ledger.begun";
+
+/// A ledger being written, by the one process that holds the run.
+#[derive(Debug)]
+pub struct LedgerWriter {
+    path: PathBuf,
+    file: File,
+    durable: DurableFile,
+    lock: RunLock,
+    /// What has been written.
+    at: Mark,
+    /// What is durable of it.
+    durable_offset: u64,
+    next_sync: Instant,
+    spent: Duration,
+}
+
+impl LedgerWriter {
+    /// Begins the ledger of a run folder.
+    ///
+    /// # Errors
+    /// Exit code 1: the file cannot be written.
+    pub fn begin(folder: &Path, problem: &Problem, lock: RunLock) -> Result<LedgerWriter, Failure> {
+        let begun = folder.join(BEGUN);
+        let begin = || -> io::Result<LedgerWriter> {
+            let file = File::options().write(true).create(true).truncate(true).open(&begun)?;
+            let durable = DurableFile::create(folder)?;
+            Ok(LedgerWriter::new(folder, file, durable, lock, Mark::first()))
+        };
+        let mut writer = begin().map_err(|error| cannot_write(&begun, &error))?;
+        writer.file.write_all(HEADING).map_err(|error| cannot_write(&begun, &error))?;
+        writer.chapter(0, problem)?;
+        // Under its name the ledger has its beginning from the first moment, whatever fails when.
+        fs::rename(&begun, &writer.path)
+            .and_then(|()| sync_folder(folder))
+            .and_then(|()| sync_folder(folder.parent().unwrap_or(folder)))
+            .map_err(|error| cannot_write(&writer.path, &error))?;
+        Ok(writer)
+    }
+
+    /// Goes on with the ledger that was scanned; a torn tail is saved beside it and cut. The name of
+    /// what was saved, if anything was.
+    ///
+    /// # Errors
+    /// Exit code 1: the file cannot be written.
+    pub fn resume(scan: &Scan, lock: RunLock) -> Result<(LedgerWriter, Option<PathBuf>), Failure> {
+        let folder = scan.folder();
+        let path = folder.join(LEDGER);
+        let open = || -> io::Result<(LedgerWriter, Option<PathBuf>)> {
+            let mut file = File::options().read(true).write(true).open(&path)?;
+            let saved = cut_tail(folder, &mut file, scan.end.offset)?;
+            let durable = DurableFile::open(folder)?;
+            Ok((LedgerWriter::new(folder, file, durable, lock, scan.end), saved))
+        };
+        let (mut writer, saved) = open().map_err(|error| cannot_write(&path, &error))?;
+        writer.sync()?;
+        Ok((writer, saved))
+    }
+
+    fn new(folder: &Path, file: File, durable: DurableFile, lock: RunLock, at: Mark) -> Self {
+        let path = folder.join(LEDGER);
+        let (next_sync, spent) = (Instant::now(), Duration::ZERO);
+        LedgerWriter { path, file, durable, lock, at, durable_offset: 0, next_sync, spent }
+    }
+
+    /// Appends the beginning of a chapter and makes it durable.
+    ///
+    /// # Errors
+    /// Exit code 1: the file cannot be written.
+    pub fn chapter(&mut self, first_round: u64, problem: &Problem) -> Result<(), Failure> {
+        let chapter = Chapter::new(first_round, problem);
+        self.append([Record::Chapter(Box::new(chapter))])?;
+        self.sync()
+    }
+
+    /// Appends a folded round; `roadmap` includes it.
+    ///
+    /// # Errors
+    /// Exit code 1: the file cannot be written.
+    pub fn round(
+        &mut self,
+        round: &Round,
+        problem: &Problem,
+        roadmap: &Roadmap,
+    ) -> Result<(), Failure> {
+        let end = RoundEnd {
+            round: round.index,
+            sets: roadmap.sets(),
+            nodes: roadmap.configs().len() as u64,
+            edges: roadmap.edges().len() as u64,
+            components: roadmap.components().count() as u64,
+            roadmap: roadmap.digest(),
+        };
+        let sets = round.sets.iter().map(|set| Record::Set(Set::new(set, problem)));
+        self.append(sets.chain([Record::RoundEnd(end)]))?;
+        self.sync_if_due()
+    }
+
+    /// Appends what the evaluators said.
+    ///
+    /// # Errors
+    /// Exit code 1: the file cannot be written.
+    pub fn judged(&mut self, judgement: &Judgement) -> Result<(), Failure> {
+        let verdicts = judgement.verdicts.clone();
+        self.append([Record::Judged(Judged { round: judgement.round, verdicts })])?;
+        self.sync_if_due()
+    }
+
+    /// Appends why the build stopped and makes all durable.
+    ///
+    /// # Errors
+    /// Exit code 1: the file cannot be written.
+    pub fn stopped(&mut self, stopped: &Stopped) -> Result<(), Failure> {
+        self.append([Record::Stopped(stopped.clone())])?;
+        self.sync()
+    }
+
+    /// Makes durable what is not, if it is time; shows that the run is held.
+    ///
+    /// # Errors
+    /// Exit code 1: the file cannot be written, or another process has taken the run over.
+    pub fn sync_if_due(&mut self) -> Result<(), Failure> {
+        self.lock.beat()?;
+        if self.durable_offset < self.at.offset && Instant::now() >= self.next_sync {
+            self.sync()?;
+        }
+        Ok(())
+    }
+
+    /// Seconds that went into the ledger: encoding, hashing, writing and syncing.
+    pub fn seconds(&self) -> f64 {
+        self.spent.as_secs_f64()
+    }
+
+    /// Writes records, all of them or, where that fails, a part that no reader takes for whole.
+    fn append(&mut self, records: impl IntoIterator<Item = Record>) -> Result<(), Failure> {
+        let begun = Instant::now();
+        self.lock.beat()?;
+        let mut bytes = Vec::new();
+        let mut at = self.at;
+        for record in records {
+            at = frame::append(&mut bytes, &at, &wire::encode(&record));
+        }
+        self.file.write_all(&bytes).map_err(|error| cannot_write(&self.path, &error))?;
+        self.at = at;
+        self.spent += begun.elapsed();
+        Ok(())
+    }
+
+    /// Makes all that was written durable, then says so in the side file. `fdatasync` suffices: it
+    /// writes the data and what is needed to read them again, the file's length included, and leaves
+    /// only times for later.
+    fn sync(&mut self) -> Result<(), Failure> {
+        let begun = Instant::now();
+        let folder = self.path.with_file_name(DURABLE);
+        self.file.sync_data().map_err(|error| cannot_write(&self.path, &error))?;
+        self.durable.set(&self.at).map_err(|error| cannot_write(&folder, &error))?;
+        self.durable_offset = self.at.offset;
+        let took = begun.elapsed();
+        self.spent += took;
+        self.next_sync = Instant::now() + SYNC_PAUSE_MIN.max(took * SYNC_PAUSE_TIMES);
+        Ok(())
+    }
+}
+
+fn cannot_write(path: &Path, error: &io::Error) -> Failure {
+    Failure::system(format!("{}: cannot write the ledger: {error}", path.display()))
+}
+
+/// Moves what stands behind `end` into a new file `ledger.torn-N`; its name, if there was anything.
+fn cut_tail(folder: &Path, file: &mut File, end: u64) -> io::Result<Option<PathBuf>> {
+    let torn = file.metadata()?.len() > end;
+    file.seek(SeekFrom::Start(end))?;
+    if !torn {
+        return Ok(None);
+    }
+    let mut number = 1u64;
+    let (mut beside, path) = loop {
+        let path = folder.join(format!("{LEDGER}.torn-{number}"));
+        match File::create_new(&path) {
+            Ok(beside) => break (beside, path),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
+            Err(error) => return Err(error),
+        }
+    };
+    let saved = io::copy(file, &mut beside).and_then(|_| beside.sync_data());
+    if let Err(error) = saved.and_then(|()| sync_folder(folder)) {
+        // The tail still stands where it was.
+        let _ = fs::remove_file(&path);
+        return Err(error);
+    }
+    file.set_len(end)?;
+    file.seek(SeekFrom::Start(end))?;
+    Ok(Some(path))
+}

@@ -1,0 +1,240 @@
+//! One process at a time works on a run.
+//!
+//! The file `lock` names the holder: host, boot, process, since when, and a beat that the holder raises
+//! every few seconds. On one machine `flock` decides: it ends with its process, however that ends. On a
+//! disk that hosts share `flock` may reach across them or not, depending on how it is mounted; a holder
+//! of another boot is therefore watched, and taken for dead only if its beat stands still.
+
+use crate::exit::Failure;
+use rustix::fs::{FlockOperation, flock, fstatfs};
+use rustix::io::Errno;
+use rustix::system::uname;
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io;
+use std::os::unix::fs::FileExt;
+use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+/// The file in a run folder; empty when nobody works on it.
+pub const LOCK: &str = "lock";
+
+const BEAT: Duration = Duration::from_secs(5);
+/// How long a holder on another host is watched.
+const WATCH: Duration = Duration::from_secs(30);
+const WATCH_PAUSE: Duration = Duration::from_millis(100);
+/// Room for the holder, and more: the file is written in one piece.
+const BYTES: usize = 512;
+
+/// Kinds of file systems that no other host mounts, by the magic numbers of `statfs(2)`: ext2 to ext4,
+/// XFS, Btrfs, ZFS, F2FS, tmpfs, overlayfs.
+const LOCAL: [u64; 7] =
+    [0xEF53, 0x5846_5342, 0x9123_683E, 0x2FC1_2FC1, 0xF2F5_2010, 0x0102_1994, 0x794C_7630];
+
+/// Who works on a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Holder {
+    /// Name of the host.
+    pub host: String,
+    /// What tells this start of its kernel from all others.
+    pub boot: String,
+    /// The process.
+    pub pid: u32,
+    /// When the process was started, in ticks since the boot.
+    pub started: u64,
+    /// When it took the run, in seconds since 1970.
+    pub since: u64,
+    /// Raised every few seconds.
+    pub beat: u64,
+}
+
+impl Holder {
+    /// Who holds the run, as far as its file tells.
+    pub fn read(folder: &Path) -> Option<Holder> {
+        read(&folder.join(LOCK))
+    }
+
+    /// Whether the holder is at work; `None` where that cannot be told from here.
+    pub fn lives(&self) -> Option<bool> {
+        (self.boot == boot()).then(|| started(self.pid) == Some(self.started))
+    }
+
+    fn is_same(&self, other: &Holder) -> bool {
+        (&self.boot, self.pid, self.started) == (&other.boot, other.pid, other.started)
+    }
+}
+
+impl std::fmt::Display for Holder {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "process {} on host {} since {}", self.pid, self.host, utc(self.since))
+    }
+}
+
+/// A run held by this process.
+#[derive(Debug)]
+pub struct RunLock {
+    path: PathBuf,
+    file: File,
+    holder: Holder,
+    last_beat: Instant,
+}
+
+impl RunLock {
+    /// Takes hold of a run folder. A holder on another host is watched first, unless `is_ended` says
+    /// that there is no time for that.
+    ///
+    /// # Errors
+    /// Exit code 2: another process holds the run; 1: the system refuses.
+    pub fn take(folder: &Path, is_ended: impl Fn() -> bool) -> Result<RunLock, Failure> {
+        let path = folder.join(LOCK);
+        let cannot = |error: io::Error| {
+            Failure::system(format!("{}: cannot lock the run: {error}", path.display()))
+        };
+        let open = File::options().read(true).write(true).create(true).truncate(false).open(&path);
+        let file = open.map_err(cannot)?;
+        let is_locked = match flock(&file, FlockOperation::NonBlockingLockExclusive) {
+            Ok(()) => true,
+            Err(Errno::WOULDBLOCK) => return Err(held(folder, read(&path).as_ref())),
+            // Some shared file systems know no such locks.
+            Err(Errno::NOSYS | Errno::NOTSUP | Errno::NOLCK | Errno::INVAL) => false,
+            Err(error) => return Err(cannot(error.into())),
+        };
+        let here = is_locked && is_local(&file);
+        let other = read(&path).filter(|other| !(here || is_locked && other.boot == boot()));
+        let watched = other.is_some();
+        if let Some(other) = other {
+            let begun = Instant::now();
+            eprintln!("{}: {other} held it; watching for a sign of life", folder.display());
+            while begun.elapsed() < WATCH {
+                if is_ended() {
+                    return Err(Failure::new(crate::exit::Code::Interrupted, "a signal came"));
+                }
+                sleep(WATCH_PAUSE);
+                if read(&path).is_none_or(|now| now != other) {
+                    return Err(held(folder, read(&path).as_ref()));
+                }
+            }
+        }
+        let holder = Holder {
+            host: uname().nodename().to_string_lossy().into_owned(),
+            boot: boot(),
+            pid: std::process::id(),
+            started: started(std::process::id()).unwrap_or_default(),
+            since: SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_secs(),
+            beat: 0,
+        };
+        let lock = RunLock { path, file, holder, last_beat: Instant::now() };
+        lock.write()
+            .map_err(|error| Failure::system(format!("{}: {error}", lock.path.display())))?;
+        if watched {
+            // Another may have watched as long; the last to write has it.
+            sleep(Duration::from_secs(2));
+            lock.confirm()?;
+        }
+        Ok(lock)
+    }
+
+    /// Shows a sign of life if it is time, after looking whether the run is still held: a process that
+    /// slept for long may have been taken for dead.
+    ///
+    /// # Errors
+    /// Exit code 1: another process has taken the run over.
+    pub fn beat(&mut self) -> Result<(), Failure> {
+        if self.last_beat.elapsed() < BEAT {
+            return Ok(());
+        }
+        self.confirm()?;
+        self.last_beat = Instant::now();
+        self.holder.beat += 1;
+        // A disk that is full for a moment is the ledger's business, which says so.
+        let _ = self.write();
+        Ok(())
+    }
+
+    fn confirm(&self) -> Result<(), Failure> {
+        match read(&self.path) {
+            Some(now) if now.is_same(&self.holder) => Ok(()),
+            Some(other) => {
+                let path = self.path.display();
+                Err(Failure::system(format!("{path}: {other} has taken the run over")))
+            }
+            None => Err(Failure::system(format!("{}: the lock is gone", self.path.display()))),
+        }
+    }
+
+    fn write(&self) -> io::Result<()> {
+        let mut text = serde_json::to_vec(&self.holder)?;
+        text.resize(BYTES.max(text.len() + 1) - 1, b' ');
+        text.push(b'\n');
+        self.file.write_all_at(&text, 0)?;
+        // Other hosts see what has been sent to the server.
+        self.file.sync_data()
+    }
+}
+
+impl Drop for RunLock {
+    fn drop(&mut self) {
+        if self.confirm().is_ok() {
+            // Left as it is it would be a dead holder's.
+            let _ = self.file.set_len(0);
+        }
+    }
+}
+
+fn held(folder: &Path, holder: Option<&Holder>) -> Failure {
+    let holder = holder.map_or_else(|| "another process".to_owned(), Holder::to_string);
+    Failure::usage(format!("{}: {holder} works on this run", folder.display()))
+}
+
+fn read(path: &Path) -> Option<Holder> {
+    let mut bytes = [0; 4 * BYTES];
+    // Opened anew each time, which makes network file systems look.
+    let length = File::open(path).and_then(|file| file.read_at(&mut bytes, 0)).ok()?;
+    serde_json::from_slice(&bytes[..length]).ok()
+}
+
+fn is_local(file: &File) -> bool {
+    fstatfs(file).is_ok_and(|system| LOCAL.contains(&(system.f_type as u64 & 0xFFFF_FFFF)))
+}
+
+fn boot() -> String {
+    let id = std::fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
+    id.trim().to_owned()
+}
+
+/// When a process was started; `None` if there is none of this id.
+fn started(pid: u32) -> Option<u64> {
+    let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
+    // The name before the last parenthesis may hold anything; field 22 is the 20th after it.
+    stat.rsplit(')').next()?.split_whitespace().nth(19)?.parse().ok()
+}
+
+/// A time as people write it, in UTC.
+fn utc(seconds: u64) -> String {
+    let (days, second) = (seconds / 86400, seconds % 86400);
+    // Days to civil date by H. Hinnant, http://howardhinnant.github.io/date_algorithms.html
+    let z = days + 719_468;
+    let (era, day_of_era) = (z / 146_097, z % 146_097);
+    let year_of_era =
+        (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let shifted_month = (5 * day_of_year + 2) / 153;
+    let day = day_of_year - (153 * shifted_month + 2) / 5 + 1;
+    let month = if shifted_month < 10 { shifted_month + 3 } else { shifted_month - 9 };
+    let year = year_of_era + era * 400 + u64::from(month <= 2);
+    let (hour, minute) = (second / 3600, second / 60 % 60);
+    format!("{year}-{month:02}-{day:02} {hour:02}:{minute:02} UTC")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_written_as_people_do() {
+        assert_eq!(utc(0), "1970-01-01 00:00 UTC");
+        assert_eq!(utc(951_868_740), "2000-02-29 23:59 UTC");
+        assert_eq!(utc(1_767_225_600), "2026-01-01 00:00 UTC");
+    }
+}

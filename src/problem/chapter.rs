@@ -1,0 +1,111 @@
+//! Going on with a build that was begun under another problem: other criteria, other limits, further
+//! strategies. What is there already stays what it was.
+
+use super::Problem;
+use bincode::{Decode, Encode};
+
+/// How the sets of some rounds were scheduled, before another schedule took over.
+#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+pub struct Earlier {
+    /// How many rounds.
+    pub rounds: u64,
+    /// As [`Problem::schedule`].
+    pub schedule: Vec<u32>,
+    /// As [`Problem::sets_per_round`].
+    pub sets_per_round: u32,
+}
+
+/// Rounds and sets beyond this are nonsense that a damaged or hostile file could hold.
+const COUNT_MAX: u64 = 1 << 40;
+
+impl Problem {
+    /// This problem continued as `changed` says, after `rounds` rounds: its query, criteria and limits,
+    /// and from the next round on its schedule. Strategies are told apart by their labels; those that
+    /// `changed` does not name keep their sets and get no more.
+    ///
+    /// # Errors
+    /// Says what differs that must not: anything that determines the sets that are there.
+    pub fn continued(&self, changed: &Problem, rounds: u64) -> Result<Problem, String> {
+        if let Some(difference) = self.scene_difference(changed) {
+            return Err(difference);
+        }
+        let mut strategies = self.strategies.clone();
+        let mut index = Vec::new();
+        for strategy in &changed.strategies {
+            let known = strategies.iter().position(|known| known.label == strategy.label);
+            if known.is_some_and(|known| strategies[known] != *strategy) {
+                return Err(format!(
+                    "the strategy `{}` is not what it was; one with a label of its own expected",
+                    strategy.label
+                ));
+            }
+            index.push(known.unwrap_or(strategies.len()) as u32);
+            if known.is_none() {
+                strategies.push(strategy.clone());
+            }
+        }
+        let schedule: Vec<u32> =
+            changed.schedule.iter().map(|strategy| index[*strategy as usize]).collect();
+        let mut earlier = self.earlier.clone();
+        if (&schedule, changed.sets_per_round) != (&self.schedule, self.sets_per_round) {
+            let before: u64 = earlier.iter().map(|earlier| earlier.rounds).sum();
+            if rounds > before {
+                earlier.push(Earlier {
+                    rounds: rounds - before,
+                    schedule: self.schedule.clone(),
+                    sets_per_round: self.sets_per_round,
+                });
+            }
+        }
+        Ok(Problem {
+            query: changed.query.clone(),
+            strategies,
+            schedule,
+            sets_per_round: changed.sets_per_round,
+            evaluators: changed.evaluators.clone(),
+            limits: changed.limits,
+            notes: changed.notes.clone(),
+            sources: changed.sources.clone(),
+            earlier,
+            ..self.clone()
+        })
+    }
+
+    /// What, of all that determines a set beside its strategy, differs in `other`.
+    pub fn scene_difference(&self, other: &Problem) -> Option<String> {
+        if self.seed != other.seed {
+            return Some(format!("the seed is {}, {} expected", other.seed, self.seed));
+        }
+        let parts = [
+            ("the space's bounds", self.bounds == other.bounds),
+            ("the resolution", self.resolution.to_bits() == other.resolution.to_bits()),
+            (
+                "the rotation length",
+                self.rotation_length.to_bits() == other.rotation_length.to_bits(),
+            ),
+            ("the robot", self.robot == other.robot),
+            ("an obstacle", self.obstacles == other.obstacles),
+        ];
+        let (what, _) = parts.into_iter().find(|(_, same)| !same)?;
+        // A changed mesh shows in the file that it comes from.
+        let file = other.sources.iter().skip(1).find(|file| !self.sources.contains(file));
+        let file = file.map_or_else(String::new, |file| format!(" ({} has changed)", file.path));
+        Some(format!("{what} is not what it was{file}"))
+    }
+
+    /// Whether places, rounds and strategies fit together, as they do in every problem that was read
+    /// from a file: what decoded bytes must show.
+    pub fn schedule_is_sound(&self) -> bool {
+        let fits = |schedule: &[u32], sets_per_round: u32| {
+            let known = |strategy: &u32| (*strategy as usize) < self.strategies.len();
+            !schedule.is_empty() && sets_per_round > 0 && schedule.iter().all(known)
+        };
+        let places = self.earlier.iter().try_fold(0u64, |places, earlier| {
+            let own = earlier.rounds.checked_mul(u64::from(earlier.sets_per_round))?;
+            places.checked_add(own).filter(|places| *places < COUNT_MAX)
+        });
+        fits(&self.schedule, self.sets_per_round)
+            && places.is_some()
+            && self.earlier.iter().all(|e| e.rounds > 0 && fits(&e.schedule, e.sets_per_round))
+    }
+}
