@@ -71,7 +71,7 @@ struct Clock {
 impl Observer for Clock {
     type Error = Infallible;
 
-    fn tick(&mut self, _: &Progress, _: &Roadmap, _: usize) -> Option<Cut> {
-        (cpu_seconds() >= self.end).then_some(Cut::Time)
+    fn tick(&mut self, _: &Progress, _: &Roadmap, _: usize) -> Result<Option<Cut>, Infallible> {
+        Ok((cpu_seconds() >= self.end).then_some(Cut::Time))
     }
 }

@@ -218,6 +218,11 @@ fn same_bits_for_what_is_judged_by_the_roadmaps_history() {
 }
 
 #[test]
+fn same_bits_for_a_schedule_that_adapts() {
+    processes_build_what_threads_build("adaptive");
+}
+
+#[test]
 fn same_bits_for_a_turning_body_and_a_mesh() {
     same_bits_however_built(&RIGID_3D);
 }

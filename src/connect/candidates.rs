@@ -98,7 +98,7 @@ impl<'a> Candidates<'a> {
     }
 
     fn part(&self, node: u32) -> &Part<'a> {
-        let parts = self.old.iter().chain([&self.new]);
-        parts.filter(|part| part.first <= node).last().expect("the first part begins at 0")
+        let mut parts = self.old.iter().chain([&self.new]).rev();
+        parts.find(|part| part.first <= node).expect("the first part begins at 0")
     }
 }

@@ -178,7 +178,8 @@ mod tests {
     fn two_far_ends_rule_everything_else_out() {
         let (space, inner) = configs(Motion::Translation3d, 1);
         let mut all = inner.clone();
-        (all.push(&[-50.0; 3]), all.push(&[50.0; 3]));
+        all.push(&[-50.0; 3]);
+        all.push(&[50.0; 3]);
         let ids: Vec<u32> = (0..82).collect();
         let best = farthest_pair(&space, &all, &ids, &[0.0; 3]).expect("a pair");
         assert_eq!((best.low, best.high), (80, 81));

@@ -56,6 +56,7 @@ fn from_scene(path: &Path, scene: ForeignScene) -> Result<Problem, ProblemError>
         query: None,
         strategies,
         schedule,
+        adaptive: None,
         sets_per_round,
         evaluators: Vec::new(),
         limits: building::default_limits(),

@@ -48,10 +48,9 @@ impl Faults {
 
     /// What happens instead of `job`: nothing, the end of the process, or an answer without sense.
     pub fn instead_of(&self, job: Job, setup: &Setup) -> Option<Vec<u8>> {
-        let Job::Generate { place } = job else {
+        let Job::Generate { strategy, ordinal, .. } = job else {
             return None;
         };
-        let (strategy, ordinal) = setup.plan.set_at(place);
         let label = &setup.problem.strategies[strategy as usize].label;
         let here = |fault: &&Fault| fault.ordinal == ordinal && fault.label == *label;
         match &self.0.iter().find(here)?.effect {

@@ -138,7 +138,7 @@ impl Watch {
     ) -> Result<Stop, Failure> {
         let past = match past {
             Some(scan) => self.restore(scan, executor)?,
-            None => Past::default(),
+            None => Past::new(&self.setup),
         };
         let lookahead = LOOKAHEAD_PER_WORKER * self.workers as u64;
         let mut core = Core::resume(&self.setup, lookahead, past);
@@ -148,17 +148,19 @@ impl Watch {
     /// Folds what there is already.
     fn restore(&self, scan: &Scan, executor: &mut impl Executor) -> Result<Past, Failure> {
         let mut replay = Replay::new(scan, &self.setup.problem)?;
+        let mut past = Past::new(&self.setup);
         while let Some(told) = replay.next()? {
             if let Told::Round(round, digest) = told {
                 executor.restore(&round);
                 replay.check(executor.roadmap(), digest)?;
+                past.fold(&round);
             }
             if self.signals.came() {
                 return Err(Failure::new(Code::Interrupted, "a signal came"));
             }
         }
-        let nodes = executor.roadmap().configs().len() as u64;
-        Ok(Past { rounds: scan.rounds(), nodes, verdicts: scan.verdicts.clone() })
+        past.verdicts.clone_from(&scan.verdicts);
+        Ok(past)
     }
 
     /// Writes down and says what the build came to.
