@@ -110,9 +110,9 @@ mod tests {
         let adaptive = Adaptive { rounds: 2 };
         assert_eq!(adaptive.round(&[], &[0, 1, 2], 7), [0, 1, 2, 0, 1, 2, 0]);
         let known = yields(&[(2, 50, 100), (0, 0, 0), (1, 0, 100)]);
-        assert_eq!(adaptive.round(&[known.clone()], &[0, 1, 2], 3), [1, 0, 0]);
+        assert_eq!(adaptive.round(std::slice::from_ref(&known), &[0, 1, 2], 3), [1, 0, 0]);
         // What is not listed gets no set, and what was long ago is forgotten.
-        assert_eq!(adaptive.round(&[known.clone()], &[2], 2), [2, 2]);
+        assert_eq!(adaptive.round(std::slice::from_ref(&known), &[2], 2), [2, 2]);
         let later = yields(&[(0, 0, 0), (1, 0, 10), (1, 0, 10)]);
         assert_eq!(adaptive.round(&[known, later.clone(), later], &[0, 1, 2], 1), [0]);
     }

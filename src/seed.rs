@@ -24,7 +24,12 @@ pub enum Purpose {
 
 /// The seed of one node set or of one evaluator.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Seed([u8; 32]);
+pub struct Seed {
+    own: [u8; 32],
+    /// What the sets of one label have in common.
+    common: [u8; 32],
+    ordinal: u64,
+}
 
 impl std::fmt::Display for Seed {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -39,8 +44,9 @@ impl Seed {
         hasher.update(&base_seed.to_le_bytes());
         hasher.update(&(label.len() as u64).to_le_bytes());
         hasher.update(label.as_bytes());
+        let common = derived("roadmill 1 label seed", hasher.finalize().as_bytes(), 0);
         hasher.update(&ordinal.to_le_bytes());
-        Seed(*hasher.finalize().as_bytes())
+        Seed { own: *hasher.finalize().as_bytes(), common, ordinal }
     }
 
     /// Seed of the evaluator at `path` in the evaluator tree.
@@ -48,15 +54,41 @@ impl Seed {
         let mut hasher = blake3::Hasher::new_derive_key("roadmill 1 evaluator");
         hasher.update(&base_seed.to_le_bytes());
         hasher.update(path.as_bytes());
-        Seed(*hasher.finalize().as_bytes())
+        let own = *hasher.finalize().as_bytes();
+        Seed { own, common: own, ordinal: 0 }
+    }
+
+    /// The ordinal of the set within its label, so that sets can share out points that stand in a fixed
+    /// order; 0 for an evaluator.
+    pub fn ordinal(&self) -> u64 {
+        self.ordinal
+    }
+
+    /// Seed `index` of those that are the same for all sets of the label.
+    pub fn common(&self, index: u64) -> Seed {
+        let own = derived("roadmill 1 common seed", &self.common, index);
+        Seed { own, common: own, ordinal: 0 }
+    }
+
+    /// The seed of the same set for part `index` of a method that is made of several.
+    pub fn part(&self, index: u64) -> Seed {
+        let part = |bytes| derived("roadmill 1 part seed", bytes, index);
+        Seed { own: part(&self.own), common: part(&self.common), ordinal: self.ordinal }
     }
 
     /// The stream of random numbers of one purpose, from its beginning.
     pub fn stream(&self, purpose: Purpose) -> Stream {
-        let mut generator = ChaCha8Rng::from_seed(self.0);
+        let mut generator = ChaCha8Rng::from_seed(self.own);
         generator.set_stream(purpose as u64);
         Stream(generator)
     }
+}
+
+fn derived(context: &str, bytes: &[u8; 32], index: u64) -> [u8; 32] {
+    let mut hasher = blake3::Hasher::new_derive_key(context);
+    hasher.update(bytes);
+    hasher.update(&index.to_le_bytes());
+    *hasher.finalize().as_bytes()
 }
 
 /// A stream of random numbers. It converts bits to numbers itself: a library's conversions may
@@ -76,9 +108,9 @@ impl Stream {
         (-2.0 * math::ln(share)).sqrt() * math::cos(math::TURN * turn)
     }
 
-    /// Uniform in `[low, high]`.
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        (low + self.unit() * (high - low)).clamp(low, high)
+    /// Uniform among `0..count`, which is far below 2⁵³.
+    pub fn below(&mut self, count: u64) -> u64 {
+        (self.unit() * count as f64) as u64
     }
 }
 
@@ -99,6 +131,25 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn sets_of_a_label_have_common_seeds_and_parts_of_their_own() {
+        let [first, second, other] =
+            [("a", 0), ("a", 1), ("b", 0)].map(|(label, ordinal)| Seed::of_set(0, label, ordinal));
+        assert_eq!(first.common(0), second.common(0));
+        assert_eq!(first.part(1).common(0), second.part(1).common(0));
+        assert_eq!((first.ordinal(), second.ordinal(), second.part(1).ordinal()), (0, 1, 1));
+        let mut seeds = vec![first, second, other];
+        for seed in [first, other] {
+            seeds.extend([seed.common(0), seed.common(1), seed.part(0).common(0)]);
+        }
+        for seed in [first, second, other] {
+            seeds.extend([seed.part(0), seed.part(1), seed.part(0).part(0)]);
+        }
+        let drawn = |seed: &Seed| seed.stream(Purpose::Sampling).unit().to_bits();
+        let distinct: std::collections::BTreeSet<u64> = seeds.iter().map(drawn).collect();
+        assert_eq!(distinct.len(), seeds.len());
     }
 
     #[test]

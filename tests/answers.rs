@@ -50,6 +50,11 @@ fn the_cart_leaves_the_maze() {
 }
 
 #[test]
+fn the_bar_climbs_through_the_maze() {
+    check("maze3d.toml");
+}
+
+#[test]
 fn the_hook_passes_the_slit() {
     check("hook.toml");
 }
@@ -75,7 +80,7 @@ fn a_sealed_room_is_never_entered() {
 /// The judge must be able to say no.
 #[test]
 fn the_straight_way_is_found_out() {
-    for name in ["walls.toml", "maze.toml", "hook.toml", "cage.toml"] {
+    for name in ["walls.toml", "maze.toml", "maze3d.toml", "hook.toml", "cage.toml"] {
         let problem = load(name);
         let ends = problem.query.clone().expect("the problem has a query");
         let fault = Judge::new(&problem).walk(&[&ends.start, &ends.goal]).unwrap_err();

@@ -3,8 +3,9 @@
 
 pub mod peer;
 
-use roadmill::img::{Core, Cut, Observer, Progress, Serial, Setup, Stop, drive};
+use roadmill::img::{Core, Cut, Judgement, Observer, Progress, Round, Serial, Setup, Stop, drive};
 use roadmill::roadmap::Roadmap;
+use roadmill::validity::Asked;
 use rustix::time::{ClockId, clock_gettime};
 use std::convert::Infallible;
 use std::sync::Arc;
@@ -48,6 +49,8 @@ pub struct Solved {
     pub satisfied: bool,
     pub nodes: u64,
     pub seconds: f64,
+    /// What was asked of validity checking: by all sets, joins and evaluations.
+    pub asked: Asked,
 }
 
 /// Builds in this thread until all criteria are met or so many CPU seconds have gone by.
@@ -55,21 +58,37 @@ pub fn solve(setup: &Arc<Setup>, seconds: f64) -> Solved {
     let begun = cpu_seconds();
     let mut core = Core::new(setup, 0);
     let mut serial = Serial::new(setup.clone());
-    let Ok(stop) = drive(&mut core, &mut serial, &mut Clock { end: begun + seconds });
+    let mut watch = Watch { end: begun + seconds, asked: Asked::default() };
+    let Ok(stop) = drive(&mut core, &mut serial, &mut watch);
     Solved {
         satisfied: stop == Stop::Satisfied,
         nodes: core.progress().nodes,
         seconds: cpu_seconds() - begun,
+        asked: watch.asked,
     }
 }
 
-/// Ends a build when the thread's CPU time is up.
-struct Clock {
+/// Counts what is asked, and ends a build when the thread's CPU time is up.
+struct Watch {
     end: f64,
+    asked: Asked,
 }
 
-impl Observer for Clock {
+impl Observer for Watch {
     type Error = Infallible;
+
+    fn folded(&mut self, round: &Round, _: &Roadmap) -> Result<(), Infallible> {
+        for set in &round.sets {
+            self.asked += set.increment.asked;
+            self.asked += set.joined.asked;
+        }
+        Ok(())
+    }
+
+    fn judged(&mut self, judgement: &Judgement) -> Result<(), Infallible> {
+        judgement.verdicts.iter().for_each(|verdict| self.asked += verdict.asked);
+        Ok(())
+    }
 
     fn tick(&mut self, _: &Progress, _: &Roadmap, _: usize) -> Result<Option<Cut>, Infallible> {
         Ok((cpu_seconds() >= self.end).then_some(Cut::Time))

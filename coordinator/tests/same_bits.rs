@@ -223,6 +223,11 @@ fn same_bits_for_a_schedule_that_adapts() {
 }
 
 #[test]
+fn same_bits_for_every_sampler() {
+    processes_build_what_threads_build("sampled");
+}
+
+#[test]
 fn same_bits_for_a_turning_body_and_a_mesh() {
     same_bits_however_built(&RIGID_3D);
 }

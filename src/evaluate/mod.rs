@@ -22,12 +22,12 @@ methods! {
         Query(query::Query),
         Coverage(coverage::Coverage),
         Connectivity(connectivity::Connectivity),
+        All(all::All),
+        Any(any::Any),
+        Not(not::Not), // new ones at the end, since ledgers know methods by number
         Expansion(expansion::Expansion),
         MaxFlow(max_flow::MaxFlow),
         InformationGain(information_gain::InformationGain),
-        All(all::All),
-        Any(any::Any),
-        Not(not::Not),
     }
 }
 

@@ -76,8 +76,14 @@ impl Samples {
         }
     }
 
-    /// Brings listed samples into stored form and checks them.
+    /// Brings listed samples into stored form and checks them, and whether samplers suit the problem.
     pub(super) fn settle(&mut self, cx: &Context) -> Result<(), String> {
+        if let Samples::Drawn(parts) = self {
+            for (index, part) in parts.iter().enumerate() {
+                let suits = part.sampler.method().suits(cx);
+                suits.map_err(|error| format!("samples.drawn[{index}]: {error}"))?;
+            }
+        }
         let Samples::Listed(list) = self else { return Ok(()) };
         for (index, q) in list.iter_mut().enumerate() {
             cx.settle(q).map_err(|error| format!("samples.listed[{index}]: {error}"))?;
@@ -91,8 +97,7 @@ impl Samples {
             Samples::Listed(list) => list.iter().for_each(|q| configs.push(q)),
             Samples::Drawn(parts) => {
                 for (index, Drawn { sampler, count }) in parts.iter().enumerate() {
-                    let place = format!("{path}/samples/{index}");
-                    let seed = Seed::of_evaluator(cx.base_seed, &place);
+                    let seed = Seed::of_evaluator(cx.base_seed, path).part(index as u64);
                     // What a sampler that gave up did not find counts as missing.
                     let _ =
                         sampler.method().sample(cx, &seed, *count as usize, scratch, &mut configs);

@@ -307,7 +307,7 @@ impl Core {
             }
             (Job::Evaluate { evaluator, .. }, Outcome::Verdict(verdict)) => {
                 if let Some(awaited) = &mut self.awaited {
-                    awaited.insert(evaluator, verdict);
+                    awaited.insert(evaluator, *verdict);
                 }
             }
             _ => unreachable!("the outcome fits the job"),

@@ -45,7 +45,7 @@ pub enum Outcome {
     /// Of [`Job::Join`].
     Joined(Joined),
     /// Of [`Job::Evaluate`].
-    Verdict(Verdict),
+    Verdict(Box<Verdict>),
 }
 
 /// The edges that join a set to what came before it, numbered as in the roadmap after the round.
@@ -118,7 +118,8 @@ impl Task {
             }
             Task::Evaluate { evaluator, roadmap } => {
                 let method = setup.problem.evaluators[*evaluator as usize].method();
-                Outcome::Verdict(method.evaluate(cx, &evaluator.to_string(), roadmap, scratch))
+                let verdict = method.evaluate(cx, &evaluator.to_string(), roadmap, scratch);
+                Outcome::Verdict(Box::new(verdict))
             }
         }
     }

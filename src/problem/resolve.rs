@@ -202,6 +202,10 @@ fn settled(
         }
         problem.query = Some(Ends { start: query.start, goal: query.goal });
     }
+    for (index, strategy) in problem.strategies.iter().enumerate() {
+        let place = [Key("strategies"), Index(index), Key("sampler")];
+        strategy.sampler.method().suits(&cx).map_err(|message| source.error(&place, message))?;
+    }
     for (index, evaluator) in problem.evaluators.iter_mut().enumerate() {
         let settled = evaluator.method_mut().settle(&cx);
         settled.map_err(|message| source.error(&[Key("evaluators"), Index(index)], message))?;

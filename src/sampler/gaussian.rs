@@ -1,9 +1,11 @@
-use super::{GaveUp, Sampler};
+use super::{
+    GaveUp, Sampler, collect, collides, default_attempts, no_attempts, no_length, obstructed,
+};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::roadmap::Configs;
-use crate::seed::{Purpose, Seed};
-use crate::validity::{Scratch, State};
+use crate::seed::{Purpose, Seed, Stream};
+use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -27,10 +29,6 @@ pub struct Gaussian {
     pub attempts: u64,
 }
 
-fn default_attempts() -> u64 {
-    1_000_000
-}
-
 impl Sampler for Gaussian {
     fn sample(
         &self,
@@ -41,40 +39,36 @@ impl Sampler for Gaussian {
         out: &mut Configs,
     ) -> Result<(), GaveUp> {
         let mut stream = seed.stream(Purpose::Sampling);
-        let mut near = vec![0.0; cx.space.len()];
-        let mut far = near.clone();
-        for _ in 0..count {
-            let mut attempts = 0;
-            let milestone = loop {
-                if attempts == self.attempts {
-                    return Err(GaveUp { attempts });
-                }
-                attempts += 1;
-                cx.space.sample_uniform(&mut stream, &mut near);
-                let distance = (self.deviation * stream.normal()).abs();
-                cx.space.step(&near, distance, &mut stream, &mut far);
-                let states = [&near, &far].map(|q| cx.validity.state(q, scratch));
-                let collides = |state| match state {
-                    State::Free => false,
-                    State::Colliding => true,
-                    State::OutOfBounds => self.bounds,
-                };
-                match states {
-                    [State::Free, other] if collides(other) => break &near,
-                    [other, State::Free] if collides(other) => break &far,
-                    _ => {}
-                }
-            };
-            out.push(milestone);
-        }
-        Ok(())
+        let mut far = vec![0.0; cx.space.len()];
+        collect((count, self.attempts), out, |near| {
+            draw_pair(cx, self.deviation, &mut stream, near, &mut far);
+            let states =
+                [&*near, &far].map(|q| collides(cx.validity.state(q, scratch), self.bounds));
+            if states == [Some(true), Some(false)] {
+                near.copy_from_slice(&far);
+            }
+            matches!(states, [Some(a), Some(b)] if a != b)
+        })
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        // Written so that NaN fails it.
-        if !(self.deviation > 0.0 && self.deviation <= crate::scene::LENGTH_MAX) {
-            return Some(("deviation", self.deviation.to_string(), "a positive length"));
-        }
-        (self.attempts == 0).then(|| ("attempts", "0".to_owned(), "at least 1"))
+        no_length("deviation", self.deviation).or_else(|| no_attempts(self.attempts))
     }
+
+    fn suits(&self, cx: &Context) -> Result<(), String> {
+        obstructed(cx, self.bounds)
+    }
+}
+
+/// Draws `near` uniformly and `far` at distance |N(0, `deviation`)| from it, in a uniform direction.
+pub(super) fn draw_pair(
+    cx: &Context,
+    deviation: f64,
+    stream: &mut Stream,
+    near: &mut [f64],
+    far: &mut [f64],
+) {
+    cx.space.sample_uniform(stream, near);
+    let distance = (deviation * stream.normal()).abs();
+    cx.space.step(near, distance, stream, far);
 }

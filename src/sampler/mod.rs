@@ -3,25 +3,44 @@
 //! To add one, write its file after the pattern of `uniform.rs` and name it in the two marked
 //! places below.
 
+mod bridge;
 mod gaussian;
+mod grid;
+mod halton;
+mod mix;
+mod obprm;
+mod shares;
 mod uniform; // 1: the file
+mod uobprm;
 
 methods! {
     /// The samplers, as a problem file names them; each variant holds its settings.
     pub enum SamplerKind: dyn Sampler {
         Gaussian(gaussian::Gaussian),
-        Uniform(uniform::Uniform), // 2: the method
+        Uniform(uniform::Uniform), // 2: the method, at the end, since ledgers know methods by number
+        Bridge(bridge::Bridge),
+        Grid(grid::Grid),
+        Halton(halton::Halton),
+        Mix(mix::Mix),
+        Obprm(obprm::Obprm),
+        Uobprm(uobprm::Uobprm),
     }
 }
 
+pub use bridge::Bridge;
 pub use gaussian::Gaussian;
+pub use grid::Grid;
+pub use halton::Halton;
+pub use mix::{Mix, Share};
+pub use obprm::{Obprm, Start};
 pub use uniform::Uniform;
+pub use uobprm::Uobprm;
 
 use crate::context::Context;
 use crate::methods::{Complaint, methods};
 use crate::roadmap::Configs;
 use crate::seed::Seed;
-use crate::validity::Scratch;
+use crate::validity::{Scratch, State};
 
 /// A sampling method.
 pub trait Sampler {
@@ -43,6 +62,71 @@ pub trait Sampler {
     fn complaint(&self) -> Option<Complaint> {
         None
     }
+
+    /// Whether the method is defined for the problem.
+    ///
+    /// # Errors
+    /// Says what it cannot work with.
+    fn suits(&self, _cx: &Context) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+fn default_attempts() -> u64 {
+    1_000_000
+}
+
+/// Fills `out` with `count` milestones. `attempt` proposes one and says whether it is to be kept;
+/// `attempts` bounds its calls per milestone.
+fn collect(
+    (count, attempts): (usize, u64),
+    out: &mut Configs,
+    mut attempt: impl FnMut(&mut [f64]) -> bool,
+) -> Result<(), GaveUp> {
+    let mut q = vec![0.0; out.dofs()];
+    for _ in 0..count {
+        let mut made = 0;
+        loop {
+            if made == attempts {
+                return Err(GaveUp { attempts });
+            }
+            made += 1;
+            if attempt(&mut q) {
+                break;
+            }
+        }
+        out.push(&q);
+    }
+    Ok(())
+}
+
+/// What samplers near obstacles ask of a state: does it collide, is it free, or (`None`) is it to be
+/// dropped? `bounds` says whether to be out of bounds is to collide.
+fn collides(state: State, bounds: bool) -> Option<bool> {
+    match state {
+        State::Free => Some(false),
+        State::Colliding => Some(true),
+        State::OutOfBounds => bounds.then_some(true),
+    }
+}
+
+/// What is wrong with a setting that is a length; written so that NaN is.
+fn no_length(key: &'static str, length: f64) -> Option<Complaint> {
+    let sound = length > 0.0 && length <= crate::scene::LENGTH_MAX;
+    (!sound).then(|| (key, length.to_string(), "a positive length"))
+}
+
+fn no_attempts(attempts: u64) -> Option<Complaint> {
+    (attempts == 0).then(|| ("attempts", "0".to_owned(), "at least 1"))
+}
+
+/// Samplers near obstacles are defined where something can collide.
+fn obstructed(cx: &Context, bounds: bool) -> Result<(), String> {
+    if bounds || cx.validity.obstructed() {
+        return Ok(());
+    }
+    let expected = "obstacles, links that must not touch, or `bounds = true` expected";
+    Err(format!("a sampler near obstacles found, but nothing to collide with; {expected}"))
 }
 
 /// A sampler that could not find a milestone.
@@ -53,5 +137,7 @@ pub struct GaveUp {
     pub attempts: u64,
 }
 
+#[cfg(test)]
+mod laws;
 #[cfg(test)]
 mod tests;

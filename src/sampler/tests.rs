@@ -1,4 +1,4 @@
-//! Laws that every sampler keeps.
+//! Laws that every sampler keeps, on every robot.
 
 use super::*;
 use crate::problem::Problem;
@@ -8,53 +8,129 @@ use std::path::Path;
 const SCENE: &str = r#"
 [space]
 motion = "rigid-3d"
-min = [0.0, 0.0, 0.0]
-max = [4.0, 4.0, 4.0]
+min = [0.0, 0.0, -2.0]
+max = [4.0, 4.0, 2.0]
 bounds = "body"
 [robot]
 bodies = [{ shape = { box = { size = [1.0, 0.2, 0.2] } } }]
 [[obstacles]]
 shape = { sphere = { radius = 1.0 } }
-position = [2.0, 2.0, 2.0]
+position = [2.0, 1.5, 0.0]
+[[obstacles]]
+shape = { sphere = { radius = 0.5 } }
+position = [2.0, 3.3, 0.0]
 "#;
 
-fn context(scene: &str) -> Context {
-    Problem::parse(Path::new("scene.toml"), scene).unwrap().context()
+/// The scene with another robot: a rod, and links of 0.3 that turn about z and, every other, about y.
+fn scene(motion: &str, body: &str, links: usize) -> String {
+    let mut text =
+        SCENE.replace("rigid-3d", motion).replace("box = { size = [1.0, 0.2, 0.2] }", body);
+    if motion.ends_with("2d") {
+        text = text.replace("0.0, -2.0]", "0.0]").replace("4.0, 2.0]", "4.0]");
+    }
+    if motion == "fixed" {
+        text = text.replace("[robot]", "[robot]\nbase = { position = [2.1, 2.65, 0.0] }");
+    }
+    for i in 1..links {
+        let (axis, place) = (["0, 1, 0", "0, 0, 1"][i % 2], if i == 1 { 0.15 } else { 0.3 });
+        text += &format!(
+            "[[robot.links]]\nname = \"link{i}\"\n\
+             bodies = [{{ shape = {{ box = {{ size = [0.26, 0.05, 0.05] }} }}, position = [0.15, 0, 0] }}]\n\
+             joint = {{ kind = {{ revolute = {{ axis = [{axis}], degrees = [-150, 150] }} }}, \
+             before = {{ position = [{place}, 0, 0] }} }}\n"
+        );
+    }
+    text
 }
 
-/// One of each sampler, with its default settings.
-fn samplers() -> Vec<SamplerKind> {
-    let gaussian = |bounds| Gaussian { deviation: 0.3, bounds, attempts: 1_000_000 };
+fn robots() -> Vec<(&'static str, String)> {
+    let (point, rod) = ("point = {}", "box = { size = [0.26, 0.05, 0.05] }");
     vec![
-        SamplerKind::Uniform(Uniform::default()),
-        SamplerKind::Gaussian(gaussian(false)),
-        SamplerKind::Gaussian(gaussian(true)),
+        ("a point in the plane", scene("translation-2d", point, 1)),
+        ("a point", scene("translation-3d", point, 1)),
+        ("a rod in the plane", scene("translation-2d", rod, 1)),
+        ("a rod that turns in the plane", scene("rigid-2d", rod, 1)),
+        ("a rod that does not turn", scene("translation-3d", rod, 1)),
+        ("a rigid body", SCENE.to_owned()),
+        ("two links on a base that stands", scene("fixed", rod, 2)),
+        ("two links", scene("rigid-3d", rod, 2)),
+        ("four links on a base in the plane", scene("rigid-2d", rod, 4)),
+        ("four links", scene("rigid-3d", rod, 4)),
+        ("ten links on a base that stands", scene("fixed", rod, 10)),
+        ("ten links", scene("rigid-3d", rod, 10)),
     ]
 }
 
+pub(super) fn context(scene: &str) -> Context {
+    Problem::parse(Path::new("scene.toml"), scene)
+        .unwrap_or_else(|error| panic!("{error}"))
+        .context()
+}
+
+/// Samplers as a problem file names them: one of each, and those whose settings change much.
+fn samplers() -> Vec<SamplerKind> {
+    let samplers = [
+        "uniform = {}",
+        "gaussian = { deviation = 0.3 }",
+        "gaussian = { deviation = 0.3, bounds = true }",
+        "bridge = { deviation = 0.5 }",
+        "bridge = { deviation = 0.5, bounds = true }",
+        "obprm = { step = 0.1 }",
+        "obprm = { step = 0.1, start = \"colliding\", halvings = 0 }",
+        "obprm = { step = 0.1, start = \"free\", bounds = true, steps = 50 }",
+        "uobprm = { length = 0.5, step = 0.1 }",
+        "uobprm = { length = 0.5, step = 0.1, bounds = true }",
+        "grid = { cells = 3, block = 7 }",
+        "halton = {}",
+        "mix = [{ weight = 2, sampler = { bridge = { deviation = 0.5 } } }, { sampler = { halton = {} } }]",
+    ];
+    samplers.map(sampler).to_vec()
+}
+
+pub(super) fn sampler(text: &str) -> SamplerKind {
+    toml::from_str(text).unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
 fn sample(cx: &Context, sampler: &SamplerKind, ordinal: u64, scratch: &mut Scratch) -> Configs {
+    sets(cx, sampler, ordinal..ordinal + 1, 12, scratch)
+}
+
+/// The milestones of several sets, of `count` each.
+pub(super) fn sets(
+    cx: &Context,
+    sampler: &SamplerKind,
+    ordinals: std::ops::Range<u64>,
+    count: usize,
+    scratch: &mut Scratch,
+) -> Configs {
     let mut configs = Configs::new(cx.space.len());
-    let seed = Seed::of_set(7, "laws", ordinal);
-    sampler.method().sample(cx, &seed, 40, scratch, &mut configs).unwrap();
+    for ordinal in ordinals {
+        let seed = Seed::of_set(7, "laws", ordinal);
+        let done = sampler.method().sample(cx, &seed, count, scratch, &mut configs);
+        assert_eq!(done, Ok(()), "{sampler:?}");
+    }
     configs
 }
 
 #[test]
-fn milestones_are_in_bounds_valid_and_in_stored_form() {
-    let cx = context(SCENE);
-    for sampler in samplers() {
-        for ordinal in 0..5 {
-            let configs = sample(&cx, &sampler, ordinal, &mut Scratch::new());
-            assert_eq!(configs.len(), 40);
+fn every_sampler_gives_every_robot_milestones_that_are_valid_and_in_stored_form() {
+    for (robot, scene) in robots() {
+        println!("{robot}"); // of a failure within
+        let cx = context(&scene);
+        for sampler in samplers() {
+            let method = sampler.method();
+            assert_eq!((method.complaint(), method.suits(&cx)), (None, Ok(())), "{sampler:?}");
+            let configs = sample(&cx, &sampler, 3, &mut Scratch::new());
+            assert_eq!(configs.len(), 12);
             for q in configs.iter() {
-                assert!(cx.space.within_bounds(q), "{sampler:?}");
-                assert!(cx.validity.valid(q, &mut Scratch::new()), "{sampler:?}");
+                assert!(cx.validity.valid(q, &mut Scratch::new()), "{sampler:?}, {robot}");
                 let mut stored = q.to_vec();
                 cx.space.canonicalize(&mut stored).unwrap();
-                assert!(cx.space.distance(q, &stored) < 1e-7, "{sampler:?}");
-                let first = q[3..].iter().find(|value| **value != 0.0);
-                assert!(first.is_some_and(|value| *value > 0.0), "{sampler:?}");
+                let same = q.iter().zip(&stored).all(|(a, b)| (a - b).abs() < 1e-15);
+                assert!(same, "{sampler:?}, {robot}: {q:?}");
             }
+            let again = sample(&cx, &sampler, 3, &mut Scratch::new());
+            assert_eq!(configs, again, "{sampler:?}, {robot}");
         }
     }
 }
@@ -71,61 +147,79 @@ fn milestones_follow_from_the_seed_and_from_nothing_that_is_remembered() {
             warm.poison(rubbish);
             assert_eq!(first, sample(&cx, &sampler, 0, &mut warm), "{sampler:?}");
         }
+        let mut other = Configs::new(cx.space.len());
+        let seed = Seed::of_set(8, "laws", 0);
+        sampler.method().sample(&cx, &seed, 12, &mut warm, &mut other).unwrap();
+        assert_ne!(first, other, "another base seed: {sampler:?}");
+    }
+}
+
+/// The ball fills the room, or, for those that need one, there is next to nothing to collide with.
+#[test]
+fn a_sampler_that_can_find_nothing_gives_up() {
+    let full = context(&SCENE.replace("radius = 1.0", "radius = 9.0"));
+    let empty = context(
+        &SCENE.replace("radius = 1.0", "radius = 1e-9").replace("radius = 0.5", "radius = 1e-9"),
+    );
+    for (cx, text) in [
+        (&full, "uniform = { attempts = 50 }"),
+        (&full, "grid = { cells = 3, attempts = 50, block = 7 }"),
+        (&full, "halton = { attempts = 50 }"),
+        (&full, "gaussian = { deviation = 0.3, attempts = 50 }"),
+        (&full, "mix = [{ sampler = { uniform = { attempts = 50 } } }]"),
+        (&empty, "bridge = { deviation = 0.1, attempts = 50 }"),
+        (&empty, "obprm = { step = 0.01, start = \"colliding\", attempts = 50 }"),
+        (&empty, "uobprm = { length = 0.02, step = 0.01, attempts = 50 }"),
+    ] {
+        let mut configs = Configs::new(cx.space.len());
+        let (mut scratch, seed) = (Scratch::new(), Seed::of_set(7, "laws", 0));
+        let sampler = sampler(text);
+        let error = sampler.method().sample(cx, &seed, 1, &mut scratch, &mut configs).unwrap_err();
+        assert_eq!(error, GaveUp { attempts: 50 }, "{text}");
+        assert!(scratch.take_asked().configurations >= 50, "{text}");
     }
 }
 
 #[test]
-fn a_sampler_that_can_find_nothing_gives_up() {
-    // The ball fills the room.
-    let cx = context(&SCENE.replace("radius = 1.0", "radius = 9.0"));
-    let sampler = Uniform { attempts: 500 };
-    let mut configs = Configs::new(cx.space.len());
-    let mut scratch = Scratch::new();
-    let seed = Seed::of_set(7, "laws", 0);
-    let error = sampler.sample(&cx, &seed, 1, &mut scratch, &mut configs).unwrap_err();
-    assert_eq!(error, GaveUp { attempts: 500 });
-    assert_eq!(scratch.take_asked().configurations, 500);
-}
-
-/// A half space is free, the rest an obstacle: what the Gaussian sampler does near a wide flat wall
-/// depends on the distance from it alone. A pair with its first configuration at distance x is kept with
-/// the probability that the other lies beyond the wall, P(|d| · |cos| > x), with d normal and cos, in the
-/// plane, that of a uniform direction. Kolmogorov–Smirnov at level 0.001 against that law, integrated.
-#[test]
-fn gaussian_milestones_have_the_distances_from_a_wall_that_the_law_says() {
-    let scene = "[space]\nmotion = \"translation-2d\"\nmin = [0, 0]\nmax = [20, 20]\n\
-                 bounds = \"reference\"\n[robot]\nbodies = [{ shape = { point = {} } }]\n\
-                 [[obstacles]]\nshape = { box = { size = [10, 20, 1] } }\nposition = [15, 10, 0]\n";
-    let cx = context(scene);
-    let sampler = Gaussian { deviation: 1.0, bounds: false, attempts: 1_000_000 };
-    let mut configs = Configs::new(2);
-    let count = 4000;
-    let seed = Seed::of_set(3, "gaussian law", 0);
-    sampler.sample(&cx, &seed, count, &mut Scratch::new(), &mut configs).unwrap();
-    // Far from the other bounds, where pairs are dropped.
-    let far = configs.iter().filter(|q| (5.0..15.0).contains(&q[1]) && q[0] > 5.0);
-    let mut distances: Vec<f64> = far.map(|q| 10.0 - q[0]).collect();
-    distances.sort_by(f64::total_cmp);
-    // P(x) = ∫ 2φ(d) (2/π) acos(x/d) / 2 dd for d > x, by the midpoint rule.
-    let kept = |x: f64| -> f64 {
-        let steps = 400;
-        (0..steps)
-            .map(|i| {
-                let d = x + (i as f64 + 0.5) * 6.0 / f64::from(steps);
-                crate::math::exp(-d * d / 2.0) * crate::math::acos(x / d)
-            })
-            .sum()
-    };
-    let grid: Vec<f64> = (0..500).map(|i| kept((f64::from(i) + 0.5) * 0.01)).collect();
-    let whole: f64 = grid.iter().sum();
-    let law = |x: f64| grid[..((x / 0.01) as usize).min(500)].iter().sum::<f64>() / whole;
-    let n = distances.len();
-    let gap = distances
-        .iter()
-        .enumerate()
-        .fold(0.0f64, |gap, (i, x)| gap.max((law(*x) - i as f64 / n as f64).abs()));
-    assert!(n > 1000 && distances[0] >= 0.0);
-    assert!(gap < 1.95 / (n as f64).sqrt() + 0.005, "gap {gap} of {n}");
+fn samplers_say_what_they_cannot_work_with() {
+    let nothing = "[space]\nmotion = \"rigid-3d\"\nmin = [0, 0, 0]\nmax = [4, 4, 4]\nbounds = \"body\"\n\
+                   [robot]\nbodies = [{ shape = { sphere = { radius = 0.1 } } }]\n";
+    let ten = scene("rigid-3d", "point = {}", 10);
+    let fifty = scene("rigid-3d", "point = {}", 50);
+    for (scene, text, expected) in [
+        (nothing, "gaussian = { deviation = 1 }", "nothing to collide with"),
+        (nothing, "bridge = { deviation = 1 }", "nothing to collide with"),
+        (nothing, "obprm = { step = 1 }", "nothing to collide with"),
+        (nothing, "uobprm = { length = 1, step = 1 }", "nothing to collide with"),
+        (
+            nothing,
+            "mix = [{ sampler = { bridge = { deviation = 1 } } }]",
+            "nothing to collide with",
+        ),
+        (&ten, "grid = { cells = 5 }", "a grid of 5 cells along 15 dimensions found; at most"),
+        (&fifty, "halton = {}", "halton for 55 degrees of freedom found; at most 40 expected"),
+        (SCENE, "gaussian = { deviation = nan }", "deviation = NaN found; a positive length"),
+        (SCENE, "bridge = { deviation = -1 }", "deviation = -1 found; a positive length"),
+        (SCENE, "obprm = { step = 0 }", "step = 0 found; a positive length expected"),
+        (SCENE, "obprm = { step = 1, halvings = 31 }", "halvings = 31 found; 0 to 30 expected"),
+        (SCENE, "obprm = { step = 1, steps = 0 }", "steps = 0 found; at least 1"),
+        (SCENE, "obprm = { step = 1, start = \"both\" }", "unknown variant `both`"),
+        (SCENE, "uobprm = { length = 1, step = 2 }", "step = 2 found; a millionth"),
+        (SCENE, "grid = { cells = 0 }", "cells = 0 found; at least 1"),
+        (SCENE, "grid = { cells = 2, block = 0 }", "block = 0 found; at least 1"),
+        (SCENE, "halton = { attempts = 0 }", "attempts = 0 found; at least 1"),
+        (SCENE, "mix = []", "mix = [] found; at least one sampler"),
+        (
+            SCENE,
+            "mix = [{ weight = 0, sampler = { uniform = {} } }]",
+            "weight = 0 found; more than 0",
+        ),
+        (SCENE, "mix = [{ sampler = { uniform = { attempts = 0 } } }]", "attempts = 0 found"),
+    ] {
+        let problem = format!("{scene}\n[[strategies]]\nlabel = \"a\"\nsampler = {{ {text} }}\n");
+        let error = Problem::parse(Path::new("scene.toml"), &problem).unwrap_err().to_string();
+        assert!(error.starts_with("scene.toml:") && error.contains(expected), "{text}: {error}");
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-use super::{GaveUp, Sampler};
+use super::{GaveUp, Sampler, collect, default_attempts, no_attempts};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::roadmap::Configs;
@@ -19,10 +19,6 @@ pub struct Uniform {
     pub attempts: u64,
 }
 
-fn default_attempts() -> u64 {
-    1_000_000
-}
-
 impl Default for Uniform {
     fn default() -> Uniform {
         Uniform { attempts: default_attempts() }
@@ -39,25 +35,13 @@ impl Sampler for Uniform {
         out: &mut Configs,
     ) -> Result<(), GaveUp> {
         let mut stream = seed.stream(Purpose::Sampling);
-        let mut q = vec![0.0; cx.space.len()];
-        for _ in 0..count {
-            let mut attempts = 0;
-            loop {
-                if attempts == self.attempts {
-                    return Err(GaveUp { attempts });
-                }
-                attempts += 1;
-                cx.space.sample_uniform(&mut stream, &mut q);
-                if cx.validity.valid(&q, scratch) {
-                    break;
-                }
-            }
-            out.push(&q);
-        }
-        Ok(())
+        collect((count, self.attempts), out, |q| {
+            cx.space.sample_uniform(&mut stream, q);
+            cx.validity.valid(q, scratch)
+        })
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        (self.attempts == 0).then(|| ("attempts", "0".to_owned(), "at least 1"))
+        no_attempts(self.attempts)
     }
 }

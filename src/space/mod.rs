@@ -9,7 +9,7 @@
 mod quaternion;
 mod rigid;
 
-pub use quaternion::{canonical, slerp, uniform_rotation};
+pub use quaternion::{canonical, slerp};
 pub use rigid::{Motion, rigid_parts, rigid_space};
 
 use crate::math;
@@ -60,6 +60,15 @@ pub struct Space {
     translations: usize,
 }
 
+/// A direction in which a configuration can move.
+#[derive(Clone, Debug)]
+pub struct Direction {
+    /// Per part of the space its share; a rotation has three, others one.
+    parts: Vec<[f64; 3]>,
+    /// Length of all shares together.
+    size: f64,
+}
+
 /// Relative margin of every pruning bound on distances; rounding errors are a thousand times smaller.
 const PRUNING_MARGIN: f64 = 1e-12;
 
@@ -107,17 +116,53 @@ impl Space {
     /// Draws a configuration uniformly: reals in their intervals, angles on the circle, rotations
     /// on SO(3) by the Haar measure. `out` has [`Space::len`] values.
     pub fn sample_uniform(&self, stream: &mut Stream, out: &mut [f64]) {
+        self.place(|| stream.unit(), out);
+    }
+
+    /// How many numbers in `[0, 1]` name a configuration: one per real and angle, three per rotation.
+    pub fn cube_dimensions(&self) -> usize {
+        self.parts.iter().map(|part| if part.kind == PartKind::Rotation { 3 } else { 1 }).sum()
+    }
+
+    /// The configuration, in stored form, that a point of the unit cube of [`Space::cube_dimensions`]
+    /// stands for. Where points are spread evenly over the cube, their configurations are over the space,
+    /// by the measure of [`Space::sample_uniform`].
+    ///
+    /// # Panics
+    /// If the point has too few coordinates.
+    pub fn of_cube(&self, point: &[f64], out: &mut [f64]) {
+        let mut coordinates = point.iter();
+        self.place(|| *coordinates.next().expect("as many coordinates as the cube has"), out);
+    }
+
+    fn place(&self, mut unit: impl FnMut() -> f64, out: &mut [f64]) {
+        let between =
+            |share: f64, low: f64, high: f64| (low + share * (high - low)).clamp(low, high);
         for part in &self.parts {
+            let at = part.at;
             match part.kind {
-                PartKind::Real { min, max } => out[part.at] = stream.between(min, max),
-                PartKind::Angle => {
-                    out[part.at] = math::wrap_angle(stream.between(-PI, PI));
-                }
+                PartKind::Real { min, max } => out[at] = between(unit(), min, max),
+                PartKind::Angle => out[at] = math::wrap_angle(between(unit(), -PI, PI)),
                 PartKind::Rotation => {
-                    out[part.at..part.at + 4].copy_from_slice(&uniform_rotation(stream));
+                    let rotation = quaternion::rotation_of([unit(), unit(), unit()]);
+                    out[at..at + 4].copy_from_slice(&rotation);
                 }
             }
         }
+    }
+
+    /// The same space with every real interval longer by `length`, in the metric, at either end.
+    pub(crate) fn widened(&self, length: f64) -> Space {
+        let mut wide = self.clone();
+        for part in &mut wide.parts {
+            if let PartKind::Real { min, max } = &mut part.kind
+                && part.weight > 0.0
+            {
+                *min -= length / part.weight;
+                *max += length / part.weight;
+            }
+        }
+        wide
     }
 
     /// Whether every real value lies in its interval.
@@ -229,12 +274,16 @@ impl Space {
         self.parts.iter().map(|part| extent(part) * extent(part)).sum::<f64>().sqrt()
     }
 
-    /// The configuration at distance `length` from `q` in a direction drawn uniformly: a geodesic step
-    /// whose direction is uniform on the unit sphere of the metric's tangent space. Angles and rotations
-    /// wrap, so the distance is less where a part turns by more than half a turn. Parts without weight
-    /// stay as they are. `out` is in stored form but may lie out of bounds.
+    /// The configuration at distance `length` from `q` in a direction drawn uniformly:
+    /// [`Space::direction`], then [`Space::along`].
     pub fn step(&self, q: &[f64], length: f64, stream: &mut Stream, out: &mut [f64]) {
-        let mut direction: Vec<[f64; 3]> = Vec::with_capacity(self.parts.len());
+        self.along(q, &self.direction(stream), length, out);
+    }
+
+    /// A direction drawn uniformly from the unit sphere of the metric's tangent space. Parts without
+    /// weight do not move.
+    pub fn direction(&self, stream: &mut Stream) -> Direction {
+        let mut parts: Vec<[f64; 3]> = Vec::with_capacity(self.parts.len());
         let mut square = 0.0;
         for part in &self.parts {
             let numbers = match (part.weight > 0.0, part.kind) {
@@ -247,11 +296,18 @@ impl Space {
                 *component = stream.normal();
                 square += *component * *component;
             }
-            direction.push(components);
+            parts.push(components);
         }
+        Direction { parts, size: square.sqrt() }
+    }
+
+    /// The configuration at distance `length` from `q` on the geodesic that leaves it in a direction.
+    /// Angles and rotations wrap, so the distance is less where a part turns by more than half a turn.
+    /// `out` is in stored form but may lie out of bounds.
+    pub fn along(&self, q: &[f64], direction: &Direction, length: f64, out: &mut [f64]) {
         // Half of a rotation's distance is the angle of its quaternion.
-        let scale = if square > 0.0 { length / square.sqrt() } else { 0.0 };
-        for (part, components) in self.parts.iter().zip(direction) {
+        let scale = if direction.size > 0.0 { length / direction.size } else { 0.0 };
+        for (part, components) in self.parts.iter().zip(&direction.parts) {
             let at = part.at;
             let by =
                 components.map(|component| component * scale / part.weight.max(f64::MIN_POSITIVE));

@@ -1,14 +1,11 @@
 //! Unit quaternions `w x y z`.
 
 use crate::math;
-use crate::seed::Stream;
 
-/// A rotation drawn uniformly from SO(3) (K. Shoemake, *Uniform random rotations*, Graphics Gems
-/// III, 1992), in stored form.
-pub fn uniform_rotation(stream: &mut Stream) -> [f64; 4] {
-    let share = stream.unit();
-    let first = math::TURN * stream.unit();
-    let second = math::TURN * stream.unit();
+/// The rotation, in stored form, that three numbers in `[0, 1]` stand for: where they are uniform, so
+/// is the rotation on SO(3) (K. Shoemake, *Uniform random rotations*, Graphics Gems III, 1992).
+pub(super) fn rotation_of([share, first, second]: [f64; 3]) -> [f64; 4] {
+    let (first, second) = (math::TURN * first, math::TURN * second);
     let (low, high) = ((1.0 - share).sqrt(), share.sqrt());
     let quaternion = [
         high * math::cos(second),

@@ -75,8 +75,11 @@ fn uniform_rotations_follow_the_haar_measure() {
     let count = 20_000;
     let mut stream = Seed::of_set(1, "haar", 0).stream(Purpose::Sampling);
     let (mut angles, mut components) = (Vec::new(), Vec::new());
+    let space = rigid_space(Motion::Rigid3d, [0.0; 3], [1.0; 3], 1.0);
+    let mut q = [0.0; 7];
     for _ in 0..count {
-        let [w, x, y, z] = uniform_rotation(&mut stream);
+        space.sample_uniform(&mut stream, &mut q);
+        let [_, _, _, w, x, y, z] = q;
         let angle = 2.0 * math::acos(w);
         angles.push((angle - math::sin(angle)) / std::f64::consts::PI);
         components.push((z / (x * x + y * y + z * z).sqrt() + 1.0) / 2.0);

@@ -208,6 +208,11 @@ impl Validity for BodyValidity {
         scratch.between = between;
         free
     }
+
+    fn obstructed(&self) -> bool {
+        !self.obstacles.is_empty() || !self.self_pairs.is_empty()
+    }
+
     fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64 {
         let step = self.resolution / f64::from(refinement);
         (self.speeds.farthest(&self.robot, a, b) / step).ceil().max(1.0) as u64

@@ -39,6 +39,10 @@ pub trait Validity: Send + Sync {
     /// them. The ends are the caller's.
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> bool;
 
+    /// Whether any configuration in bounds could collide: there are obstacles, or links that must not
+    /// touch one another.
+    fn obstructed(&self) -> bool;
+
     /// Number of equal steps in which that motion is checked.
     fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64;
 }

@@ -1,0 +1,89 @@
+use super::{GaveUp, Sampler, SamplerKind};
+use crate::context::Context;
+use crate::methods::Complaint;
+use crate::roadmap::Configs;
+use crate::seed::{Purpose, Seed};
+use crate::validity::Scratch;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+
+/// Several samplers in one set: each milestone is drawn by one of them, chosen with a probability
+/// proportional to its weight (as D. Hsu, T. Jiang, J. Reif, Z. Sun 2003 mix the bridge test with uniform
+/// sampling).
+///
+/// First all choices are drawn, from a stream of their own; then every sampler draws as many milestones as
+/// were left to it, one sampler after the other, with a seed of its own that follows from the set's. A mix
+/// gives up when one of its samplers does.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(transparent)]
+pub struct Mix(pub Vec<Share>);
+
+/// One of the samplers of a [`Mix`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields)]
+pub struct Share {
+    /// Its weight.
+    #[serde(default = "default_weight")]
+    pub weight: f64,
+    /// The sampler.
+    pub sampler: SamplerKind,
+}
+
+fn default_weight() -> f64 {
+    1.0
+}
+
+impl Mix {
+    /// How many of `count` milestones are left to each sampler.
+    pub(super) fn counts(&self, seed: &Seed, count: usize) -> Vec<usize> {
+        let mut stream = seed.stream(Purpose::Accepting);
+        let whole: f64 = self.0.iter().map(|share| share.weight).sum();
+        let mut counts = vec![0; self.0.len()];
+        for _ in 0..count {
+            let mut rest = stream.unit() * whole;
+            let chosen = self.0.iter().position(|share| {
+                rest -= share.weight;
+                rest < 0.0
+            });
+            counts[chosen.unwrap_or(self.0.len() - 1)] += 1;
+        }
+        counts
+    }
+
+    fn methods(&self) -> impl Iterator<Item = &dyn Sampler> {
+        self.0.iter().map(|share| share.sampler.method())
+    }
+}
+
+impl Sampler for Mix {
+    fn sample(
+        &self,
+        cx: &Context,
+        seed: &Seed,
+        count: usize,
+        scratch: &mut Scratch,
+        out: &mut Configs,
+    ) -> Result<(), GaveUp> {
+        let counts = self.counts(seed, count);
+        for (index, (sampler, count)) in self.methods().zip(counts).enumerate() {
+            sampler.sample(cx, &seed.part(index as u64), count, scratch, out)?;
+        }
+        Ok(())
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        if self.0.is_empty() {
+            return Some(("mix", "[]".to_owned(), "at least one sampler"));
+        }
+        // Written so that NaN fails it; a sum of finite weights could overflow.
+        let sound = |share: &&Share| share.weight > 0.0 && share.weight <= 1e9;
+        if let Some(share) = self.0.iter().find(|share| !sound(share)) {
+            return Some(("weight", share.weight.to_string(), "more than 0, at most 1e9"));
+        }
+        self.methods().find_map(Sampler::complaint)
+    }
+
+    fn suits(&self, cx: &Context) -> Result<(), String> {
+        self.methods().try_for_each(|sampler| sampler.suits(cx))
+    }
+}

@@ -1,0 +1,103 @@
+use super::{
+    GaveUp, Sampler, collect, collides, default_attempts, no_attempts, no_length, obstructed,
+};
+use crate::context::Context;
+use crate::methods::Complaint;
+use crate::roadmap::Configs;
+use crate::seed::{Purpose, Seed};
+use crate::validity::Scratch;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
+
+/// Uniform obstacle-based sampling: milestones spread evenly over the surfaces of C-obstacles (H.-Y. Yeh,
+/// S. Thomas, D. Eppstein, N. M. Amato, *UOBPRM: A uniformly distributed obstacle-based PRM*, 2012;
+/// H.-Y. Yeh's dissertation, 2016, §4.1).
+///
+/// Lays segments of one length anywhere and in any direction, both uniform, and looks at the configurations
+/// on them at every step. Where of two neighbours one is free and one collides, the free one is kept, so it
+/// is within a step of the surface, and a segment may give several milestones. A configuration out of
+/// bounds counts as colliding only if `bounds` says so; else it is neither. Segments start within the
+/// bounds widened by their length (§4.1.1), or else surfaces near the bounds would be hit less.
+///
+/// What a step leaps over is not noticed: corners and slivers of obstacles thinner than a step are hit less.
+/// A surplus of the last segment of a set is dropped.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields)]
+pub struct Uobprm {
+    /// Length of a segment in the space's metric.
+    pub length: f64,
+    /// Distance of neighbours on it.
+    pub step: f64,
+    /// Whether to be out of bounds is to collide, so that milestones also come to lie at the bounds.
+    #[serde(default)]
+    pub bounds: bool,
+    /// The most segments laid for one milestone.
+    #[serde(default = "default_attempts")]
+    pub attempts: u64,
+}
+
+/// The most steps of a segment.
+const STEPS_MAX: f64 = 1e6;
+
+impl Sampler for Uobprm {
+    fn sample(
+        &self,
+        cx: &Context,
+        seed: &Seed,
+        count: usize,
+        scratch: &mut Scratch,
+        out: &mut Configs,
+    ) -> Result<(), GaveUp> {
+        let mut stream = seed.stream(Purpose::Sampling);
+        let wide = cx.space.widened(self.length);
+        let steps = (self.length / self.step) as u32;
+        let mut start = vec![0.0; cx.space.len()];
+        let mut last = start.clone();
+        let mut found: VecDeque<Vec<f64>> = VecDeque::new();
+        collect((count, self.attempts), out, |q| {
+            if found.is_empty() {
+                wide.sample_uniform(&mut stream, &mut start);
+                let direction = cx.space.direction(&mut stream);
+                let mut before = None;
+                let mut kept = false;
+                for i in 0..=steps {
+                    cx.space.along(&start, &direction, f64::from(i) * self.step, q);
+                    let now = collides(cx.validity.state(q, scratch), self.bounds);
+                    match (before, now) {
+                        // Free between two that collide: one milestone, not two.
+                        (Some(false), Some(true)) if !kept => found.push_back(last.clone()),
+                        (Some(true), Some(false)) => found.push_back(q.to_vec()),
+                        _ => {}
+                    }
+                    kept = (before, now) == (Some(true), Some(false));
+                    before = now;
+                    last.copy_from_slice(q);
+                }
+            }
+            found.pop_front().is_some_and(|milestone| {
+                q.copy_from_slice(&milestone);
+                true
+            })
+        })
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        let lengths = no_length("length", self.length).or_else(|| no_length("step", self.step));
+        if lengths.is_some() {
+            return lengths;
+        }
+        if !(self.length / STEPS_MAX..=self.length).contains(&self.step) {
+            return Some((
+                "step",
+                self.step.to_string(),
+                "a millionth of the length up to the length",
+            ));
+        }
+        no_attempts(self.attempts)
+    }
+
+    fn suits(&self, cx: &Context) -> Result<(), String> {
+        obstructed(cx, self.bounds)
+    }
+}
