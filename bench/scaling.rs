@@ -14,7 +14,11 @@
 //!
 //! is the share of the speed-up of two independent builds that two workers of one build reach.
 
-use std::path::{Path, PathBuf};
+#[path = "support/cage.rs"]
+mod cage;
+
+use cage::cage;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
 const ROUNDS: usize = 5;
@@ -30,7 +34,7 @@ struct Run {
 fn main() {
     let nodes = std::env::args().skip(1).find_map(|word| word.parse().ok()).unwrap_or(80_000u64);
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let problem = problem(folder.path(), nodes);
+    let problem = cage(folder.path(), nodes);
     let (mut ratios, mut shares) = (Vec::new(), Vec::new());
     println!("round  2 workers  side by side (mean)  share of speed-up  CPU     coordinator");
     for round in 0..ROUNDS {
@@ -59,18 +63,6 @@ fn main() {
 fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
-}
-
-/// The cage without its query.
-fn problem(folder: &Path, nodes: u64) -> PathBuf {
-    let problems = Path::new(env!("CARGO_MANIFEST_DIR")).join("../problems");
-    let text = std::fs::read_to_string(problems.join("cage.toml")).expect("the cage ships");
-    let text = text.split("[query]").next().expect("a first part");
-    let meshes = format!("{}/meshes/", problems.display());
-    let text = format!("{}\n[limits]\nnodes = {nodes}\n", text.replace("meshes/", &meshes));
-    let path = folder.join("cage.toml");
-    std::fs::write(&path, text).expect("a problem can be written");
-    path
 }
 
 fn start(problem: &Path, workers: usize, out: &Path) -> Child {

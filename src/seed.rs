@@ -33,7 +33,7 @@ pub struct Seed {
 
 impl std::fmt::Display for Seed {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
+        self.own.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
     }
 }
 

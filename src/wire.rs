@@ -4,7 +4,9 @@
 //! bincode 2 have to be left.
 
 use bincode::config::{Configuration, Fixint, Limit, LittleEndian, NoLimit};
+use bincode::error::DecodeError;
 use bincode::{Decode, Encode};
+use std::cell::Cell;
 
 /// Bytes that are not what they should be.
 #[derive(Debug, thiserror::Error)]
@@ -40,6 +42,44 @@ pub fn decode<T: Decode<()>>(bytes: &[u8]) -> Result<T, WireError> {
     }
 }
 
+/// How deep values may hold values of their own kind: beyond what any problem file can say.
+const DEPTH_MAX: u32 = 100;
+
+thread_local! {
+    static DEPTH: Cell<u32> = const { Cell::new(0) };
+}
+
+/// Decodes what may hold values of its own kind. Without a bound a hostile value would be as deep as it
+/// is long, and overflow the stack.
+pub(crate) fn nested<T>(decode: impl FnOnce() -> Result<T, DecodeError>) -> Result<T, DecodeError> {
+    let depth = DEPTH.get();
+    if depth >= DEPTH_MAX {
+        return Err(DecodeError::Other("nested too deeply"));
+    }
+    DEPTH.set(depth + 1);
+    let value = decode();
+    DEPTH.set(depth);
+    value
+}
+
+/// Decoding, within [`nested`], of a structure with these fields.
+macro_rules! decode_nested {
+    ($type:ident { $($field:tt),+ }) => {
+        impl<Context> bincode::Decode<Context> for $type {
+            fn decode<D: bincode::de::Decoder<Context = Context>>(
+                decoder: &mut D,
+            ) -> Result<$type, bincode::error::DecodeError> {
+                crate::wire::nested(|| {
+                    Ok($type { $($field: bincode::Decode::decode(decoder)?),+ })
+                })
+            }
+        }
+        bincode::impl_borrow_decode!($type);
+    };
+}
+
+pub(crate) use decode_nested;
+
 fn decode_within<T: Decode<()>, const MEMORY_BYTES_MAX: usize>(
     bytes: &[u8],
 ) -> Result<T, WireError> {
@@ -65,6 +105,28 @@ mod tests {
         assert!(decode::<Vec<f64>>(&bytes).is_err());
         bytes[..8].copy_from_slice(&(1u64 << 40).to_le_bytes());
         assert!(decode::<Vec<f64>>(&bytes).is_err());
+    }
+
+    #[test]
+    fn what_holds_its_own_kind_is_decoded_as_deep_as_problems_are_and_no_deeper() {
+        use crate::evaluate::{EvaluatorKind, Not, Query, Verdict};
+        use crate::validity::Asked;
+        let nest = |depth: u32| {
+            let query = EvaluatorKind::Query(Query::default());
+            (0..depth).fold(query, |inner, _| EvaluatorKind::Not(Not(Box::new(inner))))
+        };
+        assert_eq!(decode::<EvaluatorKind>(&encode(&nest(100))).unwrap(), nest(100));
+        assert!(decode::<EvaluatorKind>(&encode(&nest(101))).is_err());
+        // A failure leaves nothing behind.
+        assert_eq!(decode::<EvaluatorKind>(&encode(&nest(100))).unwrap(), nest(100));
+        // As deep as it is long: the bytes of a verdict with one part, over and over.
+        let verdict = |parts| {
+            let (answer, asked) = (None, Asked::default());
+            Verdict { satisfied: false, value: 0.0, threshold: 1.0, answer, parts, asked }
+        };
+        let bytes = encode(&verdict(vec![verdict(Vec::new())]));
+        let level = &bytes[..1 + 8 + 8 + 1 + 8];
+        assert!(decode::<Verdict>(&level.repeat(100_000)).is_err());
     }
 
     proptest! {

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
-use support::{Done, Scratch};
+use support::Scratch;
 
 /// Sound, and satisfied within a round or two.
 const BASE: &str = r#"name = "base"
@@ -160,7 +160,7 @@ fn unusable_command_lines_are_refused() {
     scratch.write("no-run/notes.txt", "mine");
     scratch.build("run", &["base.toml", "--threads", "1"], 0);
     let before = contents(&scratch.path("."));
-    let cases: [(&[&str], &[&str]); 16] = [
+    let cases: [(&[&str], &[&str]); 24] = [
         (
             &["build", "base.toml", "--max-nodes", "1000000000000"],
             &["--max-nodes", "1000000000000"],
@@ -180,6 +180,17 @@ fn unusable_command_lines_are_refused() {
         (&["build", "base.toml", "--out", "no-run", "--force"], &["no-run: holds no ledger"]),
         (&["build", "base.toml", "--out", "file", "--force"], &["file: not a folder"]),
         (&["query", "no-run"], &["no-run", "no run here"]),
+        (&["status", "no-run"], &["no-run", "no run here"]),
+        (&["resume", "no-run"], &["no-run", "no run here"]),
+        (&["build", "base.toml", "--or-resume"], &["--out"]),
+        (
+            &["build", "base.toml", "--out", "no-run", "--or-resume"],
+            &["no-run: holds `notes.txt` but no ledger"],
+        ),
+        (&["build", "base.toml", "--max-memory", "0"], &["--max-memory", "positive"]),
+        (&["verify", "run", "--sample", "101%"], &["--sample", "percentage"]),
+        (&["verify", "run", "--set", "b:0"], &["`b:0` found", "a label of a"]),
+        (&["verify", "run", "--set", "a:99", "--threads", "1"], &["not every set"]),
     ];
     for (arguments, fragments) in cases {
         let done = scratch.run(arguments);
@@ -228,74 +239,32 @@ fn without_success_the_exit_code_is_3() {
     assert_eq!(done.stdout, "");
 }
 
-fn ask(scratch: &Scratch, ledger: &[u8]) -> Done {
-    fs::write(scratch.path("run/ledger"), ledger).expect("it can be written");
-    scratch.run(&["query", "run"])
-}
-
+/// `tests/ledger.rs` damages every byte; here it is seen that every command looks.
 #[test]
-fn damage_to_a_ledger_is_found_wherever_it_is() {
-    let scratch = Scratch::new();
-    scratch.write("base.toml", BASE);
-    let small = ["base.toml", "--threads", "1", "--max-nodes", "60"];
-    let done = scratch.run(&[&["build", "--out", "run"], &small[..]].concat());
-    assert!(matches!(done.status.code(), Some(0 | 3)), "{done:?}");
-    let ledger = scratch.ledger("run");
-    let whole = ask(&scratch, &ledger);
-    assert!(matches!(whole.status.code(), Some(0 | 3)), "{whole:?}");
-
-    // Heading, the head of the first record, its payload; then all over.
-    let places = (0..64).step_by(3).chain((64..ledger.len()).step_by(ledger.len() / 40));
-    for place in places {
-        let mut damaged = ledger.clone();
-        damaged[place] ^= 0x10;
-        let done = ask(&scratch, &damaged);
-        assert_eq!(done.status.code(), Some(4), "byte {place}: {done:?}");
-        done.assert_stderr(&["run/ledger: record ", " at byte "]);
-    }
-}
-
-/// The length of each record has a checksum of its own: were it only compared with the length of
-/// the file, damage to it would pass for a record that was cut off.
-#[test]
-fn damage_to_the_length_of_any_record_is_found() {
-    const HEADING: usize = 16;
-    const HEAD: usize = 48;
+fn every_command_finds_damage_to_a_ledger_and_leaves_it_alone() {
     let scratch = Scratch::new();
     scratch.write("base.toml", BASE);
     scratch.build("run", &["base.toml", "--threads", "1"], 0);
-    let ledger = scratch.ledger("run");
-    let (mut at, mut records) = (HEADING, 0);
-    while at < ledger.len() {
-        for byte in [at, at + 2, at + 9] {
-            let mut damaged = ledger.clone();
-            damaged[byte] ^= 1;
-            let done = ask(&scratch, &damaged);
-            assert_eq!(done.status.code(), Some(4), "byte {byte}: {done:?}");
-            done.assert_stderr(&[&format!("record {records} at byte {at}: ")]);
-        }
-        let length = ledger[at..at + 8].try_into().expect("8 bytes");
-        at += HEAD + u64::from_le_bytes(length) as usize;
-        records += 1;
-    }
-    assert_eq!(at, ledger.len(), "the records fill the file");
-    assert!(records >= 5, "a beginning, two sets, a round's end and a judgement");
-}
-
-/// A build that was killed leaves a last record that is not complete.
-#[test]
-fn a_ledger_cut_off_anywhere_is_read_up_to_its_last_round() {
-    let scratch = Scratch::new();
-    scratch.write("sealed.toml", &changed(SEALED));
-    scratch.build("run", &["sealed.toml", "--threads", "1", "--max-nodes", "150"], 3);
-    let ledger = scratch.ledger("run");
-    let beginning = 16 + 48 + u64::from_le_bytes(ledger[16..24].try_into().expect("8 bytes"));
-    let beginning = beginning as usize;
-    for length in (beginning..ledger.len()).step_by(ledger.len() / 25) {
-        ask(&scratch, &ledger[..length]).assert_code(3);
-    }
-    for length in [0, 7, 16, 30, beginning - 1] {
-        ask(&scratch, &ledger[..length]).assert_code(4);
+    let mut ledger = scratch.ledger("run");
+    let place = ledger.len() * 3 / 4;
+    ledger[place] ^= 0x10;
+    fs::write(scratch.path("run/ledger"), &ledger).expect("it can be written");
+    let commands: [&[&str]; 9] = [
+        &["query", "run"],
+        &["export", "run", "--format", "csv", "--out", "nodes.csv"],
+        &["status", "run"],
+        &["log", "run"],
+        &["verify", "run", "--threads", "1"],
+        &["diff", "run", "run"],
+        &["resume", "run", "--threads", "1"],
+        &["resume", "run", "--with", "base.toml", "--max-nodes", "9999"],
+        &["build", "base.toml", "--out", "run", "--or-resume", "--threads", "1"],
+    ];
+    for arguments in commands {
+        let done = scratch.run(arguments);
+        done.assert_code(4);
+        done.assert_stderr(&["run/ledger: record ", " at byte "]);
+        assert!(scratch.ledger("run") == ledger, "{arguments:?}");
     }
 }
 
@@ -311,13 +280,13 @@ fn check_shows_the_grammar_of_configurations() {
 #[test]
 fn help_lists_every_exit_code() {
     let scratch = Scratch::new();
-    for arguments in [&["--help"][..], &["build", "--help"], &["query", "--help"]] {
+    for arguments in [&["--help"][..], &["build", "--help"], &["verify", "--help"]] {
         let done = scratch.run(arguments);
         done.assert_code(0);
         let (_, table) = done.stdout.split_once("Exit codes:").expect("there is a table");
         let codes = table.lines().filter_map(|line| line.split_whitespace().next());
         let codes: Vec<&str> = codes.filter(|word| word.parse::<u8>().is_ok()).collect();
-        assert_eq!(codes, ["0", "1", "2", "3", "4", "5", "6"]);
+        assert_eq!(codes, ["0", "1", "2", "3", "4", "5", "6", "7"]);
     }
 }
 
@@ -331,7 +300,8 @@ fn run_folders_are_private() {
         metadata.permissions().mode() & 0o777
     };
     assert_eq!(mode("run"), 0o700);
-    for file in ["run/ledger", "run/summary.json", "run/path.csv"] {
+    for file in ["run/ledger", "run/ledger.durable", "run/lock", "run/summary.json", "run/path.csv"]
+    {
         assert_eq!(mode(file), 0o600, "{file}");
     }
 }

@@ -3,13 +3,16 @@ use crate::context::Context;
 use crate::methods::Complaint;
 use crate::roadmap::Roadmap;
 use crate::validity::Scratch;
-use bincode::{Decode, Encode};
+use crate::wire::decode_nested;
+use bincode::Encode;
 use serde::{Deserialize, Serialize};
 
 /// At least one of several criteria is met.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode)]
 #[serde(transparent)]
 pub struct Any(pub Vec<EvaluatorKind>);
+
+decode_nested!(Any { 0 });
 
 impl Evaluator for Any {
     fn name(&self) -> &'static str {

@@ -2,13 +2,16 @@ use super::{Evaluator, EvaluatorKind, Verdict};
 use crate::context::Context;
 use crate::roadmap::Roadmap;
 use crate::validity::Scratch;
-use bincode::{Decode, Encode};
+use crate::wire::decode_nested;
+use bincode::Encode;
 use serde::{Deserialize, Serialize};
 
 /// A criterion is not met: to build for as long as something does not hold yet.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode)]
 #[serde(transparent)]
 pub struct Not(pub Box<EvaluatorKind>);
+
+decode_nested!(Not { 0 });
 
 impl Evaluator for Not {
     fn name(&self) -> &'static str {

@@ -1,10 +1,11 @@
 use crate::query::Answer;
 use crate::validity::Asked;
+use crate::wire::decode_nested;
 use bincode::{Decode, Encode};
 use serde::Serialize;
 
 /// What an evaluator says of a roadmap.
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq, Encode)]
 pub struct Verdict {
     /// Whether the criterion is met.
     pub satisfied: bool,
@@ -25,6 +26,8 @@ pub struct Verdict {
     /// What the evaluation cost.
     pub asked: Asked,
 }
+
+decode_nested!(Verdict { satisfied, value, threshold, bound, measures, answer, cut, parts, asked });
 
 /// On which side of its threshold a value meets the criterion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Encode, Decode)]

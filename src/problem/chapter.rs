@@ -83,14 +83,15 @@ impl Problem {
             return Some(format!("the seed is {}, {} expected", other.seed, self.seed));
         }
         let parts = [
+            // Before what follows from them where a file says nothing of it.
+            ("the robot", self.robot == other.robot),
+            ("an obstacle", self.obstacles == other.obstacles),
             ("the space's bounds", self.bounds == other.bounds),
             ("the resolution", self.resolution.to_bits() == other.resolution.to_bits()),
             (
                 "the rotation length",
                 self.rotation_length.to_bits() == other.rotation_length.to_bits(),
             ),
-            ("the robot", self.robot == other.robot),
-            ("an obstacle", self.obstacles == other.obstacles),
         ];
         let (what, _) = parts.into_iter().find(|(_, same)| !same)?;
         // A changed mesh shows in the file that it comes from.

@@ -4,6 +4,7 @@ use crate::methods::Complaint;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed};
 use crate::validity::Scratch;
+use crate::wire::decode_nested;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +15,7 @@ use serde::{Deserialize, Serialize};
 /// First all choices are drawn, from a stream of their own; then every sampler draws as many milestones as
 /// were left to it, one sampler after the other, with a seed of its own that follows from the set's. A mix
 /// gives up when one of its samplers does.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode)]
 #[serde(transparent)]
 pub struct Mix(pub Vec<Share>);
 
@@ -32,6 +33,8 @@ pub struct Share {
 fn default_weight() -> f64 {
     1.0
 }
+
+decode_nested!(Mix { 0 });
 
 impl Mix {
     /// How many of `count` milestones are left to each sampler.

@@ -29,7 +29,15 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
         Some(out) if has_ledger(out) => RunFolder::of(out),
         Some(out) => RunFolder::make_or_take(out)?,
     };
-    let lock = RunLock::take(folder.path(), || signals.came())?;
+    let lock = match RunLock::take(folder.path(), || signals.came()) {
+        Ok(lock) => lock,
+        Err(failure) => {
+            if existing.is_none() {
+                folder.discard();
+            }
+            return Err(failure);
+        }
+    };
     // Looked for again now that nobody else can make it.
     if let Some(out) = existing.filter(|out| has_ledger(out)) {
         return go_on(out, lock, Change::None(&problem), growth, workers, signals, cpu);

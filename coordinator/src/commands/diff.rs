@@ -127,7 +127,7 @@ impl<'a> Side<'a> {
 
     fn next(&mut self) -> Result<Option<(u64, RoundSet)>, Failure> {
         while self.sets.is_empty() {
-            match self.replay.next()? {
+            match self.replay.read()? {
                 None => return Ok(None),
                 Some(Told::Judged(judged)) => {
                     self.verdicts.insert(judged.round, judged.verdicts);

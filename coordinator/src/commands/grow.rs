@@ -149,7 +149,7 @@ impl Watch {
     fn restore(&self, scan: &Scan, executor: &mut impl Executor) -> Result<Past, Failure> {
         let mut replay = Replay::new(scan, &self.setup.problem)?;
         let mut past = Past::new(&self.setup);
-        while let Some(told) = replay.next()? {
+        while let Some(told) = replay.read()? {
             if let Told::Round(round, digest) = told {
                 executor.restore(&round);
                 replay.check(executor.roadmap(), digest)?;

@@ -34,7 +34,7 @@ pub fn log(arguments: &LogArguments) -> Result<Code, Failure> {
         let heading = "round place set seed nodes edges joining configurations motions digest";
         let _ = writeln!(out, "{heading}");
     }
-    while let Some(told) = replay.next()? {
+    while let Some(told) = replay.read()? {
         let Told::Round(round, _) = told else { continue };
         for set in &round.sets {
             let (increment, joined) = (&set.increment, &set.joined);

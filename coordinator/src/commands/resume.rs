@@ -119,12 +119,6 @@ pub(super) fn go_on(
         )));
     }
     let present = scan.problem()?;
-    if present.digest() != scan.chapter().problem_digest && bits == BITS_VERSION {
-        let chapter = scan.chapters.len() - 1;
-        let message =
-            format!("{}: chapter {chapter}: its problem has another digest", run.display());
-        return Err(Failure::new(Code::BrokenRun, message));
-    }
     let problem = change.apply(&scan, &present, arguments).map_err(refuse)?;
     let is_chapter = bits != BITS_VERSION || difference(&present, &problem).is_some();
     if let Some(stopped) = scan.stopped.as_ref().filter(|stopped| stopped.is_final() && !is_chapter)

@@ -1,6 +1,5 @@
 use crate::cli::StatusArguments;
 use crate::exit::{Code, Failure};
-use crate::progress::print_json;
 use crate::run::{EvaluatorValue, Holder, Scan};
 use roadmill::problem::Problem;
 use serde::Serialize;
@@ -44,9 +43,13 @@ pub fn status(arguments: &StatusArguments) -> Result<Code, Failure> {
         let status = Status::new(&scan, &chapter.1, holder);
         let is_over = !matches!(&*status.state, "running" | "held");
         if last.as_ref() != Some(&status) {
-            if arguments.json {
-                print_json(&status);
-            } else if writeln!(std::io::stdout(), "{status}").is_err() {
+            let text = match (arguments.json, arguments.watch && !is_over) {
+                (true, _) => serde_json::to_string(&status).map_err(Failure::system)?,
+                (false, true) => status.line(),
+                (false, false) => status.to_string(),
+            };
+            if writeln!(std::io::stdout(), "{text}").is_err() {
+                // Whoever closes the pipe has seen enough.
                 return Ok(Code::Done);
             }
         }
@@ -94,6 +97,19 @@ impl Status {
             ledger_bytes: scan.end.offset,
             digest: end.map(|end| end.roadmap.to_string()),
         }
+    }
+}
+
+impl Status {
+    /// In one line.
+    fn line(&self) -> String {
+        let Status { rounds, sets, nodes, edges, components, state, .. } = self;
+        let evaluators: Vec<_> = self.evaluators.iter().map(EvaluatorValue::to_string).collect();
+        let evaluators = evaluators.join("; ");
+        format!(
+            "{state}: {rounds} rounds, {sets} sets, {nodes} nodes, {edges} edges, {components} \
+             components; {evaluators}"
+        )
     }
 }
 

@@ -145,7 +145,7 @@ impl Check<'_> {
     fn run(mut self, executor: &mut impl Executor) -> Result<(u64, u64), Failure> {
         let mut replay = Replay::new(self.scan, &self.setup.problem)?;
         let mut judge: Option<(usize, Setup)> = None;
-        while let Some(told) = replay.next()? {
+        while let Some(told) = replay.read()? {
             match told {
                 Told::Round(round, digest) => {
                     let chapter = replay.chapter();

@@ -148,7 +148,7 @@ fn set_run_aside(path: &Path) -> Result<Option<PathBuf>, Failure> {
         return refuse("holds no ledger");
     }
     // Not while somebody works on it.
-    drop(RunLock::take(path, || true)?);
+    drop(RunLock::take(path, || false)?);
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(format!(".replaced-{}", std::process::id()));
     let aside = path.with_file_name(name);

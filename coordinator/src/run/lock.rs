@@ -21,8 +21,6 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 pub const LOCK: &str = "lock";
 
 const BEAT: Duration = Duration::from_secs(5);
-/// How long a holder on another host is watched.
-const WATCH: Duration = Duration::from_secs(30);
 const WATCH_PAUSE: Duration = Duration::from_millis(100);
 /// Room for the holder, and more: the file is written in one piece.
 const BYTES: usize = 512;
@@ -71,6 +69,19 @@ impl std::fmt::Display for Holder {
     }
 }
 
+/// How a holder of another boot is told from a dead one.
+struct Caution {
+    /// Whether the file system is trusted to be this host's alone.
+    is_local: fn(&File) -> bool,
+    /// How long the beat is watched.
+    watch: Duration,
+    /// How long others who have watched as long get to write their names.
+    settle: Duration,
+}
+
+const CAUTION: Caution =
+    Caution { is_local, watch: Duration::from_secs(30), settle: Duration::from_secs(2) };
+
 /// A run held by this process.
 #[derive(Debug)]
 pub struct RunLock {
@@ -78,6 +89,8 @@ pub struct RunLock {
     file: File,
     holder: Holder,
     last_beat: Instant,
+    /// Whether other hosts may be looking.
+    is_shared: bool,
 }
 
 impl RunLock {
@@ -87,6 +100,14 @@ impl RunLock {
     /// # Errors
     /// Exit code 2: another process holds the run; 1: the system refuses.
     pub fn take(folder: &Path, is_ended: impl Fn() -> bool) -> Result<RunLock, Failure> {
+        RunLock::take_with(folder, &CAUTION, is_ended)
+    }
+
+    fn take_with(
+        folder: &Path,
+        caution: &Caution,
+        is_ended: impl Fn() -> bool,
+    ) -> Result<RunLock, Failure> {
         let path = folder.join(LOCK);
         let cannot = |error: io::Error| {
             Failure::system(format!("{}: cannot lock the run: {error}", path.display()))
@@ -100,13 +121,14 @@ impl RunLock {
             Err(Errno::NOSYS | Errno::NOTSUP | Errno::NOLCK | Errno::INVAL) => false,
             Err(error) => return Err(cannot(error.into())),
         };
-        let here = is_locked && is_local(&file);
-        let other = read(&path).filter(|other| !(here || is_locked && other.boot == boot()));
+        let is_shared = !(is_locked && (caution.is_local)(&file));
+        let is_dead = |other: &Holder| !is_shared || is_locked && other.boot == boot();
+        let other = read(&path).filter(|other| !is_dead(other));
         let watched = other.is_some();
         if let Some(other) = other {
             let begun = Instant::now();
             eprintln!("{}: {other} held it; watching for a sign of life", folder.display());
-            while begun.elapsed() < WATCH {
+            while begun.elapsed() < caution.watch {
                 if is_ended() {
                     return Err(Failure::new(crate::exit::Code::Interrupted, "a signal came"));
                 }
@@ -124,12 +146,12 @@ impl RunLock {
             since: SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_secs(),
             beat: 0,
         };
-        let lock = RunLock { path, file, holder, last_beat: Instant::now() };
+        let lock = RunLock { path, file, holder, last_beat: Instant::now(), is_shared };
         lock.write()
             .map_err(|error| Failure::system(format!("{}: {error}", lock.path.display())))?;
         if watched {
             // Another may have watched as long; the last to write has it.
-            sleep(Duration::from_secs(2));
+            sleep(caution.settle);
             lock.confirm()?;
         }
         Ok(lock)
@@ -169,7 +191,7 @@ impl RunLock {
         text.push(b'\n');
         self.file.write_all_at(&text, 0)?;
         // Other hosts see what has been sent to the server.
-        self.file.sync_data()
+        if self.is_shared { self.file.sync_data() } else { Ok(()) }
     }
 }
 
@@ -230,6 +252,87 @@ fn utc(seconds: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// As on a disk that other hosts mount, with less patience.
+    const SHARED: Caution = Caution {
+        is_local: |_| false,
+        watch: Duration::from_millis(300),
+        settle: Duration::from_millis(10),
+    };
+
+    fn left_by(boot: &str) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        let lock = RunLock::take(folder.path(), || false).unwrap();
+        let holder = Holder { boot: boot.to_owned(), pid: 1, started: 5, ..lock.holder.clone() };
+        drop(lock);
+        std::fs::write(folder.path().join(LOCK), serde_json::to_vec(&holder).unwrap()).unwrap();
+        folder
+    }
+
+    #[test]
+    fn a_run_has_one_holder_and_is_free_when_it_ends() {
+        let folder = tempfile::tempdir().unwrap();
+        let lock = RunLock::take(folder.path(), || false).unwrap();
+        let holder = Holder::read(folder.path()).unwrap();
+        assert_eq!((holder.pid, holder.lives()), (std::process::id(), Some(true)));
+        let refused = RunLock::take(folder.path(), || false).unwrap_err();
+        assert!(
+            refused.message.contains(&format!("process {} on host", holder.pid)),
+            "{refused:?}"
+        );
+        drop(lock);
+        assert_eq!(Holder::read(folder.path()), None);
+        RunLock::take(folder.path(), || false).unwrap();
+    }
+
+    #[test]
+    fn what_the_dead_of_this_boot_left_is_taken_over() {
+        let folder = left_by(&boot());
+        assert_eq!(Holder::read(folder.path()).unwrap().lives(), Some(false));
+        RunLock::take_with(folder.path(), &SHARED, || true).unwrap();
+    }
+
+    #[test]
+    fn a_holder_on_another_host_is_watched_and_taken_over_only_if_its_beat_stands_still() {
+        let folder = left_by("another");
+        assert_eq!(Holder::read(folder.path()).unwrap().lives(), None);
+        let ended = RunLock::take_with(folder.path(), &SHARED, || true).unwrap_err();
+        assert_eq!(ended.code, crate::exit::Code::Interrupted);
+        let lock = RunLock::take_with(folder.path(), &SHARED, || false).unwrap();
+        drop(lock);
+
+        let folder = left_by("another");
+        let path = folder.path().join(LOCK);
+        let refused = std::thread::scope(|scope| {
+            scope.spawn(|| {
+                sleep(Duration::from_millis(100));
+                let mut holder = read(&path).unwrap();
+                holder.beat += 1;
+                std::fs::write(&path, serde_json::to_vec(&holder).unwrap()).unwrap();
+            });
+            RunLock::take_with(
+                folder.path(),
+                &Caution { watch: Duration::from_secs(60), ..SHARED },
+                || false,
+            )
+        });
+        assert_eq!(refused.unwrap_err().code, crate::exit::Code::Usage);
+    }
+
+    #[test]
+    fn a_holder_that_slept_while_another_took_over_notices() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut lock = RunLock::take(folder.path(), || false).unwrap();
+        lock.last_beat -= BEAT;
+        lock.beat().unwrap();
+        assert_eq!(Holder::read(folder.path()).unwrap().beat, 1);
+        let other = Holder { boot: "another".to_owned(), ..lock.holder.clone() };
+        std::fs::write(folder.path().join(LOCK), serde_json::to_vec(&other).unwrap()).unwrap();
+        lock.last_beat -= BEAT;
+        assert!(lock.beat().unwrap_err().message.contains("has taken the run over"));
+        drop(lock);
+        assert_eq!(Holder::read(folder.path()), Some(other), "what is another's stays");
+    }
 
     #[test]
     fn times_are_written_as_people_do() {

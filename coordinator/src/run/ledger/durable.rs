@@ -52,7 +52,8 @@ impl DurableFile {
         }
     }
 
-    /// Notes that the ledger is durable up to here, durably.
+    /// Notes that the ledger is durable up to here. Until the file is synced a failure of the machine may
+    /// bring back an earlier mark, which is as true.
     pub fn set(&mut self, mark: &Mark) -> io::Result<()> {
         self.sequence += 1;
         let mut slot = [0; SLOT_BYTES];
@@ -62,7 +63,11 @@ impl DurableFile {
         slot[24..BODY_BYTES].copy_from_slice(&mark.chain.0);
         let digest = Digest::of(&slot[..BODY_BYTES]);
         slot[BODY_BYTES..].copy_from_slice(&digest.0);
-        self.file.write_all_at(&slot, self.sequence % 2 * SLOT_DISTANCE)?;
+        self.file.write_all_at(&slot, self.sequence % 2 * SLOT_DISTANCE)
+    }
+
+    /// Makes the mark durable too.
+    pub fn sync(&self) -> io::Result<()> {
         self.file.sync_data()
     }
 }

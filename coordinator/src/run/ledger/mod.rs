@@ -10,7 +10,7 @@ mod scan;
 mod stopped;
 mod writer;
 
-pub use durable::DURABLE;
+pub use durable::{DURABLE, DurableFile};
 pub use frame::Mark;
 pub use reader::LedgerReader;
 pub use record::{Chapter, Judged, Record, RoundEnd, Set};
@@ -54,7 +54,7 @@ impl Ledger {
         let space = problem.space();
         let mut roadmap = Roadmap::new(&space);
         let mut replay = Replay::new(&scan, &problem)?;
-        while let Some(told) = replay.next()? {
+        while let Some(told) = replay.read()? {
             if let Told::Round(round, digest) = told {
                 let sets = round.sets.iter();
                 let sets = sets.map(|set| (&*set.increment, &set.joined.edges[..]));

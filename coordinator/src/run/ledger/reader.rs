@@ -43,15 +43,16 @@ impl LedgerReader {
         let reader = LedgerReader { path, frames, durable, durable_offset, length };
         let (name, version) = heading.split_at(HEADING.len() - 1);
         if !is_whole || !HEADING.starts_with(name) {
-            return Err(reader.broken("not a ledger of roadmill"));
+            return Err(broken(&reader.path, 0, "at byte 0: not a ledger of roadmill"));
         }
         if heading != *HEADING {
             let (found, known) = (version[0], HEADING[HEADING.len() - 1]);
-            return Err(reader.broken(&format!(
-                "a ledger of format {found}; this roadmill {} knows format {known}{}",
+            let message = format!(
+                "at byte 0: a ledger of format {found}; this roadmill {} knows format {known}{}",
                 env!("CARGO_PKG_VERSION"),
                 if found > known { ", a newer one is needed" } else { "" }
-            )));
+            );
+            return Err(broken(&reader.path, 0, &message));
         }
         Ok(reader)
     }

@@ -43,7 +43,7 @@ impl<'a> Replay<'a> {
     ///
     /// # Errors
     /// Exit code 4: a record is damaged, or a set that cannot be.
-    pub fn next(&mut self) -> Result<Option<Told>, Failure> {
+    pub fn read(&mut self) -> Result<Option<Told>, Failure> {
         let mut sets = Vec::new();
         while self.reader.at().offset < self.scan.end.offset {
             match self.reader.next_record()? {

@@ -3,6 +3,7 @@ use super::reader::LedgerReader;
 use super::record::{Chapter, Judged, Record, RoundEnd, is_set};
 use super::stopped::Stopped;
 use crate::exit::{Code, Failure};
+use roadmill::BITS_VERSION;
 use roadmill::evaluate::Verdict;
 use roadmill::problem::Problem;
 use roadmill::wire;
@@ -156,6 +157,10 @@ impl Scan {
         let problem = chapter.decode().map_err(|error| unreadable(&error.to_string()))?;
         if !problem.schedule_is_sound() {
             return Err(unreadable("a schedule that cannot be"));
+        }
+        // Of other bits the digest may be another.
+        if chapter.bits_version == BITS_VERSION && problem.digest() != chapter.problem_digest {
+            return Err(unreadable("its digest differs"));
         }
         Ok(problem)
     }

@@ -76,7 +76,7 @@ impl LedgerWriter {
             Ok((LedgerWriter::new(folder, file, durable, lock, scan.end), saved))
         };
         let (mut writer, saved) = open().map_err(|error| cannot_write(&path, &error))?;
-        writer.sync()?;
+        writer.sync_all()?;
         Ok((writer, saved))
     }
 
@@ -93,7 +93,7 @@ impl LedgerWriter {
     pub fn chapter(&mut self, first_round: u64, problem: &Problem) -> Result<(), Failure> {
         let chapter = Chapter::new(first_round, problem);
         self.append([Record::Chapter(Box::new(chapter))])?;
-        self.sync()
+        self.sync_all()
     }
 
     /// Appends a folded round; `roadmap` includes it.
@@ -135,7 +135,7 @@ impl LedgerWriter {
     /// Exit code 1: the file cannot be written.
     pub fn stopped(&mut self, stopped: &Stopped) -> Result<(), Failure> {
         self.append([Record::Stopped(stopped.clone())])?;
-        self.sync()
+        self.sync_all()
     }
 
     /// Makes durable what is not, if it is time; shows that the run is held.
@@ -175,14 +175,26 @@ impl LedgerWriter {
     /// only times for later.
     fn sync(&mut self) -> Result<(), Failure> {
         let begun = Instant::now();
-        let folder = self.path.with_file_name(DURABLE);
         self.file.sync_data().map_err(|error| cannot_write(&self.path, &error))?;
-        self.durable.set(&self.at).map_err(|error| cannot_write(&folder, &error))?;
+        self.durable.set(&self.at).map_err(|error| self.cannot_mark(&error))?;
         self.durable_offset = self.at.offset;
         let took = begun.elapsed();
         self.spent += took;
         self.next_sync = Instant::now() + SYNC_PAUSE_MIN.max(took * SYNC_PAUSE_TIMES);
         Ok(())
+    }
+
+    /// The same, and makes the mark durable too. Between times the mark may lag: it costs another sync.
+    fn sync_all(&mut self) -> Result<(), Failure> {
+        self.sync()?;
+        let begun = Instant::now();
+        self.durable.sync().map_err(|error| self.cannot_mark(&error))?;
+        self.spent += begun.elapsed();
+        Ok(())
+    }
+
+    fn cannot_mark(&self, error: &io::Error) -> Failure {
+        cannot_write(&self.path.with_file_name(DURABLE), error)
     }
 }
 
