@@ -17,19 +17,15 @@ mod support;
 
 use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
-use roadmill::neighbor::k_nearest;
 use roadmill::roadmap::Configs;
-use roadmill::sampler::{Sampler, Uniform};
 use roadmill::seed::Seed;
 use roadmill::validity::Scratch;
-use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 use support::peer::{run, scene_text, surfaces};
-use support::{cpu_seconds, median};
+use support::{cpu_seconds, median, pairs, sample};
 
 const ROUNDS: usize = 5;
-const CONFIGS: usize = 2000;
 const NODES: usize = 5000;
 const NEIGHBORS: usize = 10;
 
@@ -55,7 +51,7 @@ fn race(path: &Path, peer: &str) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = |name: &str| folder.path().join(name).display().to_string();
     std::fs::write(file("scene"), scene_text(&problem)).expect("the scene can be written");
-    let (configs, pairs) = pairs(&cx);
+    let (configs, pairs) = pairs(&cx, NEIGHBORS);
     std::fs::write(file("pairs"), pairs_text(&cx, &configs, &pairs)).expect("pairs can be written");
 
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
@@ -96,28 +92,6 @@ fn race(path: &Path, peer: &str) {
         edges / peer_edges,
         nodes / peer_nodes,
     );
-}
-
-fn sample(cx: &Context, count: usize, ordinal: u64) -> Configs {
-    let mut configs = Configs::new(cx.space.len());
-    let seed = Seed::of_set(1, "race", ordinal);
-    let sampled = Uniform::default().sample(cx, &seed, count, &mut Scratch::new(), &mut configs);
-    sampled.expect("the scene has free configurations");
-    configs
-}
-
-/// Configurations, and the pairs of each with its nearest.
-fn pairs(cx: &Context) -> (Configs, Vec<(usize, usize)>) {
-    let configs = sample(cx, CONFIGS, u64::MAX);
-    let mut pairs = BTreeSet::new();
-    for i in 0..CONFIGS {
-        let others = (0..CONFIGS as u32).filter(|other| *other as usize != i);
-        for near in k_nearest(&cx.space, &configs, others, configs.get(i), NEIGHBORS) {
-            let j = near.id as usize;
-            pairs.insert((i.min(j), i.max(j)));
-        }
-    }
-    (configs, pairs.into_iter().collect())
 }
 
 fn pairs_text(cx: &Context, configs: &Configs, pairs: &[(usize, usize)]) -> String {

@@ -1,4 +1,4 @@
-use crate::space::Space;
+use crate::space::{PartKind, Space, stored_form};
 use crate::validity::{Scratch, Validity};
 use bincode::{Decode, Encode};
 
@@ -26,7 +26,14 @@ impl Context {
             let (found, expected) = (q.len(), space.len());
             return Err(format!("{found} values found, {expected} expected: {}", names.join(" ")));
         }
+        let given = q.to_vec();
         space.canonicalize(q)?;
+        // What has stored form to within rounding stays as it is written, here too.
+        for part in space.parts().iter().filter(|part| part.kind == PartKind::Rotation) {
+            let four = part.at..part.at + 4;
+            let quaternion = [0, 1, 2, 3].map(|i| given[part.at + i]);
+            q[four].copy_from_slice(&stored_form(quaternion).expect("it has a direction"));
+        }
         if !space.within_bounds(q) {
             return Err(format!("{q:?} found, a configuration within the bounds expected"));
         }

@@ -59,7 +59,7 @@ pub use digest::SourceFile;
 pub use strategy::Strategy;
 
 /// Version of the bits: raised whenever the same problem and seed come to give another roadmap.
-pub const BITS_VERSION: u32 = 1;
+pub const BITS_VERSION: u32 = 2;
 
 /// The README's example is a test.
 #[cfg(doctest)]

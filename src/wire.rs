@@ -119,13 +119,12 @@ mod tests {
         assert!(decode::<EvaluatorKind>(&encode(&nest(101))).is_err());
         // A failure leaves nothing behind.
         assert_eq!(decode::<EvaluatorKind>(&encode(&nest(100))).unwrap(), nest(100));
-        // As deep as it is long: the bytes of a verdict with one part, over and over.
-        let verdict = |parts| {
-            let (answer, asked) = (None, Asked::default());
-            Verdict { satisfied: false, value: 0.0, threshold: 1.0, answer, parts, asked }
-        };
-        let bytes = encode(&verdict(vec![verdict(Vec::new())]));
-        let level = &bytes[..1 + 8 + 8 + 1 + 8];
+        // As deep as it is long: the bytes of a verdict up to its parts, over and over.
+        let leaf = Verdict::at_least(1.0, 0.0, Asked::default());
+        let one = Verdict { parts: vec![leaf.clone()], ..leaf.clone() };
+        let tail = encode(&leaf).len() + encode(&Asked::default()).len();
+        let bytes = encode(&one);
+        let level = &bytes[..bytes.len() - tail];
         assert!(decode::<Verdict>(&level.repeat(100_000)).is_err());
     }
 

@@ -8,7 +8,7 @@
 mod scenes;
 
 use roadmill::foreign::{
-    Base, ForeignBody, ForeignJointKind, ForeignScene, read_ompl, read_parasol,
+    Base, ForeignBody, ForeignJointKind, ForeignScene, SceneOptions, read_ompl, read_parasol,
 };
 use roadmill::problem::Problem;
 use roadmill::scene::{Pose, Shape};
@@ -19,12 +19,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 fn ompl(data: &Path, name: &str) -> ForeignScene {
-    read_ompl(&data.join("scenes/ompl").join(name)).unwrap_or_else(|error| panic!("{error}"))
+    read_ompl(&data.join("scenes/ompl").join(name), &SceneOptions::default())
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn parasol(data: &Path, name: &str) -> ForeignScene {
     let path = data.join("scenes/parasol").join(name);
-    read_parasol(&path, None, None).unwrap_or_else(|error| panic!("{error}"))
+    read_parasol(&path, &SceneOptions::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn read(data: &Path, name: &str) -> ForeignScene {

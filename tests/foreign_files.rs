@@ -1,7 +1,9 @@
 //! Scene files that are no good: every error names its file and line, and nothing panics.
 
 use proptest::prelude::*;
-use roadmill::foreign::{ForeignError, ForeignJointKind, ForeignScene, read_ompl, read_parasol};
+use roadmill::foreign::{
+    DhOrder, ForeignError, ForeignJointKind, ForeignScene, SceneOptions, read_ompl, read_parasol,
+};
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -35,8 +37,8 @@ fn folder() -> TempDir {
 
 fn read(folder: &Path, name: &str) -> Result<ForeignScene, ForeignError> {
     match name {
-        "room.cfg" => read_ompl(&folder.join(name)),
-        _ => read_parasol(&folder.join("room.env"), None, None),
+        "room.cfg" => read_ompl(&folder.join(name), &SceneOptions::default()),
+        _ => read_parasol(&folder.join("room.env"), &SceneOptions::default()),
     }
 }
 
@@ -92,6 +94,35 @@ fn joint_values_follow_the_indices_of_bodies_and_become_ours() {
         "{:?}",
         scene.notes
     );
+}
+
+#[test]
+fn denavit_and_hartenberg_act_in_the_order_that_is_asked_for() {
+    let folder = folder();
+    let dh = "0 2 Revolute -0.5:0.5\n3 0 0 0 0 0  1.5707963267948966 2 1 0  3";
+    let robot = ROBOT.replace("0 2 Revolute -0.5:0.5\n3 0 0 0 0 0  0 0 0 0  3", dh);
+    assert_ne!(robot, ROBOT);
+    std::fs::write(folder.path().join("room.robot"), robot).unwrap();
+    let read = |dh| {
+        let options = SceneOptions { dh: Some(dh), ..SceneOptions::default() };
+        read_parasol(&folder.path().join("room.env"), &options).unwrap()
+    };
+    // 3 0 0, then d and a before or after the quarter turn about x, then 3 0 0.
+    for (order, expected) in
+        [(DhOrder::Standard, [8.0, 0.0, 1.0]), (DhOrder::Modified, [8.0, -1.0, 0.0])]
+    {
+        let scene = read(order);
+        let joint = scene.links[3].joint.as_ref().unwrap();
+        let origin = joint.before.apply(joint.after.apply([0.0; 3]));
+        assert!((0..3).all(|i| (origin[i] - expected[i]).abs() < 1e-12), "{origin:?}");
+    }
+    // Of a spherical joint the turn about x comes first, and its value with it.
+    let scene = read(DhOrder::Modified);
+    let names: Vec<_> = scene.links.iter().filter_map(|link| link.joint.as_ref()).collect();
+    assert_eq!([&names[0].name, &names[1].name], ["0-1-alpha", "0-1-theta"]);
+    let values = scene.query.unwrap().0.split_off(7);
+    let expected = [0.2, 0.1, 0.3].map(|share| share * std::f64::consts::PI);
+    assert!(values.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{values:?}");
 }
 
 #[test]
@@ -153,6 +184,29 @@ fn errors_name_file_and_line() {
             "room.robot:12: body 2 does not hang on the base",
         ),
         ("room.robot", "-0.5:0.5", "0.5", "room.robot:12: `0.5` found; limits min:max"),
+        ("room.robot", "-0.5:0.5", "0.5:-0.5", "room.robot:12: `0.5:-0.5` found; limits min:max"),
+        ("room.robot", "-0.5:0.5", "-1e9:1e9", "room.robot:12: `-1e9:1e9` found; limits min:max"),
+        ("room.robot", "0 2 Revolute", "0 2 Prismatic", "room.robot:12: `Prismatic` found; `Revol"),
+        // Bodies 2 and 3 hang on one another.
+        ("room.robot", "0 2 Revolute", "3 2 Revolute", "room.robot:12: body 2 does not hang"),
+        (
+            "room.robot",
+            "4\n#VIZMO",
+            "1000000000\n#VIZMO",
+            "room.robot:1: 1000000000 bodies found; at most 1000",
+        ),
+        (
+            "room.env",
+            "2\n\nPassive",
+            "1000000000\n\nPassive",
+            "room.env:9: cut off; body 3 of 1000000000",
+        ),
+        (
+            "room.query",
+            "0.1 0.2 0.3",
+            "0.1 0.2 0.3 0.4",
+            "room.query:1: 11 numbers found; the robot",
+        ),
         (
             "room.robot",
             "Connections\n3",
@@ -224,7 +278,10 @@ fn files_beside_the_scene_are_taken_only_without_a_doubt() {
     std::fs::write(path("third.query"), QUERY).unwrap();
     let error = read(folder.path(), "room.env").unwrap_err().to_string();
     assert!(error.contains("which .query? other.query, third.query stand beside it"), "{error}");
-    let named = read_parasol(&path("room.env"), None, Some(&path("third.query")));
+    let named = read_parasol(
+        &path("room.env"),
+        &SceneOptions { query: Some(&path("third.query")), ..SceneOptions::default() },
+    );
     assert_eq!(named.unwrap().query, scene.query);
     std::fs::remove_file(path("room.robot")).unwrap();
     let error = read(folder.path(), "room.env").unwrap_err().to_string();

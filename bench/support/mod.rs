@@ -3,10 +3,15 @@
 
 pub mod peer;
 
+use roadmill::Context;
 use roadmill::img::{Core, Cut, Judgement, Observer, Progress, Round, Serial, Setup, Stop, drive};
-use roadmill::roadmap::Roadmap;
-use roadmill::validity::Asked;
+use roadmill::neighbor::k_nearest;
+use roadmill::roadmap::{Configs, Roadmap};
+use roadmill::sampler::{Sampler, Uniform};
+use roadmill::seed::Seed;
+use roadmill::validity::{Asked, Scratch};
 use rustix::time::{ClockId, clock_gettime};
+use std::collections::BTreeSet;
 use std::convert::Infallible;
 use std::sync::Arc;
 
@@ -93,4 +98,27 @@ impl Observer for Watch {
     fn tick(&mut self, _: &Progress, _: &Roadmap, _: usize) -> Result<Option<Cut>, Infallible> {
         Ok((cpu_seconds() >= self.end).then_some(Cut::Time))
     }
+}
+
+/// Valid uniform configurations.
+pub fn sample(cx: &Context, count: usize, ordinal: u64) -> Configs {
+    let mut configs = Configs::new(cx.space.len());
+    let seed = Seed::of_set(1, "race", ordinal);
+    let sampled = Uniform::default().sample(cx, &seed, count, &mut Scratch::new(), &mut configs);
+    sampled.expect("the scene has free configurations");
+    configs
+}
+
+/// 2000 configurations, and the pairs of each with its nearest.
+pub fn pairs(cx: &Context, neighbors: usize) -> (Configs, Vec<(usize, usize)>) {
+    let configs = sample(cx, 2000, u64::MAX);
+    let mut pairs = BTreeSet::new();
+    for i in 0..configs.len() {
+        let others = (0..configs.len() as u32).filter(|other| *other as usize != i);
+        for near in k_nearest(&cx.space, &configs, others, configs.get(i), neighbors) {
+            let j = near.id as usize;
+            pairs.insert((i.min(j), i.max(j)));
+        }
+    }
+    (configs, pairs.into_iter().collect())
 }

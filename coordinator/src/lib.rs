@@ -25,6 +25,7 @@ pub fn main() -> ExitCode {
         cli::Command::Log(arguments) => commands::log(&arguments),
         cli::Command::Query(arguments) => commands::query(&arguments),
         cli::Command::Check(arguments) => commands::check(&arguments),
+        cli::Command::Import(arguments) => commands::import(&arguments),
         cli::Command::Export(arguments) => commands::export(&arguments),
         cli::Command::Worker(arguments) => commands::worker(&arguments),
     };

@@ -67,7 +67,18 @@ fn other_programs_read_the_same_roadmap_from_every_format() {
     let turning = ["turning.toml", "--threads", "2", "--max-sets", "24"];
     scratch.build("turning", &turning, 0);
     scratch.build("maze", &[&repository("problems/maze.toml"), "--threads", "2"], 0);
-    for (run, dofs) in [("turning", 6), ("maze", 3)] {
+    // A linkage with a mesh, one with a rotation for a joint, and a mesh among meshes.
+    for (run, file) in [
+        ("gantry", "problems/gantry.toml"),
+        ("ball", "tests/problems/ball.toml"),
+        ("cage", "problems/cage.toml"),
+    ] {
+        let arguments =
+            ["build", &repository(file), "--threads", "2", "--max-sets", "10", "--out", run];
+        let code = scratch.run(&arguments).status.code();
+        assert!(matches!(code, Some(0 | 3)), "{run}: {code:?}");
+    }
+    for (run, dofs) in [("turning", 6), ("maze", 3), ("gantry", 3), ("ball", 4), ("cage", 6)] {
         export_all(&scratch, run);
         let summary: Value =
             serde_json::from_str(&read(&scratch, &format!("{run}/summary.json"))).expect("JSON");
@@ -84,7 +95,7 @@ fn other_programs_read_the_same_roadmap_from_every_format() {
     assert!(read(&scratch, "turning/roadmap.map").contains(" 2 "));
 }
 
-/// Reads a `.map` as Open-PPL does, word by word.
+/// Reads a `.map` as Open-PPL does, word by word. The first half of the values are lengths.
 fn assert_map(text: &str, [nodes, edges]: [u64; 2], dofs: usize) {
     let (head, graph) = text.split_once("#####GRAPHSTART#####\n").expect("a graph");
     assert!(head.starts_with("#####ENVFILESTART#####\n") && head.contains(".env\n"));
@@ -175,6 +186,35 @@ fn paths_are_shortened_and_played() {
     assert_eq!([array("links").len(), array("obstacles").len()], [1, 17]);
     assert_eq!(array("frames")[0].as_array().map(Vec::len), Some(7));
     assert_eq!(data["name"], "maze");
+}
+
+/// Every link and obstacle has a surface, all triangles have their corners, and no number is broken.
+#[test]
+fn linkages_and_meshes_are_played_and_drawn() {
+    let scratch = Scratch::new();
+    scratch.build("run", &[&repository("problems/gantry.toml"), "--threads", "2"], 0);
+    scratch.run(&["query", "run", "--animate", "page.html"]).assert_code(0);
+    let page = read(&scratch, "page.html");
+    let (_, data) = page.split_once("id=\"data\">").expect("data");
+    let (data, _) = data.split_once("</script>").expect("their end");
+    let data: Value = serde_json::from_str(data).expect("JSON");
+    let links = data["links"].as_array().expect("a list");
+    let bodies: Vec<usize> = links.iter().map(|link| link.as_array().unwrap().len()).collect();
+    assert_eq!(bodies, [2, 1, 1, 1, 1]);
+    let surfaces = links.iter().chain([&data["obstacles"]]).flat_map(|all| all.as_array().unwrap());
+    for surface in surfaces {
+        let vertices = surface["v"].as_array().expect("numbers");
+        assert!(vertices.iter().all(Value::is_number) && vertices.len() % 3 == 0);
+        let corners = surface["t"].as_array().expect("corners");
+        let most = corners.iter().map(|corner| corner.as_u64().unwrap()).max().expect("triangles");
+        assert!(corners.len() % 3 == 0 && most as usize == vertices.len() / 3 - 1);
+    }
+    // Seven numbers a link.
+    assert_eq!(data["frames"][300].as_array().map(Vec::len), Some(35));
+    let export = ["export", "run", "--format", "svg", "--out", "picture.svg"];
+    scratch.run(&export).assert_code(0);
+    let picture = read(&scratch, "picture.svg");
+    assert!(!picture.contains("NaN") && !picture.contains("inf"), "{picture}");
 }
 
 #[test]

@@ -3,22 +3,21 @@
 use super::JoinInput;
 use crate::context::Context;
 use crate::local::{self, Planner};
-use crate::neighbor::k_nearest;
 use crate::roadmap::{Components, Configs, Edge};
 use crate::validity::Scratch;
 
 /// The roadmap, or an earlier increment of the round.
-struct Part<'a> {
+pub(super) struct Part<'a> {
     /// What its own node 0 is called after the round.
-    first: u32,
-    configs: &'a Configs,
-    components: &'a Components,
+    pub first: u32,
+    pub configs: &'a Configs,
+    pub components: &'a Components,
 }
 
 /// What came before an increment, and the increment.
 pub(super) struct Candidates<'a> {
-    old: Vec<Part<'a>>,
-    new: Part<'a>,
+    pub old: Vec<Part<'a>>,
+    pub new: Part<'a>,
 }
 
 /// A pair to be tried; ids are those after the round.
@@ -51,8 +50,8 @@ impl<'a> Candidates<'a> {
         for (index, q) in self.new.configs.iter().enumerate() {
             let mut near = Vec::new();
             for part in &self.old {
-                let all = 0..part.configs.len() as u32;
-                for mut neighbor in k_nearest(&cx.space, part.configs, all, q, neighbors as usize) {
+                let k = neighbors as usize;
+                for mut neighbor in part.components.k_nearest(&cx.space, part.configs, q, k) {
                     neighbor.id += part.first;
                     near.push(neighbor);
                 }
@@ -97,7 +96,8 @@ impl<'a> Candidates<'a> {
         part.configs.get((node - part.first) as usize)
     }
 
-    fn part(&self, node: u32) -> &Part<'a> {
+    /// Where a node is from.
+    pub fn part(&self, node: u32) -> &Part<'a> {
         let mut parts = self.old.iter().chain([&self.new]).rev();
         parts.find(|part| part.first <= node).expect("the first part begins at 0")
     }

@@ -1,9 +1,10 @@
+use super::candidates::{Candidate, Candidates, Part};
 use super::{Among, JoinInput, default_planners};
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
-use crate::neighbor::closest_pairs;
-use crate::roadmap::{Component, Configs, Edge};
+use crate::neighbor::{Best, Neighbor};
+use crate::roadmap::{Component, Edge};
 use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
@@ -47,54 +48,28 @@ impl Default for ComponentPairs {
     }
 }
 
-/// A component of the roadmap or of an earlier increment of the round.
-struct Old<'a> {
-    distance: f64,
-    /// Its name in the numbering of the roadmap after the round.
-    name: u32,
-    /// What its own node 0 is called in that numbering.
-    first: u32,
-    configs: &'a Configs,
-    component: &'a Component,
-}
-
 impl Among for ComponentPairs {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
-        let Some((new, earlier)) = input.increments.split_last() else {
-            return Vec::new();
-        };
+        let Some(candidates) = Candidates::new(input) else { return Vec::new() };
+        let new = &candidates.new;
         let mut new_components: Vec<&Component> = new.components.iter().collect();
         new_components.sort_by_key(|component| component.name);
-        let before = input.roadmap.configs().len() as u32;
-        let new_first = earlier
-            .iter()
-            .fold(before, |first, built| first + built.increment.configs.len() as u32);
-
         let mut edges = Vec::new();
         for component in new_components {
-            for old in self.nearest(cx, input, component) {
-                let pairs = closest_pairs(
-                    &cx.space,
-                    (&new.increment.configs, &component.members),
-                    (old.configs, &old.component.members),
-                    self.pairs as usize,
-                );
-                for pair in pairs {
-                    // From the lower id to the higher, as within a set.
-                    let ends = (
-                        old.configs.get(pair.second as usize),
-                        new.increment.configs.get(pair.first as usize),
-                    );
-                    if let Some((planner, weight)) =
-                        local::connect(cx, &self.planners, ends, 1, scratch)
-                    {
-                        edges.push(Edge {
-                            low: old.first + pair.second,
-                            high: new_first + pair.first,
-                            planner: planner.tag(),
-                            weight,
-                        });
-                    }
+            for name in self.nearest(cx, &candidates.old, component) {
+                let old = candidates.part(name);
+                let near = old.components.of_node(name - old.first);
+                let first = (new.configs, &component.members[..]);
+                let count = self.pairs as usize;
+                for pair in
+                    old.components.closest_pairs(&cx.space, first, (old.configs, near), count)
+                {
+                    let pair = Candidate {
+                        distance: pair.distance,
+                        new: new.first + pair.first,
+                        old: old.first + pair.second,
+                    };
+                    edges.extend(candidates.connect(cx, &self.planners, pair, scratch));
                 }
             }
         }
@@ -113,31 +88,15 @@ impl Among for ComponentPairs {
 }
 
 impl ComponentPairs {
-    /// The components nearest to `new`, nearest first.
-    fn nearest<'a>(&self, cx: &Context, input: &'a JoinInput, new: &Component) -> Vec<Old<'a>> {
-        let mut nearest: Vec<Old> = Vec::new();
-        let mut offer = |first: u32, configs: &'a Configs, component: &'a Component| {
-            let distance = cx.space.distance(&component.centre, &new.centre);
-            let name = first + component.name;
-            let place = nearest.partition_point(|old| {
-                old.distance.total_cmp(&distance).then(old.name.cmp(&name)).is_lt()
-            });
-            if place < self.components as usize {
-                nearest.truncate(self.components as usize - 1);
-                nearest.insert(place, Old { distance, name, first, configs, component });
+    /// The names, after the round, of the old components nearest to a new one, nearest first.
+    fn nearest(&self, cx: &Context, old: &[Part], new: &Component) -> impl Iterator<Item = u32> {
+        let count = self.components as usize;
+        let mut best = Best::new(count);
+        for part in old {
+            for near in part.components.nearest(&cx.space, &new.centre, count) {
+                best.offer(Neighbor { id: part.first + near.id, ..near });
             }
-        };
-        let roadmap = &input.roadmap;
-        for component in roadmap.components().iter() {
-            offer(0, roadmap.configs(), component);
         }
-        let mut first = roadmap.configs().len() as u32;
-        for built in input.increments.iter().rev().skip(1).rev() {
-            for component in built.components.iter() {
-                offer(first, &built.increment.configs, component);
-            }
-            first += built.increment.configs.len() as u32;
-        }
-        nearest
+        best.into_items().into_iter().map(|near| near.id)
     }
 }

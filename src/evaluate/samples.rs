@@ -4,7 +4,6 @@ use super::Verdict;
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
-use crate::neighbor::k_nearest;
 use crate::query::Attachment;
 use crate::roadmap::{Configs, Roadmap};
 use crate::sampler::SamplerKind;
@@ -143,9 +142,7 @@ impl Samples {
         let configs = roadmap.configs();
         let mut reached = vec![BTreeSet::new(); self.count()];
         for (components, q) in reached.iter_mut().zip(self.configs(cx, path, scratch).iter()) {
-            let all = 0..configs.len() as u32;
-            let near = k_nearest(&cx.space, configs, all, q, attachment.neighbors as usize);
-            for neighbor in near {
+            for neighbor in roadmap.k_nearest(&cx.space, q, attachment.neighbors as usize) {
                 let name = roadmap.components().of_node(neighbor.id).name;
                 let ends = (configs.get(neighbor.id as usize), q);
                 let planners = &attachment.planners;

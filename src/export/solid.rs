@@ -123,7 +123,8 @@ pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
 /// The triangles of each piece of a mesh. Pieces hang together by edges of two triangles: where
 /// more meet, pieces merely touch.
 fn pieces(mesh: &Mesh) -> Vec<Vec<[u32; 3]>> {
-    let mut label: Vec<usize> = (0..mesh.triangles.len()).collect();
+    let triangles: Vec<[u32; 3]> = mesh.faces().collect();
+    let mut label: Vec<usize> = (0..triangles.len()).collect();
     fn root(label: &mut [usize], mut i: usize) -> usize {
         while label[i] != i {
             label[i] = label[label[i]];
@@ -131,14 +132,14 @@ fn pieces(mesh: &Mesh) -> Vec<Vec<[u32; 3]>> {
         }
         i
     }
-    for sides in sides_of(&mesh.triangles).values() {
+    for sides in sides_of(&triangles).values() {
         if let [one, other] = sides[..] {
             let roots = (root(&mut label, one), root(&mut label, other));
             label[roots.0.max(roots.1)] = roots.0.min(roots.1);
         }
     }
     let mut pieces: BTreeMap<usize, Vec<[u32; 3]>> = BTreeMap::new();
-    for (index, corners) in mesh.triangles.iter().enumerate() {
+    for (index, corners) in triangles.iter().enumerate() {
         pieces.entry(root(&mut label, index)).or_default().push(*corners);
     }
     pieces.into_values().collect()

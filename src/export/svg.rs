@@ -4,6 +4,7 @@ use crate::problem::Problem;
 use crate::query;
 use crate::roadmap::Roadmap;
 use crate::scene::Pose;
+use crate::space::Motion;
 use crate::validity::BoundsMeaning;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -199,7 +200,13 @@ impl Drawing<'_> {
         };
         for (name, q, share) in [("start", &ends.start, 0.0), ("goal", &ends.goal, 1.0)] {
             let [x, y] = self.view.px(self.problem.robot.marker(q));
-            let standing = self.stand(&self.problem.robot.bodies_at(q));
+            // Of a linkage that stands, the word belongs to what is marked, not to the highest link.
+            let (robot, bodies) = (&self.problem.robot, self.problem.robot.bodies_at(q));
+            let own = match (robot.motion, robot.links.last()) {
+                (Motion::Fixed, Some(last)) => last.bodies.len(),
+                _ => bodies.len(),
+            };
+            let standing = self.stand(&bodies[bodies.len() - own..]);
             let points = standing.iter().flat_map(|solid| &solid.points);
             let top = points.map(|point| self.view.px(*point)[1]).fold(y - 6.0, f64::min);
             let (x, y, above) = (decimal(x), decimal(y), decimal(top - 8.0));

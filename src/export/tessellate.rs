@@ -26,7 +26,7 @@ pub(super) fn tessellate(shape: &Shape, dot: f64) -> Surface {
         }
         Shape::Capsule { radius, height } => capsule(*radius, *height),
         Shape::Mesh(mesh) => {
-            Surface { vertices: mesh.vertices.clone(), triangles: mesh.triangles.clone() }
+            Surface { vertices: mesh.vertices.clone(), triangles: mesh.faces().collect() }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Mesh files as bodies.
 
-use super::{ForeignBody, ForeignError};
+use super::{ForeignBody, ForeignError, SceneOptions, Solidity};
 use crate::digest::SourceFile;
 use crate::scene::{Body, MESH_ITEMS_MAX, MeshOptions, Pose, ReadMesh, Shape, read_mesh_with};
 use std::path::{Path, PathBuf};
@@ -8,15 +8,6 @@ use std::path::{Path, PathBuf};
 /// Vertices nearer than this are one, a length of the scene. Exporters write six decimals, and some
 /// write the same corner differently in the last.
 const WELD: f64 = 1e-6;
-
-/// Whether a mesh's inside is material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Solid {
-    /// If the mesh is closed.
-    Auto,
-    /// It is a mere surface.
-    Never,
-}
 
 /// A mesh file as the scene names it.
 pub(super) struct Named<'a> {
@@ -40,24 +31,35 @@ impl Named<'_> {
 }
 
 /// Reads mesh files and counts what they come to.
-#[derive(Default)]
 pub(super) struct Meshes {
     triangles: usize,
+    weld: f64,
     /// The files read.
     pub sources: Vec<SourceFile>,
 }
 
 impl Meshes {
+    pub fn new(options: &SceneOptions, notes: &mut Vec<String>) -> Meshes {
+        let weld = options.weld.unwrap_or(WELD);
+        notes.push(format!("vertices at most {weld:e} apart joined (--weld)"));
+        Meshes { triangles: 0, weld, sources: Vec::new() }
+    }
+
+    /// Joins equal vertices only.
+    pub fn exact() -> Meshes {
+        Meshes { triangles: 0, weld: 0.0, sources: Vec::new() }
+    }
+
     /// Reads a mesh; the body stands at `pose`.
     pub fn body(
         &mut self,
         named: &Named,
         options: &MeshOptions,
         pose: Pose,
-        solid: Solid,
+        solid: Solidity,
     ) -> Result<(ForeignBody, ReadMesh), ForeignError> {
         let file = named.path();
-        let options = MeshOptions { weld: WELD, ..*options };
+        let options = MeshOptions { weld: self.weld, ..*options };
         let read = read_mesh_with(&file, &options)
             .map_err(|error| ForeignError::mesh(error, named.scene, named.line))?;
         let source = SourceFile { path: named.file.to_owned(), digest: read.digest };
@@ -70,10 +72,28 @@ impl Meshes {
             let message = format!("the scene's meshes have more than {MESH_ITEMS_MAX} triangles");
             return Err(named.error(message));
         }
-        let solid = solid == Solid::Auto && read.odd_edges == 0;
+        if solid == Solidity::Yes && read.odd_edges > 0 {
+            let message = format!(
+                "--solid yes, but {} is not closed ({} edges belong to an odd number of triangles)",
+                file.display(),
+                read.odd_edges
+            );
+            return Err(named.error(message));
+        }
+        let solid = solid != Solidity::No && read.odd_edges == 0;
         let body = Body { shape: Shape::Mesh(read.mesh.clone()), pose, solid };
         let counts = [read.stored_triangles, read.unique_triangles, read.odd_edges];
         let [stored_triangles, unique_triangles, odd_edges] = counts;
         Ok((ForeignBody { body, file, stored_triangles, unique_triangles, odd_edges }, read))
+    }
+}
+
+/// Whether a mesh came to be solid, and why.
+pub(super) fn why_solid(body: &Body, read: &ReadMesh, asked: Option<Solidity>) -> String {
+    let solid = body.solid;
+    match (asked, read.odd_edges) {
+        (Some(Solidity::Yes | Solidity::No), _) => format!("solid = {solid}, as asked"),
+        (_, 0) => format!("solid = {solid}, as the mesh is closed (--solid)"),
+        (_, odd) => format!("solid = {solid}, as the mesh has {odd} open edges (--solid)"),
     }
 }

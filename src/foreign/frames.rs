@@ -21,10 +21,20 @@ pub(super) fn turn(axis: [f64; 3], angle: f64) -> Option<[f64; 4]> {
 }
 
 /// Rz(z)·Ry(y)·Rx(x), the angles in half turns (fractions of π).
-pub(super) fn euler([x, y, z]: [f64; 3]) -> [f64; 4] {
-    let about_x = about([1.0, 0.0, 0.0], x * PI / 2.0);
-    let about_y = about([0.0, 1.0, 0.0], y * PI / 2.0);
-    let about_z = about([0.0, 0.0, 1.0], z * PI / 2.0);
+pub(super) fn euler(half_turns: [f64; 3]) -> [f64; 4] {
+    by_halves(half_turns.map(|angle| angle * PI / 2.0))
+}
+
+/// Rz(yaw)·Ry(pitch)·Rx(roll), the angles in radians.
+pub(super) fn roll_pitch_yaw(angles: [f64; 3]) -> [f64; 4] {
+    by_halves(angles.map(|angle| angle / 2.0))
+}
+
+/// Rz·Ry·Rx by twice these angles in radians.
+fn by_halves([x, y, z]: [f64; 3]) -> [f64; 4] {
+    let about_x = about([1.0, 0.0, 0.0], x);
+    let about_y = about([0.0, 1.0, 0.0], y);
+    let about_z = about([0.0, 0.0, 1.0], z);
     unit(times(about_z, times(about_y, about_x)))
 }
 

@@ -1,5 +1,5 @@
-//! Scenes of other programs: OMPL.app's `.cfg` and Parasol's `.env`, `.robot` and `.query`, read into
-//! plain data in this crate's conventions.
+//! Scenes of other programs, OMPL.app's `.cfg` and Parasol's `.env`, `.robot` and `.query`, and robots,
+//! URDF, read into plain data in this crate's conventions.
 //!
 //! `docs/foreign.md` says what each reader takes and ignores. Whatever a file leaves open and a reader
 //! decides is a line in [`ForeignScene::notes`].
@@ -8,11 +8,16 @@ mod bodies;
 mod error;
 mod frames;
 mod ompl;
+mod options;
 mod parasol;
+mod urdf;
 
 pub use error::ForeignError;
 pub use ompl::read_ompl;
+pub(crate) use options::SceneKind;
+pub use options::{DhOrder, SceneOptions, Solidity, Unit};
 pub use parasol::read_parasol;
+pub use urdf::{UrdfRobot, read_urdf};
 
 use crate::digest::SourceFile;
 use crate::scene::{Body, Pose};
@@ -64,8 +69,7 @@ pub struct ForeignBody {
     pub stored_triangles: usize,
     /// Triangles with three different corners, repeated ones counted once.
     pub unique_triangles: usize,
-    /// Edges that an odd number of those share: 0 for a closed surface. Flat triangles, which the body's
-    /// mesh lacks, count.
+    /// Edges that an odd number of those share, flat triangles included: 0 for a closed surface.
     pub odd_edges: usize,
 }
 

@@ -4,12 +4,14 @@
 //! The numbers assume meshes as OMPL.app's importer gives them: turned to y up, scaled by the file's
 //! unit, and the robot's origin moved to the mean of its vertices.
 
-use super::bodies::{Meshes, Named, Solid};
+use super::bodies::{Meshes, Named, why_solid};
 use super::error::read_text;
 use super::frames::turn;
-use super::{Base, ForeignBody, ForeignError, ForeignLink, ForeignScene};
+use super::{
+    Base, ForeignBody, ForeignError, ForeignLink, ForeignScene, SceneOptions, Solidity, Unit,
+};
 use crate::digest::SourceFile;
-use crate::scene::{Centre, LENGTH_MAX, MeshOptions, Pose, ReadMesh, Up, UpAxis};
+use crate::scene::{Centre, LENGTH_MAX, MeshOptions, Pose, Up, UpAxis};
 use crate::space::Motion;
 use crate::validity::{Bounds, BoundsMeaning};
 use std::collections::BTreeMap;
@@ -17,21 +19,21 @@ use std::path::Path;
 
 /// Reads an OMPL.app `.cfg` of a rigid body in three dimensions.
 ///
-/// Angles are radians, positions those of the robot's frame. The bounds hold the reference point
-/// only. The world is a surface without inside, as OMPL's checker sees it; the robot is solid if its
-/// mesh is closed.
+/// Angles are radians, positions those of the robot's frame. Unless the options say otherwise, the
+/// bounds hold the reference point only, the world is a surface without inside, as OMPL's checker sees
+/// it, and the robot is solid if its mesh is closed.
 ///
 /// # Errors
 /// Names the file and line: unreadable, a key missing or twice, a value that is no finite number, an
 /// empty box, or a mesh that cannot be read.
-pub fn read_ompl(path: &Path) -> Result<ForeignScene, ForeignError> {
+pub fn read_ompl(path: &Path, options: &SceneOptions) -> Result<ForeignScene, ForeignError> {
     let text = read_text(path)?;
     let file = Config::read(path, &text)?;
     let mut notes = Vec::new();
-    let mut meshes = Meshes::default();
+    let mut meshes = Meshes::new(options, &mut notes);
     meshes.sources.push(SourceFile::named(path, text.as_bytes()));
-    let world = file.mesh("world", Centre::AsStored, Solid::Never, &mut meshes, &mut notes)?;
-    let robot = file.mesh("robot", Centre::VertexMean, Solid::Auto, &mut meshes, &mut notes)?;
+    let world = file.mesh("world", options, &mut meshes, &mut notes)?;
+    let robot = file.mesh("robot", options, &mut meshes, &mut notes)?;
     let corner = |which: &str| -> Result<[f64; 3], ForeignError> {
         Ok([
             file.length(&format!("volume.{which}.x"))?,
@@ -60,10 +62,14 @@ pub fn read_ompl(path: &Path) -> Result<ForeignScene, ForeignError> {
             notes.push(format!("line {line}: {key} = {value} passed over"));
         }
     }
+    let meaning = options.bounds.unwrap_or_else(|| {
+        notes.push("the bounds hold the reference point, as OMPL.app's do (--bounds)".to_owned());
+        BoundsMeaning::Reference
+    });
     Ok(ForeignScene {
         name,
         base: Base::Moving(Motion::Rigid3d),
-        bounds: Bounds { min, max, meaning: BoundsMeaning::Reference },
+        bounds: Bounds { min, max, meaning },
         obstacles: vec![world],
         links: vec![ForeignLink { name: "robot".to_owned(), bodies: vec![robot], joint: None }],
         may_touch: Vec::new(),
@@ -187,56 +193,53 @@ impl<'a> Config<'a> {
         Ok(q)
     }
 
+    /// The robot's or the world's mesh. Only the robot's origin is moved.
     fn mesh(
         &self,
         key: &str,
-        centre: Centre,
-        solid: Solid,
+        options: &SceneOptions,
         meshes: &mut Meshes,
         notes: &mut Vec<String>,
     ) -> Result<ForeignBody, ForeignError> {
         let named = Named { scene: self.path, line: self.line(key), file: self.value(key)? };
-        let mut options = MeshOptions { centre, up: Up::Y, ..MeshOptions::default() };
-        let (mut body, mut read) = meshes.body(&named, &options, Pose::IDENTITY, solid)?;
+        let (centre, solid) = match key {
+            "robot" => (options.origin.unwrap_or(Centre::VertexMean), Solidity::Auto),
+            _ => (Centre::AsStored, Solidity::No),
+        };
+        let up = options.up.unwrap_or(Up::Y);
+        let mut mesh = MeshOptions { centre, up, ..MeshOptions::default() };
+        let solid = options.solid.unwrap_or(solid);
+        let (mut body, mut read) = meshes.body(&named, &mesh, Pose::IDENTITY, solid)?;
         if let Some(metres) = read.unit_metres
             && metres != 1.0
+            && options.unit != Some(Unit::AsStored)
         {
             // Welding is a length of the scene, so the file is read again rather than stretched.
-            options.scale = metres;
-            (body, read) = meshes.body(&named, &options, Pose::IDENTITY, solid)?;
-            notes.push(format!("{key}: lengths times {metres}, the metres of the file's unit"));
+            mesh.scale = [metres; 3];
+            (body, read) = meshes.body(&named, &mesh, Pose::IDENTITY, solid)?;
+            let what = "the metres of the file's unit (--unit)";
+            notes.push(format!("{key}: lengths times {metres}, {what}"));
         }
-        self.explain(key, &read, centre, solid, notes);
-        Ok(body)
-    }
-
-    fn explain(
-        &self,
-        key: &str,
-        read: &ReadMesh,
-        centre: Centre,
-        solid: Solid,
-        notes: &mut Vec<String>,
-    ) {
-        match read.up {
-            Some(UpAxis::Z) => {
-                notes.push(format!("{key}: turned from z up to y up, (x, y, z) → (x, z, −y)"));
-            }
-            Some(UpAxis::X) => {
-                notes.push(format!("{key}: turned from x up to y up, (x, y, z) → (−y, x, z)"));
-            }
-            Some(UpAxis::Y) | None => {}
+        let turned = match read.up {
+            Some(UpAxis::Z) => Some("z up to y up, (x, y, z) → (x, z, −y)"),
+            Some(UpAxis::X) => Some("x up to y up, (x, y, z) → (−y, x, z)"),
+            Some(UpAxis::Y) | None => None,
+        };
+        if let (Some(turned), Up::Y) = (turned, up) {
+            notes.push(format!("{key}: turned from {turned} (--up)"));
         }
         if centre == Centre::VertexMean {
             let [x, y, z] = read.centre;
-            notes.push(format!("{key}: origin moved to the mean of the vertices, {x} {y} {z}"));
+            let what = "the mean of the vertices";
+            notes.push(format!("{key}: origin moved to {what}, {x} {y} {z} (--origin)"));
         }
-        notes.push(match (solid, read.odd_edges) {
-            (Solid::Never, _) => {
-                format!("{key}: solid = false, as OMPL's checker tests surfaces only")
+        let why = match (key, options.solid) {
+            ("world", None) => {
+                "solid = false, as OMPL's checker tests surfaces only (--solid)".to_owned()
             }
-            (Solid::Auto, 0) => format!("{key}: solid = true, as the mesh is closed"),
-            (Solid::Auto, odd) => format!("{key}: solid = false, as the mesh has {odd} open edges"),
-        });
+            _ => why_solid(&body.body, &read, options.solid),
+        };
+        notes.push(format!("{key}: {why}"));
+        Ok(body)
     }
 }

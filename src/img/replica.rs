@@ -29,10 +29,20 @@ impl Replica {
     pub fn fold<'a>(&mut self, setup: &Setup, joins: impl Iterator<Item = &'a [Edge]>) {
         let increments = std::mem::take(&mut self.increments);
         self.first += increments.len() as u64;
-        let joins = joins.map(|edges| -> &[Edge] { edges });
-        let sets = increments.iter().map(|built| &*built.increment).zip(joins);
-        // A copy is made only where a job that no longer matters still reads the old roadmap.
-        Arc::make_mut(&mut self.roadmap).fold_round(&setup.cx.space, sets);
+        let kept: Vec<_> = increments.iter().map(|built| built.increment.clone()).collect();
+        // Copies are made only where a job that no longer matters still reads what was.
+        let components = increments.into_iter().map(|built| match Arc::try_unwrap(built) {
+            Ok(built) => built.components,
+            Err(shared) => shared.components.clone(),
+        });
+        let sets = kept.iter().zip(components).zip(joins);
+        let sets = sets.map(|((increment, components), joins)| (&**increment, components, joins));
+        Arc::make_mut(&mut self.roadmap).fold_components(&setup.cx.space, sets);
+    }
+
+    /// The roadmap at the end.
+    pub fn into_roadmap(self) -> Roadmap {
+        Arc::unwrap_or_clone(self.roadmap)
     }
 
     /// The roadmap after the last fold.

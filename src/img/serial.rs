@@ -50,6 +50,6 @@ impl Executor for Serial {
     }
 
     fn into_roadmap(self) -> Roadmap {
-        Arc::unwrap_or_clone(self.replica.roadmap().clone())
+        self.replica.into_roadmap()
     }
 }

@@ -147,6 +147,6 @@ impl Executor for Simulated<'_> {
     }
 
     fn into_roadmap(self) -> Roadmap {
-        Arc::unwrap_or_clone(self.replica.roadmap().clone())
+        self.replica.into_roadmap()
     }
 }

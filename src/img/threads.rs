@@ -98,6 +98,6 @@ impl Executor for Threads {
     }
 
     fn into_roadmap(self) -> Roadmap {
-        Arc::unwrap_or_clone(self.replica.roadmap().clone())
+        self.replica.into_roadmap()
     }
 }

@@ -1,25 +1,5 @@
-use crate::roadmap::Configs;
-use crate::space::Space;
-
-/// A neighbour of some configuration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Neighbor {
-    /// Its distance.
-    pub distance: f64,
-    /// Its id.
-    pub id: u32,
-}
-
-/// A pair of configurations near one another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NearPair {
-    /// Their distance.
-    pub distance: f64,
-    /// Id of the one from the first set.
-    pub first: u32,
-    /// Id of the one from the second set.
-    pub second: u32,
-}
+use super::best::{Best, NearPair, Neighbor};
+use crate::space::{Configs, Space};
 
 /// The at most `k` configurations nearest to `q` among `ids`, nearest first, ties by id.
 pub fn k_nearest(
@@ -37,7 +17,7 @@ pub fn k_nearest(
             best.offer(Neighbor { distance, id });
         }
     }
-    best.items
+    best.into_items()
 }
 
 /// The at most `count` closest pairs of a configuration of `first` and one of `second`, closest
@@ -59,66 +39,7 @@ pub fn closest_pairs(
             }
         }
     }
-    best.items
-}
-
-trait Ranked {
-    fn distance(&self) -> f64;
-    fn rank(&self) -> (u32, u32);
-}
-
-impl Ranked for Neighbor {
-    fn distance(&self) -> f64 {
-        self.distance
-    }
-    fn rank(&self) -> (u32, u32) {
-        (self.id, 0)
-    }
-}
-
-impl Ranked for NearPair {
-    fn distance(&self) -> f64 {
-        self.distance
-    }
-    fn rank(&self) -> (u32, u32) {
-        (self.first, self.second)
-    }
-}
-
-/// The few best of many, sorted.
-struct Best<T> {
-    most: usize,
-    items: Vec<T>,
-}
-
-impl<T: Ranked> Best<T> {
-    fn new(most: usize) -> Best<T> {
-        Best { most, items: Vec::new() }
-    }
-
-    /// Nothing farther than this can still get in.
-    fn bound(&self) -> f64 {
-        match self.items.last() {
-            Some(last) if self.items.len() >= self.most => last.distance(),
-            _ if self.most == 0 => 0.0,
-            _ => f64::INFINITY,
-        }
-    }
-
-    fn offer(&mut self, item: T) {
-        let before = |known: &T| {
-            known
-                .distance()
-                .total_cmp(&item.distance())
-                .then(known.rank().cmp(&item.rank()))
-                .is_lt()
-        };
-        let place = self.items.partition_point(before);
-        if place < self.most {
-            self.items.truncate(self.most - 1);
-            self.items.insert(place, item);
-        }
-    }
+    best.into_items()
 }
 
 #[cfg(test)]

@@ -1,5 +1,4 @@
-use crate::roadmap::Configs;
-use crate::space::{PartKind, Space};
+use crate::space::{Configs, PartKind, Space};
 use std::f64::consts::PI;
 
 /// How much nearer than the best pair a bound must be to rule a configuration out: relative to the

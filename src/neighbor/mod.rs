@@ -1,8 +1,17 @@
-//! Nearest neighbours. They are *defined* by brute force, nearest first and ties by id: whatever
-//! index comes later must return the same.
+//! Nearest neighbours. They are *defined* by brute force, nearest first and ties by id; the [`Index`]
+//! returns the same, bit for bit.
 
+mod best;
 mod brute;
+mod embedding;
 mod farthest;
+mod index;
+mod tree;
 
-pub use brute::{NearPair, Neighbor, closest_pairs, k_nearest};
+pub use best::{Best, NearPair, Neighbor, Ranked};
+pub use brute::{closest_pairs, k_nearest};
 pub use farthest::{FarPair, farthest_pair};
+pub use index::{Candidates, Index};
+
+#[cfg(test)]
+mod tests;

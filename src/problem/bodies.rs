@@ -8,7 +8,7 @@ use crate::digest::SourceFile;
 use crate::math;
 use crate::robot::Robot;
 use crate::scene::{Body, LENGTH_MAX, MeshOptions, Pose, Shape, read_mesh_with};
-use crate::space::canonical;
+use crate::space::{canonical, stored_form};
 use std::path::Path;
 
 /// Reads the bodies of the table at `place`.
@@ -73,7 +73,7 @@ pub(super) fn pose_of(
         (Some(_), Some(_)) => {
             return Err(("turn", "given beside orientation; one of the two expected".to_owned()));
         }
-        (Some(quaternion), None) => canonical(*quaternion).ok_or_else(|| {
+        (Some(quaternion), None) => stored_form(*quaternion).ok_or_else(|| {
             let expected = "a finite quaternion w x y z other than zero expected";
             ("orientation", format!("{quaternion:?} found; {expected}"))
         })?,
@@ -90,9 +90,13 @@ pub(super) fn pose_of(
     Ok(Pose { translation: *position, rotation })
 }
 
-/// The vector at unit length, if it has a direction.
+/// The vector at unit length, if it has a direction. One that has unit length to within rounding is
+/// taken as it is, so that what is written can be read again.
 pub(super) fn unit([x, y, z]: [f64; 3]) -> Option<[f64; 3]> {
     let length = (x * x + y * y + z * z).sqrt();
+    if (length - 1.0).abs() <= 4.0 * f64::EPSILON {
+        return Some([x, y, z]);
+    }
     (length.is_finite() && length > 1e-100).then(|| [x / length, y / length, z / length])
 }
 
@@ -132,7 +136,7 @@ fn shape_of(source: &Source, table: &BodyTable) -> Result<Shape, String> {
         ShapeTable::Mesh { file, scale } => {
             length("scale", *scale)?;
             let folder = source.path.parent().unwrap_or(Path::new(""));
-            let options = MeshOptions { scale: *scale, ..MeshOptions::default() };
+            let options = MeshOptions { scale: [*scale; 3], ..MeshOptions::default() };
             let read = read_mesh_with(&folder.join(file), &options);
             let read = read.map_err(|error| error.to_string())?;
             let path = file.to_string_lossy().into_owned();

@@ -88,6 +88,7 @@ impl Problem {
             ("an obstacle", self.obstacles == other.obstacles),
             ("the space's bounds", self.bounds == other.bounds),
             ("the resolution", self.resolution.to_bits() == other.resolution.to_bits()),
+            ("what is promised of edges", self.edges == other.edges),
             (
                 "the rotation length",
                 self.rotation_length.to_bits() == other.rotation_length.to_bits(),

@@ -3,7 +3,7 @@ use crate::robot::{JointKind, Limits};
 use crate::scene::{Body, Shape};
 use crate::schedule::Adaptive;
 use crate::space::Motion;
-use crate::validity::BoundsMeaning;
+use crate::validity::{BoundsMeaning, Edges, TOLERANCE};
 use std::fmt::Write;
 
 pub(super) fn describe(problem: &Problem) -> String {
@@ -38,6 +38,9 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
             JointKind::Revolute { limits: Some(Limits { min, max }), .. } => {
                 writeln!(out, "                 {name}: turns from {min} to {max} radians")?;
             }
+            JointKind::Spherical => {
+                writeln!(out, "                 {name}: turns in every way; a unit quaternion")?;
+            }
             JointKind::Prismatic { limits: Limits { min, max }, .. } => {
                 writeln!(out, "                 {name}: slides from {min} to {max}")?;
             }
@@ -60,11 +63,11 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         &bounds.min[..axes],
         &bounds.max[..axes]
     )?;
-    writeln!(
-        out,
-        "resolution       {}: no robot point moves farther between two checks",
-        problem.resolution
-    )?;
+    let promise = match problem.edges {
+        Edges::Swept => format!("motions are free at all times, to a {TOLERANCE}th of it"),
+        Edges::Sampled => "no robot point moves farther between two checks".to_owned(),
+    };
+    writeln!(out, "resolution       {}: {promise}", problem.resolution)?;
     if problem.robot.motion.rotates() {
         writeln!(
             out,

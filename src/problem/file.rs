@@ -5,7 +5,7 @@ use crate::evaluate::EvaluatorKind;
 use crate::sampler::{SamplerKind, Uniform};
 use crate::schedule::Adaptive;
 use crate::space::Motion;
-use crate::validity::BoundsMeaning;
+use crate::validity::{BoundsMeaning, Edges};
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -36,12 +36,16 @@ pub(super) struct SpaceTable {
     pub max: Vec<f64>,
     pub bounds: BoundsMeaning,
     pub resolution: Option<f64>,
+    #[serde(default)]
+    pub edges: Edges,
     pub rotation_length: Option<f64>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RobotTable {
+    pub name: Option<String>,
+    pub urdf: Option<PathBuf>,
     #[serde(default)]
     pub bodies: Vec<BodyTable>,
     pub base: Option<FrameTable>,
@@ -76,7 +80,8 @@ pub(super) struct JointTable {
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub(super) enum JointKindTable {
     Fixed {},
-    Revolute { axis: [f64; 3], degrees: Option<[f64; 2]> },
+    Spherical {},
+    Revolute { axis: [f64; 3], degrees: Option<[f64; 2]>, radians: Option<[f64; 2]> },
     Prismatic { axis: [f64; 3], range: [f64; 2] },
 }
 

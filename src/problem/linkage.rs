@@ -5,13 +5,27 @@ use super::error::ProblemError;
 use super::file::{FrameTable, JointKindTable, LinkTable, RobotTable};
 use super::source::Source;
 use super::source::Step::{self, Index, Key};
-use crate::robot::{Joint, JointKind, Limits, Link, Robot};
+use crate::foreign::read_urdf;
+use crate::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, Robot, TURN_MAX};
 use crate::scene::{LENGTH_MAX, Pose};
 use crate::space::Motion;
+use std::path::Path;
 
-const LINKS_MAX: usize = 1000;
-/// Name of link 0.
+/// Name of link 0 where the file gives none.
 const BASE: &str = "base";
+const NAME_EXPECTED: &str = "a name of its own of letters, digits, `-`, `_` and `.` expected";
+
+/// Whether a link may have the name.
+pub(super) fn fits(name: &str) -> bool {
+    let fit = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
+    !name.is_empty() && name.chars().all(fit)
+}
+
+/// The name with other characters replaced by `-`.
+pub(super) fn fitting(name: &str) -> String {
+    let fit = |c: char| if fits(c.encode_utf8(&mut [0; 4])) { c } else { '-' };
+    name.chars().map(fit).collect()
+}
 
 /// Reads the robot.
 pub(super) fn robot_of(
@@ -20,9 +34,19 @@ pub(super) fn robot_of(
     motion: Motion,
     notes: &mut Vec<String>,
 ) -> Result<Robot, ProblemError> {
-    let place = [Key("robot"), Key("bodies")];
-    let mut robot = Robot::rigid(motion, bodies(source, &place, &table.bodies, notes)?);
-    robot.links[0].name = BASE.to_owned();
+    let mut robot = Robot::rigid(motion, Vec::new());
+    match &table.urdf {
+        Some(file) => robot.links = urdf_links(source, table, file, notes)?,
+        None => {
+            let place = [Key("robot"), Key("bodies")];
+            robot.links[0].bodies = bodies(source, &place, &table.bodies, notes)?;
+            robot.links[0].name = table.name.clone().unwrap_or_else(|| BASE.to_owned());
+        }
+    }
+    if !fits(&robot.links[0].name) {
+        let message = format!("`{}` found; {NAME_EXPECTED}", robot.links[0].name);
+        return Err(source.error(&[Key("robot"), Key("name")], message));
+    }
     if let Some(base) = &table.base {
         if motion != Motion::Fixed {
             let message = "given, but the base moves; motion = \"fixed\" expected beside it";
@@ -30,8 +54,9 @@ pub(super) fn robot_of(
         }
         robot.base = frame(source, &[Key("robot"), Key("base")], base)?;
     }
-    if table.links.len() > LINKS_MAX {
-        let message = format!("{} found; at most {LINKS_MAX} expected", table.links.len());
+    if table.links.len().max(robot.links.len()) > LINKS_MAX {
+        let found = table.links.len().max(robot.links.len());
+        let message = format!("{found} found; at most {LINKS_MAX} expected");
         return Err(source.error(&[Key("robot"), Key("links")], message));
     }
     for (index, link) in table.links.iter().enumerate() {
@@ -57,7 +82,49 @@ pub(super) fn robot_of(
     Ok(robot)
 }
 
-fn moves(link: &Link) -> bool {
+/// The links of a URDF, which takes the place of all that the table could say of them.
+fn urdf_links(
+    source: &Source,
+    table: &RobotTable,
+    file: &Path,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Link>, ProblemError> {
+    let others = [
+        ("name", table.name.is_some()),
+        ("bodies", !table.bodies.is_empty()),
+        ("links", !table.links.is_empty()),
+    ];
+    if let Some((key, _)) = others.iter().find(|(_, given)| *given) {
+        let message = "given beside urdf, which says it; one of the two expected";
+        return Err(source.error(&[Key("robot"), Key(key)], message.to_owned()));
+    }
+    let folder = source.path.parent().unwrap_or(Path::new(""));
+    let robot = read_urdf(&folder.join(file))
+        .map_err(|error| source.error(&[Key("robot"), Key("urdf")], error.to_string()))?;
+    notes.extend(robot.notes);
+    robot.sources.into_iter().for_each(|file| source.read(file));
+    Ok(fitting_names(robot.links))
+}
+
+/// The links with names that fit and that no two have.
+pub(super) fn fitting_names(mut links: Vec<Link>) -> Vec<Link> {
+    for index in 0..links.len() {
+        let fitting = fitting(&links[index].name);
+        let mut name = if fitting.is_empty() { "link".to_owned() } else { fitting.clone() };
+        let mut count = 2;
+        while links[..index].iter().any(|other| other.name == name) {
+            name = format!("{fitting}-{count}");
+            count += 1;
+        }
+        links[index].name = name;
+        if let Some(joint) = &mut links[index].joint {
+            joint.name = self::fitting(&joint.name);
+        }
+    }
+    links
+}
+
+pub(super) fn moves(link: &Link) -> bool {
     link.joint.as_ref().is_some_and(|joint| joint.kind.moves())
 }
 
@@ -70,11 +137,9 @@ fn link_of(
 ) -> Result<Link, ProblemError> {
     let place = [Key("robot"), Key("links"), Index(index)];
     let at = |keys: &[Step<'static>]| [&place[..], keys].concat();
-    let fits = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
     let taken = |name: &str| robot.links.iter().any(|link| link.name == name);
-    if table.name.is_empty() || !table.name.chars().all(fits) || taken(&table.name) {
-        let expected = "a name of its own of letters, digits, `-`, `_` and `.` expected";
-        let message = format!("`{}` found; {expected}", table.name);
+    if !fits(&table.name) || taken(&table.name) {
+        let message = format!("`{}` found; {NAME_EXPECTED}", table.name);
         return Err(source.error(&at(&[Key("name")]), message));
     }
     let joint = &table.joint;
@@ -107,20 +172,25 @@ fn kind_of(table: &JointKindTable) -> Result<JointKind, String> {
     };
     let limits = |[min, max]: [f64; 2], most: f64| {
         // Written so that NaN fails it.
-        if min < max && -most <= min && max <= most {
+        if min <= max && -most <= min && max <= most {
             Ok(Limits { min, max })
         } else {
             Err(format!(
-                "{min} to {max} found; a least and a larger value within ±{most:e} expected"
+                "{min} to {max} found; a least and a largest value within ±{most:e} expected"
             ))
         }
     };
     Ok(match table {
         JointKindTable::Fixed {} => JointKind::Fixed,
-        JointKindTable::Revolute { axis, degrees } => {
-            let limits = match degrees {
-                None => None,
-                Some(degrees) => {
+        JointKindTable::Spherical {} => JointKind::Spherical,
+        JointKindTable::Revolute { axis, degrees, radians } => {
+            let limits = match (degrees, radians) {
+                (Some(_), Some(_)) => {
+                    return Err("degrees and radians found; one of the two expected".to_owned());
+                }
+                (None, None) => None,
+                (None, Some(radians)) => Some(limits(*radians, TURN_MAX)?),
+                (Some(degrees), None) => {
                     let Limits { min, max } = limits(*degrees, 3600.0)?;
                     let radians = |degrees: f64| degrees / 180.0 * std::f64::consts::PI;
                     Some(Limits { min: radians(min), max: radians(max) })

@@ -13,22 +13,24 @@ mod foreign;
 mod linkage;
 mod resolve;
 mod source;
+mod write;
 
 pub use chapter::Earlier;
 pub use configuration::configuration;
 pub use error::ProblemError;
-pub use foreign::Companions;
+pub use write::Written;
 
 use crate::context::{Context, Ends};
 use crate::digest::SourceFile;
 use crate::evaluate::EvaluatorKind;
+use crate::foreign::SceneOptions;
 use crate::roadmap::Digest;
 use crate::robot::Robot;
 use crate::scene::Body;
 use crate::schedule::Adaptive;
 use crate::space::Space;
 use crate::strategy::Strategy;
-use crate::validity::{BodyValidity, Bounds};
+use crate::validity::{BodyValidity, Bounds, Edges};
 use bincode::{Decode, Encode};
 use std::path::Path;
 
@@ -47,6 +49,8 @@ pub struct Problem {
     pub bounds: Bounds,
     /// The farthest that any robot point moves between two checks of a motion; a length.
     pub resolution: f64,
+    /// What is promised of the motions along edges.
+    pub edges: Edges,
     /// Length that one radian of rotation counts for in the metric.
     pub rotation_length: f64,
     /// The robot.
@@ -87,21 +91,21 @@ pub struct Limits {
 }
 
 impl Problem {
-    /// Reads and checks a problem file: TOML, or a scene of OMPL.app (`.cfg`) or Parasol (`.env`), see
-    /// `docs/foreign.md`. Relative paths of meshes start from the file's folder.
+    /// Reads and checks a problem file: TOML, a scene of OMPL.app (`.cfg`) or Parasol (`.env`), or a robot
+    /// alone (`.urdf`), see `docs/foreign.md`. Relative paths of meshes start from the file's folder.
     ///
     /// # Errors
     /// The first thing that is wrong, with its place in the file.
     pub fn load(path: &Path) -> Result<Problem, ProblemError> {
-        Problem::load_with(path, Companions::default())
+        Problem::load_with(path, &SceneOptions::default())
     }
 
-    /// [`Problem::load`] with the files that stand beside a Parasol `.env`.
+    /// [`Problem::load`] with what is to be taken where a scene of another program leaves a choice.
     ///
     /// # Errors
     /// The first thing that is wrong, with its place in the file.
-    pub fn load_with(path: &Path, companions: Companions) -> Result<Problem, ProblemError> {
-        if let Some(problem) = foreign::load(path, companions) {
+    pub fn load_with(path: &Path, options: &SceneOptions) -> Result<Problem, ProblemError> {
+        if let Some(problem) = foreign::load(path, options) {
             return problem;
         }
         let text = std::fs::read_to_string(path).map_err(|error| {
@@ -125,7 +129,7 @@ impl Problem {
         let determining = (
             crate::BITS_VERSION,
             (self.seed, self.bounds),
-            (self.resolution, self.rotation_length),
+            (self.resolution, self.edges, self.rotation_length),
             (&self.robot, &self.obstacles),
             (&self.strategies, &self.schedule, self.adaptive, self.sets_per_round, &self.earlier),
         );
@@ -145,7 +149,7 @@ impl Problem {
             space.clone(),
             &self.robot,
             self.bounds,
-            self.resolution,
+            (self.edges, self.resolution),
             &self.obstacles,
         );
         Context {

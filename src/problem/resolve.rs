@@ -4,7 +4,7 @@ use super::bodies::{bodies, check_bodies};
 use super::building::{adaptive_of, evaluators_of, limits_of, strategies_of};
 use super::error::ProblemError;
 use super::file::{File, QueryTable};
-use super::linkage::robot_of;
+use super::linkage::{fits, fitting, robot_of};
 use super::source::Source;
 use super::source::Step::{Index, Key};
 use super::{DEFAULT_SEED, Problem};
@@ -43,6 +43,7 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
         seed,
         bounds,
         resolution,
+        edges: file.space.edges,
         rotation_length,
         robot,
         obstacles,
@@ -68,13 +69,22 @@ fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {
             source.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into())
         }
     };
-    // The name becomes that of a folder.
-    let fits = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
-    if name.is_empty() || name.starts_with('.') || name.len() > 100 || !name.chars().all(fits) {
+    if !fits(&name) || name.starts_with('.') || name.len() > 100 {
         let expected = "letters, digits, `-`, `_` and `.` expected, at most 100, not led by `.`";
         return Err(source.error(&[Key("name")], format!("`{name}` found; {expected}")));
     }
     Ok(name)
+}
+
+/// A name for a problem, which becomes that of a folder, as near to the given one as may be.
+pub(super) fn fitting_name(name: &str) -> String {
+    let fitting = fitting(name);
+    let mut end = fitting.len().min(100);
+    while !fitting.is_char_boundary(end) {
+        end -= 1;
+    }
+    let fitting = fitting[..end].trim_start_matches('.');
+    if fitting.is_empty() { "scene".to_owned() } else { fitting.to_owned() }
 }
 
 fn bounds_of(source: &Source, file: &File) -> Result<Bounds, ProblemError> {
@@ -115,12 +125,7 @@ fn resolution_of(
     notes: &mut Vec<String>,
 ) -> Result<f64, ProblemError> {
     let diagonal = diagonal_of(bounds, robot.motion);
-    let radius = robot.reach();
-    if radius > RADIUS_MAX * diagonal {
-        let message = format!(
-            "robot points {radius} away from its reference point found; at most {RADIUS_MAX:e} times \
-             the diagonal of the bounds expected"
-        );
+    if let Some(message) = too_far(robot, diagonal) {
         return Err(source.error(&[Key("robot")], message));
     }
     if let Some(resolution) = file.space.resolution {
@@ -132,6 +137,17 @@ fn resolution_of(
         return Ok(resolution);
     }
     Ok(default_resolution(diagonal, robot, notes))
+}
+
+/// Complains of a robot whose motions would have too many steps.
+pub(super) fn too_far(robot: &Robot, diagonal: f64) -> Option<String> {
+    let radius = robot.reach();
+    (radius > RADIUS_MAX * diagonal).then(|| {
+        format!(
+            "robot points {radius} away from its reference point found; at most {RADIUS_MAX:e} times \
+             the diagonal of the bounds expected"
+        )
+    })
 }
 
 /// Fine enough for the scene as a whole and for the thinnest part of the robot.

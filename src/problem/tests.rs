@@ -99,6 +99,7 @@ fn the_digest_covers_what_determines_entries_and_nothing_else() {
         (Problem { evaluators: Vec::new(), ..problem.clone() }, true),
         (Problem { seed: 2, ..problem.clone() }, false),
         (Problem { resolution: 0.01, ..problem.clone() }, false),
+        (Problem { edges: Edges::Sampled, ..problem.clone() }, false),
         (Problem { sets_per_round: 6, ..problem.clone() }, false),
         (Problem { obstacles: Vec::new(), ..problem.clone() }, false),
     ] {
@@ -134,6 +135,11 @@ fn errors_in_linkages_name_the_link() {
                 .to_owned(),
             "robot.links[1].joint.kind: 0 to NaN found",
         ),
+        (
+            "name = \"a\"\njoint = { kind = { revolute = { axis = [0, 0, 1], degrees = [0, 1], radians = [0, 1] } } }"
+                .to_owned(),
+            "robot.links[1].joint.kind: degrees and radians found",
+        ),
         ("name = \"a\"\njoint = { kind = { screw = {} } }".to_owned(), "unknown variant `screw`"),
         (
             format!("name = \"a\"\n{revolute}\nbodies = [{{ shape = {{ sphere = {{ radius = -1 }} }} }}]"),
@@ -143,6 +149,24 @@ fn errors_in_linkages_name_the_link() {
         let error = parse(&linkage(&link)).unwrap_err();
         assert!(error.starts_with("walls.toml:") && error.contains(expected), "{error}");
     }
+    for (from, to, expected) in [
+        ("[robot]", "[robot]\nurdf = \"a.urdf\"", "robot.bodies: given beside urdf"),
+        ("bodies = [", "urdf = \"a.urdf\" # [", "robot.urdf: a.urdf: cannot read"),
+        ("[robot]", "[robot]\nname = \"a/b\"", "robot.name: `a/b` found"),
+    ] {
+        let error = parse(&WALLS.replacen(from, to, 1)).unwrap_err();
+        assert!(error.starts_with("walls.toml:") && error.contains(expected), "{error}");
+    }
     let fixed = WALLS.replace("rigid-3d", "fixed").split("[query]").next().unwrap().to_owned();
     assert!(parse(&fixed).unwrap_err().contains("robot: nothing moves"));
+}
+
+#[test]
+fn a_problem_that_is_cut_off_is_an_error_or_a_smaller_problem() {
+    let ends = (0..WALLS.len()).filter(|end| WALLS.is_char_boundary(*end));
+    for end in ends {
+        if let Err(error) = parse(&WALLS[..end]) {
+            assert!(error.starts_with("walls.toml"), "{error}");
+        }
+    }
 }

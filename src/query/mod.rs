@@ -9,7 +9,6 @@ pub use shorten::shorten;
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
-use crate::neighbor::k_nearest;
 use crate::roadmap::{Edge, Graph, Roadmap};
 use crate::validity::Scratch;
 use bincode::{Decode, Encode};
@@ -131,10 +130,8 @@ pub(crate) fn attach(
     scratch: &mut Scratch,
 ) -> Vec<Edge> {
     let configs = roadmap.configs();
-    let all = 0..configs.len() as u32;
-    let near = k_nearest(&cx.space, configs, all, q, attachment.neighbors as usize);
     let mut edges = Vec::new();
-    for neighbor in near {
+    for neighbor in roadmap.k_nearest(&cx.space, q, attachment.neighbors as usize) {
         let ends = (configs.get(neighbor.id as usize), q);
         if let Some((planner, weight)) = local::connect(cx, &attachment.planners, ends, 1, scratch)
         {

@@ -1,5 +1,6 @@
 use super::Configs;
 use super::centre::CentreSum;
+use super::finder::Finder;
 use crate::space::Space;
 
 /// A connected component.
@@ -23,10 +24,11 @@ pub struct Component {
 pub struct Components {
     slot_of: Vec<u32>,
     slots: Vec<Option<Component>>,
-    /// Slots that hold a component, as of the last refresh of the centres.
-    live: Vec<u32>,
-    stale: Vec<u32>,
-    count: usize,
+    /// Slots without a component.
+    free: Vec<u32>,
+    /// Slots that got a component since the last refresh of the centres, or whose component grew.
+    changed: Vec<u32>,
+    pub(super) finder: Finder,
 }
 
 impl Components {
@@ -43,7 +45,15 @@ impl Components {
         edges: &[super::Edge],
     ) -> Components {
         let mut components = Components::default();
-        components.add_nodes(space, nodes);
+        for (node, q) in nodes.enumerate() {
+            let slot = components.put(Component {
+                name: node as u32,
+                members: vec![node as u32],
+                centre: Vec::new(),
+                sum: CentreSum::of(space, q),
+            });
+            components.slot_of.push(slot);
+        }
         for edge in edges {
             components.unite(edge.low, edge.high);
         }
@@ -53,7 +63,12 @@ impl Components {
 
     /// Number of components.
     pub fn count(&self) -> usize {
-        self.count
+        self.slots.len() - self.free.len()
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> u32 {
+        self.slot_of.len() as u32
     }
 
     /// The component of a node.
@@ -73,36 +88,59 @@ impl Components {
 
     /// All components, in an order that depends on nothing but the graph's history.
     pub fn iter(&self) -> impl Iterator<Item = &Component> {
-        self.live.iter().filter_map(|slot| self.slots[*slot as usize].as_ref())
+        self.slots.iter().flatten()
     }
 
-    /// Appends nodes, each a component of its own.
-    pub(super) fn add_nodes<'a>(&mut self, space: &Space, nodes: impl Iterator<Item = &'a [f64]>) {
-        for q in nodes {
-            let node = self.slot_of.len() as u32;
-            let slot = self.slots.len() as u32;
-            self.slot_of.push(slot);
-            self.slots.push(Some(Component {
-                name: node,
-                members: vec![node],
-                centre: Vec::new(),
-                sum: CentreSum::of(space, q),
+    /// Where a node's component is kept, until the graph next changes.
+    pub(super) fn slot_of(&self, node: u32) -> u32 {
+        self.slot_of[node as usize]
+    }
+
+    /// The components by slot.
+    pub(super) fn slots(&self) -> &[Option<Component>] {
+        &self.slots
+    }
+
+    /// Appends the nodes and components of another graph.
+    pub(super) fn append(&mut self, other: Components) {
+        let first = self.nodes();
+        let mut slot_of = Vec::with_capacity(other.slots.len());
+        for component in other.slots {
+            slot_of.push(component.map_or(u32::MAX, |mut component| {
+                component.name += first;
+                component.members.iter_mut().for_each(|node| *node += first);
+                self.put(component)
             }));
-            self.live.push(slot);
-            self.stale.push(slot);
-            self.count += 1;
         }
+        self.slot_of.extend(other.slot_of.iter().map(|slot| slot_of[*slot as usize]));
+    }
+
+    fn put(&mut self, component: Component) -> u32 {
+        let slot = match self.free.pop() {
+            Some(slot) => {
+                self.slots[slot as usize] = Some(component);
+                slot
+            }
+            None => {
+                self.slots.push(Some(component));
+                self.slots.len() as u32 - 1
+            }
+        };
+        self.changed.push(slot);
+        slot
     }
 
     /// Unites the components of two nodes.
     pub(super) fn unite(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.slot_of[a as usize], self.slot_of[b as usize]);
+        let (a, b) = (self.slot_of(a), self.slot_of(b));
         if a == b {
             return;
         }
+        // Which of two equally large ones is kept changes no result: sums commute.
         let size = |slot: u32| self.slots[slot as usize].as_ref().map_or(0, |c| c.members.len());
-        let (kept, gone) = if (size(a), b) >= (size(b), a) { (a, b) } else { (b, a) };
+        let (kept, gone) = if size(a) >= size(b) { (a, b) } else { (b, a) };
         let smaller = self.slots[gone as usize].take().expect("labels are current");
+        self.free.push(gone);
         for node in &smaller.members {
             self.slot_of[*node as usize] = kept;
         }
@@ -110,21 +148,24 @@ impl Components {
         larger.name = larger.name.min(smaller.name);
         larger.members.extend(smaller.members);
         larger.sum.add(&smaller.sum);
-        self.stale.push(kept);
-        self.count -= 1;
+        larger.centre.clear();
+        self.changed.push(kept);
     }
 
     /// Brings the centres of changed components up to date.
     pub(super) fn refresh_centres(&mut self, space: &Space, configs: &Configs) {
-        self.live.retain(|slot| self.slots[*slot as usize].is_some());
-        self.stale.sort_unstable();
-        self.stale.dedup();
-        for slot in std::mem::take(&mut self.stale) {
-            if let Some(component) = &mut self.slots[slot as usize] {
+        let mut changed = std::mem::take(&mut self.changed);
+        changed.sort_unstable();
+        changed.dedup();
+        for slot in &changed {
+            if let Some(component) = &mut self.slots[*slot as usize]
+                && component.centre.is_empty()
+            {
                 let fallback = configs.get(component.name as usize);
                 component.centre = component.sum.centre(space, fallback);
             }
         }
+        self.finder.centres_changed(&self.slots, &changed);
     }
 }
 

@@ -2,17 +2,18 @@
 
 mod centre;
 mod components;
-mod configs;
 mod digest;
+mod finder;
 mod increment;
 mod search;
 
 pub use crate::digest::Digest;
+pub use crate::space::Configs;
 pub use components::{Component, Components};
-pub use configs::Configs;
 pub use increment::{Edge, Increment};
 pub use search::{Graph, Route};
 
+use crate::neighbor::Neighbor;
 use crate::space::Space;
 use digest::RoadmapHasher;
 
@@ -60,30 +61,44 @@ impl Roadmap {
         space: &Space,
         sets: impl IntoIterator<Item = (&'a Increment, &'a [Edge])>,
     ) {
-        let sets: Vec<_> = sets.into_iter().collect();
-        for (increment, joins) in &sets {
+        let sets = sets.into_iter().map(|(increment, joins)| {
+            let components = Components::of(space, &increment.configs, &increment.edges);
+            (increment, components, joins)
+        });
+        self.fold_components(space, sets);
+    }
+
+    /// [`Roadmap::fold_round`] with the components of each increment, where they are known.
+    pub fn fold_components<'a>(
+        &mut self,
+        space: &Space,
+        sets: impl IntoIterator<Item = (&'a Increment, Components, &'a [Edge])>,
+    ) {
+        let (mut sets_now, mut joins) = (self.sets(), Vec::new());
+        for (increment, components, edges) in sets {
             let first = self.configs.len() as u32;
-            self.hasher.add_set(first, increment, joins);
-            self.components.add_nodes(space, increment.configs.iter());
+            self.hasher.add_set(first, increment, edges);
+            self.components.append(components);
             self.configs.extend(&increment.configs);
-            for edge in &increment.edges {
-                let edge = edge.shifted(first);
-                self.components.unite(edge.low, edge.high);
-                self.edges.push(edge);
-            }
+            self.edges.extend(increment.edges.iter().map(|edge| edge.shifted(first)));
+            sets_now += 1;
+            joins.push(edges);
         }
-        for (_, joins) in &sets {
-            for edge in *joins {
-                self.components.unite(edge.low, edge.high);
-                self.edges.push(*edge);
-            }
+        for edge in joins.into_iter().flatten() {
+            self.components.unite(edge.low, edge.high);
+            self.edges.push(*edge);
         }
         self.rounds.push(Extent {
-            sets: self.sets() + sets.len() as u64,
+            sets: sets_now,
             nodes: self.configs.len(),
             edges: self.edges.len(),
         });
         self.components.refresh_centres(space, &self.configs);
+    }
+
+    /// The at most `k` milestones nearest to `q`, nearest first, ties by id.
+    pub fn k_nearest(&self, space: &Space, q: &[f64], k: usize) -> Vec<Neighbor> {
+        self.components.k_nearest(space, &self.configs, q, k)
     }
 
     /// The milestones.
@@ -125,30 +140,4 @@ impl Roadmap {
 }
 
 #[cfg(test)]
-mod tests {
-    use crate::img::{Setup, build};
-    use crate::problem::Problem;
-    use std::path::Path;
-    use std::sync::Arc;
-
-    #[test]
-    fn a_roadmap_knows_what_it_was_after_every_round() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems/judged.toml");
-        let mut problem = Problem::load(&path).unwrap();
-        problem.evaluators.clear();
-        let space = problem.space();
-        problem.limits.sets = 12;
-        let long = build(&Arc::new(Setup::new(problem.clone()))).roadmap;
-        assert_eq!(long.rounds().len(), 6);
-        for (index, extent) in long.rounds().iter().enumerate() {
-            problem.limits.sets = extent.sets;
-            let short = build(&Arc::new(Setup::new(problem.clone()))).roadmap;
-            assert_eq!(short.rounds(), &long.rounds()[..=index]);
-            let then = long.components_at(&space, *extent);
-            assert_eq!(then.count(), short.components().count());
-            for (a, b) in then.iter().zip(short.components().iter()) {
-                assert_eq!((a.name, &a.members, &a.centre), (b.name, &b.members, &b.centre));
-            }
-        }
-    }
-}
+mod tests;

@@ -2,6 +2,9 @@ use crate::math;
 use crate::scene::Pose;
 use bincode::{Decode, Encode};
 
+/// The farthest that a joint with limits turns, in radians: ten turns.
+pub const TURN_MAX: f64 = 20.0 * std::f64::consts::PI;
+
 /// A joint: the child link's frame in the parent's is `before · motion(value) · after`.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Joint {
@@ -36,6 +39,8 @@ pub enum JointKind {
         /// Least and largest value.
         limits: Limits,
     },
+    /// Turns in every way about the joint's origin, by a unit quaternion `w x y z`.
+    Spherical,
 }
 
 /// Least and largest value of a joint.
@@ -48,24 +53,38 @@ pub struct Limits {
 }
 
 impl JointKind {
-    /// Whether the joint is a degree of freedom.
+    /// Whether the joint moves.
     pub fn moves(&self) -> bool {
-        !matches!(self, JointKind::Fixed)
+        self.values() > 0
+    }
+
+    /// How many values of a configuration the joint takes.
+    pub fn values(&self) -> usize {
+        match self {
+            JointKind::Fixed => 0,
+            JointKind::Revolute { .. } | JointKind::Prismatic { .. } => 1,
+            JointKind::Spherical => 4,
+        }
     }
 }
 
 impl Joint {
-    /// The child link's frame in the parent's at a value of the joint.
-    pub fn pose(&self, value: f64) -> Pose {
+    /// The child link's frame in the parent's at the joint's values.
+    pub fn pose(&self, values: &[f64]) -> Pose {
         let motion = match self.kind {
             JointKind::Fixed => Pose::IDENTITY,
             JointKind::Revolute { axis: [x, y, z], .. } => {
-                let (sine, cosine) = (math::sin(value / 2.0), math::cos(value / 2.0));
+                let half = values[0] / 2.0;
+                let (sine, cosine) = (math::sin(half), math::cos(half));
                 Pose { translation: [0.0; 3], rotation: [cosine, x * sine, y * sine, z * sine] }
             }
             JointKind::Prismatic { axis, .. } => Pose {
-                translation: axis.map(|component| component * value),
+                translation: axis.map(|component| component * values[0]),
                 rotation: Pose::IDENTITY.rotation,
+            },
+            JointKind::Spherical => Pose {
+                translation: [0.0; 3],
+                rotation: [values[0], values[1], values[2], values[3]],
             },
         };
         self.before.then(&motion).then(&self.after)

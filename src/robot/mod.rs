@@ -5,15 +5,20 @@
 //! those of the joints in the order of their links.
 
 mod joint;
+mod rates;
 mod space;
 
-pub use joint::{Joint, JointKind, Limits};
+pub use joint::{Joint, JointKind, Limits, TURN_MAX};
+pub(crate) use rates::{Chain, Rates};
 pub use space::Speeds;
 
 use crate::math;
 use crate::scene::{Body, Pose};
 use crate::space::Motion;
 use bincode::{Decode, Encode};
+
+/// The most links that a robot may have: walks along it recurse.
+pub const LINKS_MAX: usize = 1000;
 
 /// A robot.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
@@ -124,13 +129,9 @@ impl Robot {
             let pose = match &link.joint {
                 None => self.base_pose(q),
                 Some(joint) => {
-                    let value = if joint.kind.moves() {
-                        at += 1;
-                        q[at - 1]
-                    } else {
-                        0.0
-                    };
-                    poses[joint.parent as usize].then(&joint.pose(value))
+                    let own = at..at + joint.kind.values();
+                    at = own.end;
+                    poses[joint.parent as usize].then(&joint.pose(&q[own]))
                 }
             };
             poses.push(pose);
@@ -138,5 +139,7 @@ impl Robot {
     }
 }
 
+#[cfg(test)]
+pub(crate) mod rates_tests;
 #[cfg(test)]
 mod tests;

@@ -16,6 +16,14 @@ impl Robot {
             let Some(joint) = &link.joint else { continue };
             let (kind, weight, unit) = match joint.kind {
                 JointKind::Fixed => continue,
+                JointKind::Spherical => {
+                    let weight = self.reach_of_joint(index);
+                    parts.push(Part { kind: PartKind::Rotation, at: dofs.len(), weight });
+                    for value in ["qw", "qx", "qy", "qz"] {
+                        dofs.push(Dof { name: format!("{}-{value}", joint.name), unit: "1" });
+                    }
+                    continue;
+                }
                 JointKind::Revolute { limits: None, .. } => {
                     (PartKind::Angle, self.reach_of_joint(index), "rad")
                 }
@@ -54,7 +62,7 @@ impl Robot {
         let joint = self.links[link].joint.as_ref().expect("asked of links with a joint");
         let slide = match joint.kind {
             JointKind::Prismatic { limits, .. } => limits.min.abs().max(limits.max.abs()),
-            JointKind::Fixed | JointKind::Revolute { .. } => 0.0,
+            JointKind::Fixed | JointKind::Revolute { .. } | JointKind::Spherical => 0.0,
         };
         slide + length(&joint.after) + self.reach_of_link(link)
     }
@@ -67,13 +75,15 @@ impl Robot {
         (0..self.links.len()).filter(is_child)
     }
 
-    /// Per value of a configuration after the base's: a bound on the length that any robot point moves
-    /// per unit of it.
+    /// Per moving joint: a bound on the length that any robot point moves per unit of its value, or per
+    /// radian of its turn.
     fn joint_speeds(&self) -> Vec<f64> {
         let joints = self.links.iter().enumerate().filter_map(|(index, link)| {
             match link.joint.as_ref()?.kind {
                 JointKind::Fixed => None,
-                JointKind::Revolute { .. } => Some(self.reach_of_joint(index)),
+                JointKind::Revolute { .. } | JointKind::Spherical => {
+                    Some(self.reach_of_joint(index))
+                }
                 JointKind::Prismatic { .. } => Some(1.0),
             }
         });
@@ -91,7 +101,7 @@ impl Robot {
 pub struct Speeds {
     /// Length per radian of the base's rotation.
     base: f64,
-    /// Length per unit of each joint.
+    /// Length per unit of each moving joint.
     joints: Vec<f64>,
 }
 
@@ -113,9 +123,13 @@ impl Speeds {
                 JointKind::Fixed => continue,
                 JointKind::Revolute { limits: None, .. } => math::angle_between(a[at], b[at]),
                 JointKind::Revolute { .. } | JointKind::Prismatic { .. } => (a[at] - b[at]).abs(),
+                JointKind::Spherical => {
+                    let dot: f64 = (at..at + 4).map(|i| a[i] * b[i]).sum();
+                    2.0 * math::acos(dot.abs())
+                }
             };
             farthest += change * speeds.next().expect("a speed per joint");
-            at += 1;
+            at += joint.kind.values();
         }
         farthest
     }

@@ -3,7 +3,8 @@
 use bincode::{Decode, Encode};
 use std::collections::BTreeMap;
 
-/// A triangle mesh: welded vertices and unique triangles with an area.
+/// A triangle mesh: welded vertices and unique triangles. They have an area, but for those that close the
+/// seams of a surface whose corners do not meet: flat triangles between three corners in a line.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Mesh {
     /// Vertices `x y z` in the mesh's frame.
@@ -13,6 +14,11 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// The triangles that have an area: the surface. Nothing can meet the others without meeting these.
+    pub fn faces(&self) -> impl Iterator<Item = [u32; 3]> {
+        super::weld::faces_of(&self.vertices, &self.triangles)
+    }
+
     /// Number of edges that an odd number of triangles share: 0 for a closed surface.
     pub fn odd_edges(&self) -> usize {
         odd_edges(&self.triangles)

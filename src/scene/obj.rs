@@ -4,8 +4,24 @@
 //! Written here because the published readers report neither the line of an error nor an index
 //! out of range, and a user with a broken CAD export needs both.
 
+use super::Mesh;
 use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
+use std::fmt::Write;
 use std::path::Path;
+
+impl Mesh {
+    /// The mesh as a Wavefront `.obj`, which gives the same mesh back to the bit.
+    pub fn to_obj(&self) -> String {
+        let mut text = String::new();
+        for [x, y, z] in &self.vertices {
+            writeln!(text, "v {x} {y} {z}").expect("writing to memory cannot fail");
+        }
+        for [a, b, c] in self.triangles.iter().map(|corners| corners.map(|corner| corner + 1)) {
+            writeln!(text, "f {a} {b} {c}").expect("writing to memory cannot fail");
+        }
+        text
+    }
+}
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
@@ -75,9 +91,13 @@ fn corner(word: &str, vertices: usize) -> Result<u32, String> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    pub fn read_text(text: &str) -> RawMesh {
+        parse(text).unwrap_or_else(|error| panic!("{error}"))
+    }
 
     fn parse(text: &str) -> Result<RawMesh, String> {
         read(Path::new("m.obj"), text.as_bytes()).map_err(|error| error.to_string())
@@ -101,6 +121,17 @@ mod tests {
         ] {
             let error = parse(text).err().unwrap();
             assert!(error.starts_with(expected), "{error}");
+        }
+    }
+
+    #[test]
+    fn cut_off_files_are_errors_or_smaller_meshes() {
+        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0.5\nf 1/1/1 2//1 3\nf 1 2 3\n";
+        for end in 0..text.len() {
+            match parse(&text[..end]) {
+                Ok(mesh) => assert!(mesh.triangles.len() < 2 || end + 1 >= text.len()),
+                Err(error) => assert!(error.starts_with("m.obj:"), "{error}"),
+            }
         }
     }
 

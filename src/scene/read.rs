@@ -29,8 +29,9 @@ pub enum Up {
 /// How a mesh file is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshOptions {
-    /// What coordinates are multiplied by, after the mesh has been turned and centred.
-    pub scale: f64,
+    /// What coordinates are multiplied by along x, y and z, after the mesh has been turned and centred.
+    /// Negative factors mirror.
+    pub scale: [f64; 3],
     /// Vertices at most this far apart, a length after scaling, are joined; 0 joins equal ones.
     pub weld: f64,
     /// The origin.
@@ -41,7 +42,7 @@ pub struct MeshOptions {
 
 impl Default for MeshOptions {
     fn default() -> MeshOptions {
-        MeshOptions { scale: 1.0, weld: 0.0, centre: Centre::AsStored, up: Up::AsStored }
+        MeshOptions { scale: [1.0; 3], weld: 0.0, centre: Centre::AsStored, up: Up::AsStored }
     }
 }
 
@@ -54,8 +55,7 @@ pub struct ReadMesh {
     pub stored_triangles: usize,
     /// Triangles with three different corners once near vertices are joined, repeated ones counted once.
     pub unique_triangles: usize,
-    /// Edges that an odd number of those share: 0 for a closed surface. The mesh itself lacks the flat
-    /// ones among them and may seem open at a seam that is none.
+    /// Edges that an odd number of those share: 0 for a closed surface.
     pub odd_edges: usize,
     /// The mean that became the origin, in the file's unit (after the turn); zero where it was not
     /// asked for.
@@ -74,7 +74,7 @@ pub struct ReadMesh {
 /// Names the file and the line or byte: unreadable, cut off, an index out of range, a number that
 /// is not finite, no face at all, or none with an area.
 pub fn read_mesh(path: &Path, scale: f64) -> Result<Mesh, MeshError> {
-    let options = MeshOptions { scale, ..MeshOptions::default() };
+    let options = MeshOptions { scale: [scale; 3], ..MeshOptions::default() };
     read_mesh_with(path, &options).map(|read| read.mesh)
 }
 
@@ -109,7 +109,7 @@ fn finish(
     if raw.triangles.is_empty() {
         return Err(MeshError::whole(path, "no faces found; at least one triangle expected"));
     }
-    let scale = options.scale;
+    let scale = options.scale.iter().fold(0.0f64, |most, factor| most.max(factor.abs()));
     check_size(path, &raw, scale)?;
     if options.up == Up::Y {
         turn_to_y_up(&mut raw);
@@ -125,7 +125,7 @@ fn finish(
     }
     let stored_triangles = raw.triangles.len();
     let (up, unit_metres) = (raw.up, raw.unit_metres);
-    let (mesh, surface) = Mesh::weld(raw, scale, options.weld);
+    let (mesh, surface) = Mesh::weld(raw, options.scale, options.weld);
     if mesh.triangles.is_empty() {
         let message = format!(
             "all {stored_triangles} triangles have zero area; at least one with an area expected"

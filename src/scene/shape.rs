@@ -38,15 +38,15 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The shape for parry, and its pose in our frame (parry's cylinders stand along y);
-    /// `None` for a point.
+    /// The convex shape for parry, and its pose in our frame (parry's cylinders stand along y);
+    /// `None` for a point and for meshes.
     pub(crate) fn to_parry(&self) -> Option<(parry::SharedShape, ParryPose)> {
         let upright = ParryPose {
             rotation: Rotation::from_xyzw(FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2),
             translation: Vector::ZERO,
         };
         Some(match self {
-            Shape::Point => return None,
+            Shape::Point | Shape::Mesh(_) => return None,
             Shape::Box { size: [x, y, z] } => {
                 (parry::SharedShape::cuboid(x / 2.0, y / 2.0, z / 2.0), ParryPose::IDENTITY)
             }
@@ -56,12 +56,6 @@ impl Shape {
             }
             Shape::Capsule { radius, height } => {
                 (parry::SharedShape::capsule_y(height / 2.0, *radius), upright)
-            }
-            Shape::Mesh(mesh) => {
-                let vertices = mesh.vertices.iter().map(|v| Vector::from_array(*v)).collect();
-                let shape = parry::SharedShape::trimesh(vertices, mesh.triangles.clone())
-                    .expect("a validated mesh has triangles");
-                (shape, ParryPose::IDENTITY)
             }
         })
     }

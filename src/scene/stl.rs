@@ -136,14 +136,23 @@ mod tests {
         for end in 0..TEXT.len() - "endsolid t\n".len() {
             assert!(read(Path::new("m.stl"), &TEXT.as_bytes()[..end]).is_err());
         }
+        let mut stated = binary();
+        stated[80..84].copy_from_slice(&1_000_000_000u32.to_le_bytes());
+        let error = read(Path::new("m.stl"), &stated).err().unwrap().to_string();
+        assert!(error.contains("134 bytes found, 50000000084 expected"), "{error}");
         let error = read(Path::new("m.stl"), TEXT.replace("vertex 1 0 0\n", "").as_bytes());
         assert!(error.err().unwrap().to_string().starts_with("m.stl:6: a facet with 2 corners"));
     }
 
     proptest! {
         #[test]
-        fn no_bytes_panic(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
+        fn no_bytes_panic(bytes in proptest::collection::vec(any::<u8>(), 0..300), at in 0usize..134, byte in any::<u8>()) {
             let _ = read(Path::new("m.stl"), &bytes);
+            for mut good in [TEXT.as_bytes().to_vec(), binary()] {
+                let at = at % good.len();
+                good[at] = byte;
+                let _ = read(Path::new("m.stl"), &good);
+            }
         }
     }
 }

@@ -16,14 +16,16 @@ pub(super) struct Surface {
 }
 
 impl Mesh {
-    /// Joins vertices, drops triangles without area, all but the first of triangles with the same
-    /// corners (many files store both sides) and vertices that no triangle uses.
+    /// Joins vertices, drops triangles without area (unless the surface is closed by them and not without
+    /// them), all but the first of triangles with the same corners (many files store both sides) and
+    /// vertices that no triangle uses.
     ///
     /// Each vertex joins the first one at most `tolerance` away, and takes its place to the bit; with 0,
     /// equal ones only. The tolerance is a length of the scene, not a share of its size: a file
     /// writes its decimals where they are, whatever else is in it.
-    pub(super) fn weld(raw: RawMesh, scale: f64, tolerance: f64) -> (Mesh, Surface) {
-        let scaled = raw.vertices.iter().map(|vertex| vertex.map(|value| value * scale + 0.0));
+    pub(super) fn weld(raw: RawMesh, scale: [f64; 3], tolerance: f64) -> (Mesh, Surface) {
+        let scaled = raw.vertices.iter();
+        let scaled = scaled.map(|vertex| [0, 1, 2].map(|axis| vertex[axis] * scale[axis] + 0.0));
         let (vertices, welded) =
             if tolerance > 0.0 { join_near(scaled, tolerance) } else { join_equal(scaled) };
         let mut seen = BTreeSet::new();
@@ -38,10 +40,11 @@ impl Mesh {
         }
         let surface =
             Surface { unique_triangles: triangles.len(), odd_edges: odd_edges(&triangles) };
-        triangles.retain(|corners| {
-            let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
-            area_squared(a, b, c) > 0.0
-        });
+        let faces: Vec<[u32; 3]> = faces_of(&vertices, &triangles).collect();
+        // Flat triangles stay only where the surface is closed by them and not without them.
+        if faces.is_empty() || surface.odd_edges > 0 || odd_edges(&faces) == 0 {
+            triangles = faces;
+        }
         (without_unused(vertices, triangles), surface)
     }
 }
@@ -120,6 +123,17 @@ fn distance_squared(a: [f64; 3], b: [f64; 3]) -> f64 {
     d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
 }
 
+/// The triangles that have an area.
+pub(super) fn faces_of(
+    vertices: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+) -> impl Iterator<Item = [u32; 3]> {
+    triangles.iter().copied().filter(|corners| {
+        let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
+        area_squared(a, b, c) > 0.0
+    })
+}
+
 fn area_squared(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
     let u = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
     let v = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
@@ -142,7 +156,7 @@ mod tests {
 
     #[test]
     fn a_cube_is_closed_and_an_open_box_is_not() {
-        let mut mesh = Mesh::weld(cube(0.0), 1.0, 0.0).0;
+        let mut mesh = Mesh::weld(cube(0.0), [1.0; 3], 0.0).0;
         assert!(mesh.is_closed());
         mesh.triangles.truncate(10);
         assert_eq!(mesh.odd_edges(), 4);
@@ -155,7 +169,7 @@ mod tests {
         raw.triangles.push([0, 0, 1]);
         raw.vertices.extend(other.vertices);
         raw.triangles.extend(other.triangles.iter().map(|corners| corners.map(|c| c + 8)));
-        let mesh = Mesh::weld(raw, 2.0, 0.0).0;
+        let mesh = Mesh::weld(raw, [2.0; 3], 0.0).0;
         assert_eq!(mesh.triangles.len(), 24);
         assert_eq!(mesh.witnesses(), [[0.0; 3], [10.0; 3]]);
         assert_eq!(mesh.bounding_box(), ([0.0; 3], [12.0; 3]));
@@ -171,7 +185,7 @@ mod tests {
         raw.vertices = own.into_iter().enumerate().map(off).collect();
         raw.triangles = (0..12).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         raw.vertices.push([9.0; 3]);
-        let mesh = Mesh::weld(raw, 1.0, 1e-6).0;
+        let mesh = Mesh::weld(raw, [1.0; 3], 1e-6).0;
         assert_eq!((mesh.vertices.len(), mesh.vertices[0]), (8, [0.0; 3]));
         assert!(mesh.is_closed());
         assert!(mesh.bounding_box().1[0] < 1.1);
@@ -193,13 +207,16 @@ mod tests {
                 triangles: raw.triangles.clone(),
                 ..RawMesh::default()
             },
-            1.0,
+            [1.0; 3],
             0.0,
         );
         assert_eq!(open.odd_edges, 3);
         raw.triangles.push([0, 1, 8]);
-        let (mesh, closed) = Mesh::weld(raw, 1.0, 0.0);
+        let (mesh, closed) = Mesh::weld(raw, [1.0; 3], 0.0);
         assert_eq!((closed.unique_triangles, closed.odd_edges), (14, 0));
-        assert_eq!(mesh.triangles.len(), 13);
+        assert_eq!((mesh.triangles.len(), mesh.faces().count()), (14, 13));
+        assert!(mesh.is_closed());
+        let again = super::super::obj::tests::read_text(&mesh.to_obj());
+        assert_eq!(Mesh::weld(again, [1.0; 3], 0.0).0, mesh);
     }
 }

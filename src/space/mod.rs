@@ -6,11 +6,15 @@
 //! per degree of freedom in the order of [`Space::dofs`]; a quaternion takes four values,
 //! `w x y z`.
 
+mod configs;
 mod quaternion;
 mod rigid;
 
-pub use quaternion::{canonical, slerp};
+pub use configs::Configs;
+pub use quaternion::{canonical, slerp, stored_form};
 pub use rigid::{Motion, rigid_parts, rigid_space};
+
+use quaternion::Slerp;
 
 use crate::math;
 use crate::seed::Stream;
@@ -325,7 +329,36 @@ impl Space {
     /// The configuration at fraction `t` of the shortest motion from `a` to `b`, at constant
     /// speed in every part; `out` is in stored form but for rounding of the quaternion's length.
     pub fn interpolate(&self, a: &[f64], b: &[f64], t: f64, out: &mut [f64]) {
-        for part in &self.parts {
+        self.way(a, b).at(t, out);
+    }
+
+    /// [`Space::interpolate`] prepared for many values of `t`.
+    pub(crate) fn way<'a>(&'a self, a: &'a [f64], b: &'a [f64]) -> Way<'a> {
+        let four = |q: &[f64], at: usize| [q[at], q[at + 1], q[at + 2], q[at + 3]];
+        let rotations = self.parts.iter().filter(|part| part.kind == PartKind::Rotation);
+        let mut turns = rotations.map(|part| Slerp::new(four(a, part.at), four(b, part.at)));
+        Way { parts: &self.parts, a, b, turn: turns.next(), more: turns.collect() }
+    }
+}
+
+/// The shortest motion between two configurations.
+#[derive(Clone, Debug)]
+pub(crate) struct Way<'a> {
+    parts: &'a [Part],
+    a: &'a [f64],
+    b: &'a [f64],
+    /// Of the first rotation.
+    turn: Option<Slerp>,
+    /// Of the others, which only some linkages have.
+    more: Vec<Slerp>,
+}
+
+impl Way<'_> {
+    /// See [`Space::interpolate`].
+    pub(crate) fn at(&self, t: f64, out: &mut [f64]) {
+        let Way { a, b, .. } = *self;
+        let mut turns = self.turn.iter().chain(&self.more);
+        for part in self.parts {
             let at = part.at;
             match part.kind {
                 PartKind::Real { .. } => out[at] = a[at] + (b[at] - a[at]) * t,
@@ -333,9 +366,8 @@ impl Space {
                     out[at] = math::wrap_angle(a[at] + math::wrap_angle(b[at] - a[at]) * t);
                 }
                 PartKind::Rotation => {
-                    let from = [a[at], a[at + 1], a[at + 2], a[at + 3]];
-                    let to = [b[at], b[at + 1], b[at + 2], b[at + 3]];
-                    out[at..at + 4].copy_from_slice(&slerp(from, to, t));
+                    let turn = turns.next().expect("one for every rotation");
+                    out[at..at + 4].copy_from_slice(&turn.at(t));
                 }
             }
         }

@@ -32,6 +32,14 @@ pub fn canonical(quaternion: [f64; 4]) -> Option<[f64; 4]> {
     Some(scaled.map(|value| value / length * sign + 0.0))
 }
 
+/// [`canonical`], but as it is where it has that form to within rounding: what is written out and read
+/// again stays the same to the bit.
+pub fn stored_form(quaternion: [f64; 4]) -> Option<[f64; 4]> {
+    let stored = canonical(quaternion)?;
+    let same = (0..4).all(|i| (stored[i] - quaternion[i]).abs() <= 2.0 * f64::EPSILON);
+    Some(if same { quaternion.map(|value| value + 0.0) } else { stored })
+}
+
 /// The rotation turned by a rotation vector (its direction the axis, its length the angle in radians),
 /// in stored form.
 pub(super) fn turned(from: [f64; 4], by: [f64; 3]) -> [f64; 4] {
@@ -54,23 +62,43 @@ pub(super) fn turned(from: [f64; 4], by: [f64; 3]) -> [f64; 4] {
 /// Spherical linear interpolation along the shorter arc; turns `to` around only when the dot
 /// product is negative.
 pub fn slerp(from: [f64; 4], to: [f64; 4], t: f64) -> [f64; 4] {
-    let mut dot = 0.0;
-    for (a, b) in from.iter().zip(&to) {
-        dot += a * b;
+    Slerp::new(from, to).at(t)
+}
+
+/// [`slerp`] prepared for many values of `t`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slerp {
+    from: [f64; 4],
+    to: [f64; 4],
+    sign: f64,
+    angle: f64,
+    sine: f64,
+}
+
+impl Slerp {
+    pub(crate) fn new(from: [f64; 4], to: [f64; 4]) -> Slerp {
+        let mut dot = 0.0;
+        for (a, b) in from.iter().zip(&to) {
+            dot += a * b;
+        }
+        let sign = if dot < 0.0 { -1.0 } else { 1.0 };
+        let angle = math::acos(dot.abs());
+        Slerp { from, to, sign, angle, sine: math::sin(angle) }
     }
-    let sign = if dot < 0.0 { -1.0 } else { 1.0 };
-    let angle = math::acos(dot.abs());
-    let (weight_from, weight_to) = if angle < 1e-6 {
-        (1.0 - t, t)
-    } else {
-        let sine = math::sin(angle);
-        (math::sin((1.0 - t) * angle) / sine, math::sin(t * angle) / sine)
-    };
-    let mut between = [0.0; 4];
-    for (value, (a, b)) in between.iter_mut().zip(from.iter().zip(&to)) {
-        *value = a * weight_from + b * sign * weight_to;
+
+    pub(crate) fn at(&self, t: f64) -> [f64; 4] {
+        let Slerp { from, to, sign, angle, sine } = *self;
+        let (weight_from, weight_to) = if angle < 1e-6 {
+            (1.0 - t, t)
+        } else {
+            (math::sin((1.0 - t) * angle) / sine, math::sin(t * angle) / sine)
+        };
+        let mut between = [0.0; 4];
+        for (value, (a, b)) in between.iter_mut().zip(from.iter().zip(&to)) {
+            *value = a * weight_from + b * sign * weight_to;
+        }
+        // Without a sign change here: the motion stays continuous for whoever follows it.
+        let length = between.iter().map(|value| value * value).sum::<f64>().sqrt();
+        between.map(|value| value / length)
     }
-    // Without a sign change here: the motion stays continuous for whoever follows it.
-    let length = between.iter().map(|value| value * value).sum::<f64>().sqrt();
-    between.map(|value| value / length)
 }

@@ -1,14 +1,17 @@
 //! Validity of a robot of rigid links among obstacles.
 
-use super::piece::{Piece, Placed};
-use super::scratch::Hit;
+use super::clearance::Clearance;
+use super::frame::Stance;
+use super::meet::{Group, Meeting};
+use super::piece::Piece;
+use super::swept::{Clock, Sweep, Walls, stays_inside};
 use super::{Scratch, State, Validity};
-use crate::robot::{Robot, Speeds};
+use crate::robot::{Chain, Rates, Robot, Speeds};
 use crate::scene::Body;
-use crate::space::Space;
+use crate::space::{Motion, Space};
 use bincode::{Decode, Encode};
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
-use parry3d_f64::math::Vector;
+use parry3d_f64::math::{Pose as ParryPose, Vector};
 use serde::{Deserialize, Serialize};
 
 /// Which points of the robot the bounds hold.
@@ -32,32 +35,62 @@ pub struct Bounds {
     pub meaning: BoundsMeaning,
 }
 
+/// What is promised of a motion that is found valid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
+#[serde(rename_all = "kebab-case")]
+pub enum Edges {
+    /// It is free at every time, with a small share of the resolution as tolerance.
+    #[default]
+    Swept,
+    /// It is free at discrete steps no farther apart than the resolution.
+    Sampled,
+}
+
+/// A swept motion that is found not to be free comes, at some time, nearer to something than the
+/// resolution divided by this.
+pub const TOLERANCE: u64 = 2 * FINENESS;
+/// Swept motions are cut into steps so many times finer than the resolution; half a step is the
+/// tolerance.
+const FINENESS: u64 = 64;
+/// More samples than this would be told apart by rounding alone.
+const SAMPLES_MAX: u64 = 1 << 50;
+
 /// Validity of a robot among obstacles that stand still.
 ///
 /// Bodies collide when their surfaces meet or when one lies wholly inside another that is solid.
-/// Links that are neighbours, or that [`Robot::may_touch`] names, may touch. Motions are checked at
-/// discrete steps: no robot point moves farther between two checks than the resolution, by the bounds
-/// of [`Speeds`].
+/// Links that are neighbours, or that [`Robot::may_touch`] names, may touch. How motions are looked at
+/// says [`Edges`]; `docs/validity.md` has the methods.
 pub struct BodyValidity {
     space: Space,
     robot: Robot,
     speeds: Speeds,
     bounds: Bounds,
     resolution: f64,
+    edges: Edges,
     /// A bound on the distance of the robot's points from the base's origin.
     reach: f64,
-    pieces: Vec<LinkPiece>,
-    obstacles: Vec<(Piece, Placed)>,
-    /// Pairs of pieces that must not touch each other.
-    self_pairs: Vec<(usize, usize)>,
+    links: Vec<Moving>,
+    obstacles: Option<Group>,
+    /// The obstacles' boxes.
+    boxes: Vec<Aabb>,
+    /// Pairs of links that must not touch each other.
+    self_pairs: Vec<SelfPair>,
+    /// Outweighs the rounding of every length.
+    slack: f64,
 }
 
-/// A piece of the robot.
-struct LinkPiece {
+/// A link that has bodies.
+struct Moving {
     link: usize,
-    piece: Piece,
-    /// A bound on the distance of its points from the link's origin.
-    reach: f64,
+    group: Group,
+    chain: Chain,
+}
+
+/// Indices of moving links, and the joints from the first to the second.
+struct SelfPair {
+    first: usize,
+    second: usize,
+    chain: Chain,
 }
 
 impl BodyValidity {
@@ -66,116 +99,220 @@ impl BodyValidity {
         space: Space,
         robot: &Robot,
         bounds: Bounds,
-        resolution: f64,
+        (edges, resolution): (Edges, f64),
         obstacles: &[Body],
     ) -> BodyValidity {
-        let mut pieces = Vec::new();
-        for (link, bodies) in robot.links.iter().map(|link| &link.bodies).enumerate() {
-            for body in bodies {
-                let reach = body.shape.reach(&body.pose);
-                pieces.push(LinkPiece { link, piece: Piece::new(body), reach });
-            }
-        }
-        let of = |link: usize| {
-            let pieces: &Vec<LinkPiece> = &pieces;
-            (0..pieces.len()).filter(move |i| pieces[*i].link == link)
-        };
-        let mut self_pairs = Vec::new();
-        for (low, high) in robot.self_pairs() {
-            for first in of(low) {
-                self_pairs.extend(of(high).map(|second| (first, second)));
-            }
-        }
-        let place = |body| {
-            let piece = Piece::new(body);
-            let placed = piece.in_world();
-            (piece, placed)
-        };
+        let links = robot.links.iter().enumerate().filter_map(|(link, bodies)| {
+            let group = Group::new(bodies.bodies.iter())?;
+            Some(Moving { link, group, chain: robot.chain_to(link) })
+        });
+        let links: Vec<Moving> = links.collect();
+        let place = |link: usize| links.iter().position(|moving| moving.link == link);
+        let pairs = robot.self_pairs().into_iter().filter_map(|(low, high)| {
+            let chain = robot.chain_between(low, high);
+            Some(SelfPair { first: place(low)?, second: place(high)?, chain })
+        });
+        let self_pairs = pairs.collect();
+        let obstacles = Group::new(obstacles.iter());
+        let boxes = obstacles.iter().flat_map(|group| &group.pieces);
+        let reach = robot.reach();
+        let far = |point: &[f64; 3]| Vector::from_array(*point).abs().max_element();
+        let scale = [reach, far(&bounds.min), far(&bounds.max), far(&robot.base.translation)];
+        let scale = obstacles
+            .iter()
+            .flat_map(|group| &group.tree.elements)
+            .fold(scale.into_iter().fold(0.0, f64::max), |most, element| {
+                most.max(element.reach(&Rates::default()))
+            });
         BodyValidity {
             space,
             speeds: robot.speeds(),
-            reach: robot.reach(),
             robot: robot.clone(),
             bounds,
             resolution,
-            pieces,
-            obstacles: obstacles.iter().map(place).collect(),
+            edges,
+            reach,
+            boxes: boxes.map(|piece| piece.box_at(&ParryPose::IDENTITY)).collect(),
+            links,
+            obstacles,
             self_pairs,
+            slack: 1e-12 * scale,
         }
     }
 
-    fn in_bounds(&self, q: &[f64], scratch: &Scratch) -> bool {
-        if !self.space.within_bounds(q) {
-            return false;
-        }
-        if self.bounds.meaning == BoundsMeaning::Reference {
-            return true;
-        }
+    /// What moves in what: every link among the obstacles, then the pairs of links.
+    fn meetings(&self) -> impl Iterator<Item = (Meeting<'_>, &Chain)> {
+        let slack = self.slack;
+        let among = self.links.iter().filter_map(move |Moving { link, group, chain }| {
+            let still = self.obstacles.as_ref()?;
+            let (mover, mover_link) = (group, *link);
+            Some((Meeting { mover, mover_link, still, still_link: None, slack }, chain))
+        });
+        let own = self.self_pairs.iter().map(move |SelfPair { first, second, chain }| {
+            let (still, mover) = (&self.links[*first], &self.links[*second]);
+            let meeting = Meeting {
+                mover: &mover.group,
+                mover_link: mover.link,
+                still: &still.group,
+                still_link: Some(still.link),
+                slack,
+            };
+            (meeting, chain)
+        });
+        among.chain(own)
+    }
+
+    /// Whether the ball about the base's origin that holds the robot is within the bounds. It settles
+    /// most configurations.
+    fn ball_inside(&self, q: &[f64]) -> bool {
         let Bounds { min, max, .. } = &self.bounds;
-        let axes = self.robot.motion.bounded_axes();
-        // The ball about the base's origin settles most configurations.
-        let centre = scratch.poses[0].translation;
-        let near = |i: usize| centre[i] - self.reach >= min[i] && centre[i] + self.reach <= max[i];
-        (0..axes).all(near)
-            || self.pieces.iter().all(|LinkPiece { link, piece, .. }| {
-                piece.is_between(&scratch.poses[*link].to_parry(), axes, min, max)
-            })
+        let fixed = self.robot.motion == Motion::Fixed;
+        let centre = if fixed { &self.robot.base.translation } else { q };
+        (0..self.robot.motion.bounded_axes())
+            .all(|i| centre[i] - self.reach >= min[i] && centre[i] + self.reach <= max[i])
     }
 
-    fn hit(&self, hit: Hit, scratch: &Scratch) -> bool {
-        let place = |piece: &LinkPiece| piece.piece.place(&scratch.poses[piece.link].to_parry());
-        match hit {
-            Hit::Obstacle { piece, obstacle } => {
-                let (Some(piece), Some((other, at))) =
-                    (self.pieces.get(piece), self.obstacles.get(obstacle))
-                else {
-                    return false;
-                };
-                piece.piece.collides(&place(piece), other, at)
-            }
-            Hit::Own { pair } => {
-                let Some((first, second)) = self.self_pairs.get(pair) else { return false };
-                let (first, second) = (&self.pieces[*first], &self.pieces[*second]);
-                first.piece.collides(&place(first), &second.piece, &place(second))
-            }
-        }
+    fn walls(&self) -> Walls {
+        let Bounds { min, max, .. } = self.bounds;
+        Walls { min, max, axes: self.robot.motion.bounded_axes() }
+    }
+
+    fn in_bounds(&self, q: &[f64], stance: &Stance) -> bool {
+        self.space.within_bounds(q)
+            && (self.bounds.meaning == BoundsMeaning::Reference
+                || self.ball_inside(q)
+                || self.links.iter().all(|Moving { link, group, .. }| {
+                    self.walls().hold(&group.tree, &stance.frames[*link])
+                }))
     }
 
     fn look(&self, q: &[f64], scratch: &mut Scratch) -> State {
-        self.robot.place(q, &mut scratch.poses);
-        if !self.in_bounds(q, scratch) {
+        self.robot.place(q, &mut scratch.stance.poses);
+        scratch.stance.settle();
+        if !self.in_bounds(q, &scratch.stance) {
             return State::OutOfBounds;
         }
-        if self.collides(scratch) { State::Colliding } else { State::Free }
+        let Scratch { stance, stacks, .. } = scratch;
+        let touching =
+            self.meetings().any(|(meeting, _)| meeting.surfaces_meet(stance, &mut stacks.pairs));
+        if touching || self.encloses(stance) { State::Colliding } else { State::Free }
     }
 
-    /// Whether the robot as placed touches anything it must not.
-    fn collides(&self, scratch: &mut Scratch) -> bool {
-        if scratch.last_hit.is_some_and(|hit| self.hit(hit, scratch)) {
-            return true;
+    /// Whether a solid mesh encloses anything, given that no surfaces meet.
+    fn encloses(&self, stance: &Stance) -> bool {
+        let either = |one: &Piece, at: &ParryPose, other: &Piece, other_at: &ParryPose| {
+            one.encloses(at, other, other_at) || other.encloses(other_at, one, at)
+        };
+        let hollow = |group: &Group| group.pieces.iter().any(Piece::is_hollow);
+        self.links.iter().any(|moving| {
+            let Some(obstacles) = &self.obstacles else { return false };
+            let at = stance.pose(Some(moving.link));
+            (hollow(&moving.group) || hollow(obstacles))
+                && moving.group.pieces.iter().any(|piece| {
+                    let near = piece.box_at(&at);
+                    obstacles.pieces.iter().zip(&self.boxes).any(|(other, other_box)| {
+                        near.intersects(other_box)
+                            && either(piece, &at, other, &ParryPose::IDENTITY)
+                    })
+                })
+        }) || self.self_pairs.iter().any(|SelfPair { first, second, .. }| {
+            let (first, second) = (&self.links[*first], &self.links[*second]);
+            let [at, other_at] = [first, second].map(|moving| stance.pose(Some(moving.link)));
+            (hollow(&first.group) || hollow(&second.group))
+                && first.group.pieces.iter().any(|piece| {
+                    second.group.pieces.iter().any(|other| {
+                        piece.box_at(&at).intersects(&other.box_at(&other_at))
+                            && either(piece, &at, other, &other_at)
+                    })
+                })
+        })
+    }
+
+    /// Whether the motion is free at all times, by looking at so many equal steps. Valid ends are taken
+    /// for granted: what no surface meets on the way cannot come to lie inside anything.
+    fn is_free(&self, a: &[f64], b: &[f64], samples: u64, scratch: &mut Scratch) -> bool {
+        if !(self.space.within_bounds(a) && self.space.within_bounds(b)) {
+            return false;
         }
-        for (index, LinkPiece { link, piece, reach }) in self.pieces.iter().enumerate() {
-            let frame = scratch.poses[*link].to_parry();
-            let reach = Vector::splat(*reach);
-            let near = Aabb::new(frame.translation - reach, frame.translation + reach);
-            let mut placed = None;
-            for (obstacle, (other, at)) in self.obstacles.iter().enumerate() {
-                if near.intersects(&at.aabb) {
-                    let placed = placed.get_or_insert_with(|| piece.place(&frame));
-                    if piece.collides(placed, other, at) {
-                        scratch.last_hit = Some(Hit::Obstacle { piece: index, obstacle });
-                        return true;
-                    }
+        let Scratch { timeline, stacks, .. } = scratch;
+        let motion = self.robot.motion;
+        let clock =
+            &mut Clock::new(self.space.way(a, b), self.space.len(), &self.robot, samples, timeline);
+        // The base's origin goes straight, so that the ball needs its ends only.
+        let bounded = self.bounds.meaning == BoundsMeaning::Reference
+            || self.ball_inside(a) && self.ball_inside(b);
+        let inside = bounded
+            || self.links.iter().all(|Moving { link, group, chain }| {
+                let rates = chain.rates(motion, a, b);
+                stays_inside(&self.walls(), (&group.tree, *link), &rates, clock)
+            });
+        inside
+            && self.meetings().all(|(meeting, chain)| {
+                let rates = chain.rates(motion, a, b);
+                Sweep { meeting, rates, clock, stacks }.is_free()
+            })
+    }
+
+    /// Whether some two surfaces come, at one of the samples of a swept motion, as near as half a step
+    /// moves the farthest points, or the robot so near to its bounds.
+    #[cfg(test)]
+    pub(super) fn comes_near(&self, a: &[f64], b: &[f64], scratch: &mut Scratch) -> bool {
+        let samples = self.steps(a, b, 1) * FINENESS;
+        let time = 1.0 / samples as f64;
+        let Scratch { timeline, stacks, .. } = scratch;
+        let clock =
+            &mut Clock::new(self.space.way(a, b), self.space.len(), &self.robot, samples, timeline);
+        let reach = |group: &Group, rates: &Rates| {
+            group.tree.elements.iter().fold(0.0f64, |most, e| most.max(e.reach(rates)))
+        };
+        (0..=samples).any(|sample| {
+            let stance = clock.at(sample);
+            self.meetings().any(|(meeting, chain)| {
+                let rates = chain.rates(self.robot.motion, a, b);
+                let tolerance = 0.5 * time * rates.speed_at(reach(meeting.mover, &rates));
+                let way = meeting.nearer(stance, &mut stacks.pairs, None);
+                way.is_some_and(|best| best.clearance.distance <= tolerance + self.slack)
+            }) || self.bounds.meaning == BoundsMeaning::Body
+                && self.links.iter().any(|moving| {
+                    let rates = moving.chain.rates(self.robot.motion, a, b);
+                    let space = &moving.group.tree.nodes[0].space;
+                    let bend = rates.bend_at(space.radius + rates.distance(space.centre));
+                    let room = bend * time * time / 8.0 + self.slack;
+                    let Walls { min, max, axes } = self.walls();
+                    let [min, max] = [min.map(|x| x + room), max.map(|x| x - room)];
+                    let narrower = Walls { min, max, axes };
+                    !narrower.hold(&moving.group.tree, &stance.frames[moving.link])
+                })
+        })
+    }
+
+    /// Whether every configuration strictly between the ends is valid, at so many equal steps.
+    pub(super) fn free_at_steps(
+        &self,
+        a: &[f64],
+        b: &[f64],
+        steps: u64,
+        scratch: &mut Scratch,
+    ) -> bool {
+        let mut between = std::mem::take(&mut scratch.between);
+        between.clear();
+        between.resize(a.len(), 0.0);
+        let way = self.space.way(a, b);
+        let mut free = true;
+        // Halving the gaps finds a blocked motion soonest; every step is visited once.
+        let mut stride = steps.next_power_of_two();
+        'steps: while stride > 1 {
+            stride /= 2;
+            for i in (stride..steps).step_by(2 * stride as usize) {
+                way.at(i as f64 / steps as f64, &mut between);
+                if self.look(&between, scratch) != State::Free {
+                    free = false;
+                    break 'steps;
                 }
             }
         }
-        for pair in 0..self.self_pairs.len() {
-            if self.hit(Hit::Own { pair }, scratch) {
-                scratch.last_hit = Some(Hit::Own { pair });
-                return true;
-            }
-        }
-        false
+        scratch.between = between;
+        free
     }
 }
 
@@ -188,33 +325,35 @@ impl Validity for BodyValidity {
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> bool {
         scratch.asked.motions += 1;
         let steps = self.steps(a, b, refinement);
-        let mut between = std::mem::take(&mut scratch.between);
-        between.clear();
-        between.resize(a.len(), 0.0);
-        let mut free = true;
-        // Halving the gaps finds a blocked motion soonest; every step is visited once.
-        let mut stride = steps.next_power_of_two();
-        'steps: while stride > 1 {
-            stride /= 2;
-            for i in (stride..steps).step_by(2 * stride as usize) {
-                let t = i as f64 / steps as f64;
-                self.space.interpolate(a, b, t, &mut between);
-                if self.look(&between, scratch) != State::Free {
-                    free = false;
-                    break 'steps;
-                }
+        match self.edges {
+            Edges::Swept => {
+                let samples = steps.saturating_mul(FINENESS).min(SAMPLES_MAX);
+                self.is_free(a, b, samples, scratch)
+            }
+            // What is free at all times is so at every step.
+            Edges::Sampled => {
+                self.is_free(a, b, steps.min(SAMPLES_MAX), scratch)
+                    || self.free_at_steps(a, b, steps, scratch)
             }
         }
-        scratch.between = between;
-        free
     }
 
     fn obstructed(&self) -> bool {
-        !self.obstacles.is_empty() || !self.self_pairs.is_empty()
+        self.obstacles.is_some() || !self.self_pairs.is_empty()
     }
 
     fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64 {
         let step = self.resolution / f64::from(refinement);
         (self.speeds.farthest(&self.robot, a, b) / step).ceil().max(1.0) as u64
+    }
+
+    fn clearance(&self, q: &[f64], scratch: &mut Scratch) -> Option<Clearance> {
+        self.robot.place(q, &mut scratch.stance.poses);
+        scratch.stance.settle();
+        let Scratch { stance, stacks, .. } = scratch;
+        let among = self.meetings().take_while(|(meeting, _)| meeting.still_link.is_none());
+        let best =
+            among.fold(None, |best, (meeting, _)| meeting.nearer(stance, &mut stacks.pairs, best));
+        best.map(|best| best.clearance)
     }
 }

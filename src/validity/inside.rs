@@ -29,7 +29,8 @@ impl Inside {
 
     /// Parity of the crossings of the ray from `point` along +x. Each edge is judged by the same
     /// arithmetic for both triangles it belongs to, so a ray through an edge or a vertex is
-    /// counted consistently and a closed surface never leaks.
+    /// counted consistently and a closed surface never leaks. Flat triangles that close a seam count as
+    /// any other: where rounding draws the two sides of a seam apart, they cover what lies between.
     pub(super) fn contains(&self, point: Vector) -> bool {
         let [x, y, z] = point.to_array();
         let ray_meets = |node: &parry3d_f64::partitioning::BvhNode| {
@@ -49,10 +50,12 @@ impl Inside {
 fn crosses(corners: &[[f64; 3]; 3], [x, y, z]: [f64; 3]) -> bool {
     // Even–odd rule in the y–z plane, half open in z.
     let mut covered = false;
+    let mut at_height = x;
     for i in 0..3 {
         let (a, b) = (corners[i], corners[(i + 1) % 3]);
         if (a[2] > z) != (b[2] > z) {
             let (low, high) = if a[2] < b[2] { (a, b) } else { (b, a) };
+            at_height = low[0] + (z - low[2]) / (high[2] - low[2]) * (high[0] - low[0]);
             let side = (high[1] - low[1]) * (z - low[2]) - (y - low[1]) * (high[2] - low[2]);
             if side > 0.0 {
                 covered = !covered;
@@ -66,6 +69,10 @@ fn crosses(corners: &[[f64; 3]; 3], [x, y, z]: [f64; 3]) -> bool {
     let u = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
     let v = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
     let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    if normal == [0.0; 3] {
+        // No plane, but a line: where it reaches the ray's height.
+        return at_height > x;
+    }
     // Where the line meets the triangle's plane: normal · (p − a) = 0, solved for x.
     let ahead = normal[1] * (y - a[1]) + normal[2] * (z - a[2]) + normal[0] * (x - a[0]);
     if normal[0] > 0.0 { ahead < 0.0 } else { ahead > 0.0 }
@@ -96,7 +103,48 @@ mod tests {
         Mesh { vertices: vertices.to_vec(), triangles }
     }
 
+    /// A box 1 by 1 by `height` whose face at x = 0 is cut along its diagonal, on one side in the middle
+    /// too; a flat triangle lies between.
+    fn box_with_a_seam(share: f64, height: f64) -> Mesh {
+        let corner = |i: usize| [(i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2 & 1) as f64 * height];
+        let mut vertices: Vec<[f64; 3]> = (0..8).map(corner).collect();
+        vertices.push([0.0, share, share * height]);
+        let triangles = vec![
+            [0, 2, 6],
+            [0, 4, 8],
+            [8, 4, 6],
+            [0, 8, 6],
+            [1, 3, 7],
+            [1, 5, 7],
+            [0, 1, 5],
+            [0, 4, 5],
+            [2, 3, 7],
+            [2, 6, 7],
+            [0, 1, 3],
+            [0, 2, 3],
+            [4, 5, 7],
+            [4, 6, 7],
+        ];
+        Mesh { vertices, triangles }
+    }
+
     proptest! {
+        /// Rays that run along the seam, through it and beside it.
+        #[test]
+        fn a_seam_that_flat_triangles_close_does_not_leak(
+            share in 0.01f64..0.99, height in 0.5f64..4.0, along in -0.1f64..1.1, x in -1.0f64..2.0,
+            off in prop::sample::select(vec![-1e-16, 0.0, 1e-16, 1e-3]),
+        ) {
+            let mesh = box_with_a_seam(share, height);
+            prop_assert!(mesh.is_closed());
+            prop_assume!(x.abs() > 1e-9 && (x - 1.0).abs() > 1e-9);
+            prop_assume!(along.abs() > 1e-9 && (along - 1.0).abs() > 1e-9);
+            let point = Vector::new(x, along + off, along * height);
+            let unit = 0.0..1.0;
+            let expected = unit.contains(&x) && unit.contains(&point.y) && unit.contains(&along);
+            prop_assert_eq!(Inside::new(&mesh).contains(point), expected);
+        }
+
         #[test]
         fn an_octahedron_contains_what_it_should(x in -1.2f64..1.2, y in -1.2f64..1.2, z in -1.2f64..1.2) {
             let norm = x.abs() + y.abs() + z.abs();

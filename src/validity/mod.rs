@@ -1,12 +1,21 @@
 //! What makes a configuration and a motion valid.
 
 mod bodies;
+mod clearance;
+mod element;
+mod frame;
 mod inside;
+mod meet;
+mod nearest;
+mod obb;
 mod piece;
 mod scratch;
+mod swept;
+mod tree;
 mod triangles;
 
-pub use bodies::{BodyValidity, Bounds, BoundsMeaning};
+pub use bodies::{BodyValidity, Bounds, BoundsMeaning, Edges, TOLERANCE};
+pub use clearance::Clearance;
 pub use scratch::{Asked, Scratch};
 
 /// What is to be said of a configuration.
@@ -33,19 +42,24 @@ pub trait Validity: Send + Sync {
         self.state(q, scratch) == State::Free
     }
 
-    /// Whether the motion from `a` to `b` along [`Space::interpolate`](crate::space::Space) is
-    /// valid: every configuration strictly between the two is, at steps so small that no robot
-    /// point moves farther than the problem's resolution divided by `refinement` between two of
-    /// them. The ends are the caller's.
+    /// Whether the motion from `a` to `b` along [`Space::interpolate`](crate::space::Space), whose
+    /// ends are valid, is valid; [`Edges`] says in which of two senses. The problem's resolution is
+    /// divided by `refinement`.
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> bool;
 
     /// Whether any configuration in bounds could collide: there are obstacles, or links that must not
     /// touch one another.
     fn obstructed(&self) -> bool;
 
-    /// Number of equal steps in which that motion is checked.
+    /// Number of equal steps into which that motion is cut so that no robot point moves farther than
+    /// the problem's resolution divided by `refinement` in one of them.
     fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64;
+
+    /// The shortest way from the robot at `q` to an obstacle; `None` if there are none.
+    fn clearance(&self, q: &[f64], scratch: &mut Scratch) -> Option<Clearance>;
 }
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tree_tests;

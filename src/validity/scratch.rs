@@ -1,3 +1,5 @@
+use super::frame::Stance;
+use super::swept::{Stacks, Timeline};
 use crate::scene::Pose;
 use bincode::{Decode, Encode};
 
@@ -18,24 +20,16 @@ impl std::ops::AddAssign for Asked {
     }
 }
 
-/// A collision.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Hit {
-    /// Of a piece of the robot with an obstacle.
-    Obstacle { piece: usize, obstacle: usize },
-    /// Of two pieces of the robot.
-    Own { pair: usize },
-}
-
-/// Working memory of one thread: buffers, counters, and what blocked last.
+/// Working memory of one thread: buffers and counters.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     /// What was asked through this scratch since [`Scratch::take_asked`].
     pub(crate) asked: Asked,
-    /// What collided last, tried first the next time.
-    pub(super) last_hit: Option<Hit>,
     /// Where the links stand.
-    pub(super) poses: Vec<Pose>,
+    pub(super) stance: Stance,
+    /// Where they stand during a motion.
+    pub(super) timeline: Timeline,
+    pub(super) stacks: Stacks,
     /// A configuration between two others.
     pub(crate) between: Vec<f64>,
 }
@@ -54,17 +48,11 @@ impl Scratch {
     /// Fills the memory with rubbish that could mislead: for tests of the law that it never does.
     #[doc(hidden)]
     pub fn poison(&mut self, rubbish: u64) {
-        self.last_hit = match rubbish % 4 {
-            0 => None,
-            1 => Some(Hit::Obstacle { piece: usize::MAX, obstacle: usize::MAX }),
-            2 => Some(Hit::Own { pair: rubbish as usize / 8 % 16 }),
-            _ => Some(Hit::Obstacle {
-                piece: rubbish as usize / 4 % 2,
-                obstacle: rubbish as usize / 8 % 16,
-            }),
-        };
         let nowhere = Pose { translation: [f64::NAN; 3], rotation: [0.0; 4] };
-        self.poses = vec![nowhere; rubbish as usize % 5];
+        self.stance.poses = vec![nowhere; rubbish as usize % 5];
+        self.stance.frames.clear();
+        self.timeline.poison(rubbish);
+        self.stacks.pairs = vec![(u32::MAX, 7); rubbish as usize % 3];
         self.between = vec![f64::NAN; rubbish as usize % 13];
     }
 }

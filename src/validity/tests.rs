@@ -5,16 +5,16 @@ use crate::seed::{Purpose, Seed};
 use crate::space::{Motion, Space, rigid_space};
 use proptest::prelude::*;
 
-fn solid(shape: Shape, translation: [f64; 3]) -> Body {
+pub(super) fn solid(shape: Shape, translation: [f64; 3]) -> Body {
     Body { shape, pose: Pose { translation, ..Pose::IDENTITY }, solid: true }
 }
 
-fn cuboid(size: [f64; 3], translation: [f64; 3]) -> Body {
+pub(super) fn cuboid(size: [f64; 3], translation: [f64; 3]) -> Body {
     solid(Shape::Box { size }, translation)
 }
 
 /// The same box as a closed mesh.
-fn cuboid_mesh(size: [f64; 3], translation: [f64; 3], solid: bool) -> Body {
+pub(super) fn cuboid_mesh(size: [f64; 3], translation: [f64; 3], solid: bool) -> Body {
     let corner = |i: usize| {
         [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { size[axis] } else { -size[axis] } / 2.0)
     };
@@ -40,7 +40,7 @@ fn validity(
         space.clone(),
         &Robot::rigid(motion, robot.to_vec()),
         bounds,
-        0.05,
+        (Edges::Swept, 0.05),
         obstacles,
     );
     (space, validity)
@@ -198,7 +198,7 @@ fn steps_keep_the_promise_of_the_resolution() {
 }
 
 /// A chain in the plane: links of length 1 along x, each turning about z at its near end.
-fn chain(links: usize, motion: Motion) -> Robot {
+pub(super) fn chain(links: usize, motion: Motion) -> Robot {
     let rod = || cuboid([0.9, 0.1, 0.1], [0.5, 0.0, 0.0]);
     let mut robot = Robot::rigid(motion, vec![rod()]);
     for i in 1..links {
@@ -228,12 +228,12 @@ fn links_that_are_not_neighbours_must_not_touch_unless_they_may() {
     let straight = [0.0, 0.0, 0.0];
     let closed = [turn, turn, turn];
     let space = robot.space(bounds.min, bounds.max, 1.0);
-    let validity = BodyValidity::new(space.clone(), &robot, bounds, 0.05, &[]);
+    let validity = BodyValidity::new(space.clone(), &robot, bounds, (Edges::Swept, 0.05), &[]);
     assert!(valid(&validity, &straight));
     assert!(!valid(&validity, &closed));
     assert!(!validity.motion(&straight, &[2.9, 2.9, 2.9], 1, &mut Scratch::new()));
     robot.may_touch = vec![(0, 2), (0, 3), (1, 3)];
-    let validity = BodyValidity::new(space, &robot, bounds, 0.05, &[]);
+    let validity = BodyValidity::new(space, &robot, bounds, (Edges::Swept, 0.05), &[]);
     assert!(valid(&validity, &closed));
 }
 
@@ -243,7 +243,7 @@ fn a_linkage_collides_with_obstacles_and_leaves_the_bounds_by_any_link() {
     let bounds = Bounds { min: [-4.0, -1.5, -1.0], max: [4.0; 3], meaning: BoundsMeaning::Body };
     let space = robot.space(bounds.min, bounds.max, 1.0);
     let obstacle = [cuboid([0.5; 3], [2.5, 0.0, 0.0])];
-    let validity = BodyValidity::new(space, &robot, bounds, 0.05, &obstacle);
+    let validity = BodyValidity::new(space, &robot, bounds, (Edges::Swept, 0.05), &obstacle);
     assert!(!valid(&validity, &[0.0, 0.0]), "the last link lies in the obstacle");
     assert!(valid(&validity, &[0.0, 1.5]));
     assert!(valid(&validity, &[1.0, 0.0]));
@@ -260,7 +260,7 @@ proptest! {
             let robot = chain(4, motion);
             let bounds = Bounds { min: [-9.0; 3], max: [9.0; 3], meaning: BoundsMeaning::Reference };
             let space = robot.space(bounds.min, bounds.max, 1.0);
-            let validity = BodyValidity::new(space.clone(), &robot, bounds, 0.3, &[]);
+            let validity = BodyValidity::new(space.clone(), &robot, bounds, (Edges::Swept, 0.3), &[]);
             let mut stream = Seed::of_set(5, "linkage steps", ordinal).stream(Purpose::Sampling);
             let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);
             let mut q = a.clone();

@@ -1,77 +1,195 @@
-//! Whether two triangle meshes meet: parry's trees, walked together, and an exact test at the leaves.
-//!
-//! parry's own test walks the second tree anew from its root for every triangle of the first, and tests
-//! triangles by an iterative method; this is several times faster and has no iteration to end early.
+//! Triangles, exactly: whether two meet, along which direction they are apart, and how far.
 
-use parry3d_f64::math::{Matrix, Pose, Vector};
-use parry3d_f64::partitioning::BvhNode;
-use parry3d_f64::shape::TriMesh;
+use parry3d_f64::math::Vector;
 
-/// Whether any triangles of the two meshes meet; touching counts. `pos12` is the second mesh's frame in
-/// the first's.
-pub(super) fn meshes_meet(pos12: &Pose, mesh1: &TriMesh, mesh2: &TriMesh) -> bool {
-    let turn = Matrix::from_quat(pos12.rotation);
-    let abs_turn = Matrix::from_cols(turn.x_axis.abs(), turn.y_axis.abs(), turn.z_axis.abs());
-    let back = turn.transpose();
-    let abs_back = abs_turn.transpose();
-    // A box of either tree against one of the other, along the axes of both. The margin outweighs
-    // rounding: a pair of boxes that meet is never passed over.
-    let boxes_meet = |node1: &BvhNode, node2: &BvhNode| {
-        let (min1, max1, min2, max2) = (node1.mins(), node1.maxs(), node2.mins(), node2.maxs());
-        let (half1, half2) = ((max1 - min1) * 0.5, (max2 - min2) * 0.5);
-        let (centre1, centre2) = ((max1 + min1) * 0.5, turn * ((max2 + min2) * 0.5));
-        let apart = centre2 + pos12.translation - centre1;
-        let margin =
-            1e-12 * (centre1.abs() + centre2.abs() + pos12.translation.abs() + half1 + half2);
-        let reach = half1 + abs_turn * half2 + margin;
-        if apart.abs().cmpgt(reach).any() {
-            return false;
-        }
-        let reach = half2 + abs_back * (half1 + margin) + Vector::splat(margin.max_element());
-        !(back * apart).abs().cmpgt(reach).any()
-    };
-    let corners = |mesh: &TriMesh, index: u32| {
-        let [a, b, c] = mesh.indices()[index as usize];
-        [a, b, c].map(|corner| mesh.vertices()[corner as usize])
-    };
-    mesh1.bvh().leaf_pairs(mesh2.bvh(), boxes_meet).any(|(leaf1, leaf2)| {
-        let second = corners(mesh2, leaf2).map(|corner| turn * corner + pos12.translation);
-        triangles_meet(&corners(mesh1, leaf1), &second)
-    })
-}
+type Triangle = [Vector; 3];
 
 /// Whether two triangles meet, by the separating axis theorem: two triangles are apart exactly if they
 /// are so along one of 17 directions, the normals, the products of edges, and, for those in one plane,
-/// the normals of the edges within it.
-fn triangles_meet(first: &[Vector; 3], second: &[Vector; 3]) -> bool {
+/// the normals of the edges within it. Touching counts.
+pub(super) fn triangles_meet(first: &Triangle, second: &Triangle) -> bool {
+    let mut found = false;
+    directions(first, second, |gap, _| {
+        found = gap > 0.0;
+        found
+    });
+    !found
+}
+
+/// A unit vector from the second towards the first along which they are more than `margin` apart, and by
+/// how much; one of the 17 directions, so that two which are so apart may have none.
+pub(super) fn separating_axis(
+    first: &Triangle,
+    second: &Triangle,
+    margin: f64,
+) -> Option<(Vector, f64)> {
+    let mut found = None;
+    directions(first, second, |gap, axis| {
+        if gap > 0.0 {
+            let length = axis.length();
+            if gap > margin * length && length > 1e-140 {
+                found = Some((axis / length, gap / length));
+            }
+        }
+        found.is_some()
+    });
+    found
+}
+
+/// Shows `done` the gap along one direction after the other, in units of the vector's length, with the
+/// vector turned from the second to the first, until it has seen enough.
+#[inline(always)]
+fn directions(first: &Triangle, second: &Triangle, mut done: impl FnMut(f64, Vector) -> bool) {
     // Near the origin, where differences are exact to more digits.
     let origin = second[0];
     let first = first.map(|corner| corner - origin);
     let second = second.map(|corner| corner - origin);
-    let apart = |axis: Vector| {
+    let mut shown = |axis: Vector| {
         let [a, b, c] = first.map(|corner| axis.dot(corner));
         let [d, e, f] = second.map(|corner| axis.dot(corner));
-        a.min(b).min(c) > d.max(e).max(f) || d.min(e).min(f) > a.max(b).max(c)
+        let above = a.min(b).min(c) - d.max(e).max(f);
+        let below = d.min(e).min(f) - a.max(b).max(c);
+        if above >= below { done(above, axis) } else { done(below, -axis) }
     };
-    let edges = |t: &[Vector; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
+    let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (edges1, edges2) = (edges(&first), edges(&second));
     let (normal1, normal2) = (edges1[0].cross(edges1[1]), edges2[0].cross(edges2[1]));
-    !(apart(normal1)
-        || apart(normal2)
+    let _ = shown(normal2)
+        || shown(normal1)
+        || edges1.iter().any(|edge1| edges2.iter().any(|edge2| shown(edge1.cross(*edge2))))
+        || edges1.iter().any(|edge| shown(edge.cross(normal1)))
+        || edges2.iter().any(|edge| shown(edge.cross(normal2)));
+}
+
+/// The nearest points of two hulls of three corners that may coincide, on the first and on the second:
+/// the same, if they meet. Among equally near ones the first is given: edges before faces, in the order
+/// of corners.
+pub(super) fn nearest_points(first: &Triangle, second: &Triangle) -> (Vector, Vector) {
+    let flat = |t: &Triangle| {
+        let (u, v) = (t[1] - t[0], t[2] - t[0]);
+        u.cross(v).length() <= 1e-14 * u.length() * v.length()
+    };
+    let (flat1, flat2) = (flat(first), flat(second));
+    // Without an area on either side only edges and corners meet, and their distance says so.
+    let meet = !(flat1 && flat2) && hulls_meet(first, second, flat1, flat2);
+    if meet && let Some(point) = pierced(first, second, flat2).or(pierced(second, first, flat1)) {
+        return (point, point);
+    }
+    let mut best = (f64::INFINITY, Vector::ZERO, Vector::ZERO);
+    let mut offer = |p: Vector, q: Vector| {
+        let square = (p - q).length_squared();
+        if square < best.0 {
+            best = (square, p, q);
+        }
+    };
+    for i in 0..3 {
+        for j in 0..3 {
+            let (p, q) =
+                nearest_on_segments(first[i], first[(i + 1) % 3], second[j], second[(j + 1) % 3]);
+            offer(p, q);
+        }
+    }
+    if !flat2 {
+        for p in first {
+            if let Some(q) = foot(*p, second) {
+                offer(*p, q);
+            }
+        }
+    }
+    if !flat1 {
+        for q in second {
+            if let Some(p) = foot(*q, first) {
+                offer(p, *q);
+            }
+        }
+    }
+    let (_, p, q) = best;
+    if meet { (q, q) } else { (p, q) }
+}
+
+/// Where an edge of the first goes through the second, which is `flat` if it has no area.
+fn pierced(first: &Triangle, second: &Triangle, flat: bool) -> Option<Vector> {
+    let normal = (second[1] - second[0]).cross(second[2] - second[0]);
+    let above = first.map(|corner| normal.dot(corner - second[0]));
+    (0..3).filter(|_| !flat).find_map(|i| {
+        let j = (i + 1) % 3;
+        let crosses = (above[i] <= 0.0) != (above[j] <= 0.0);
+        let point = first[i] + (first[j] - first[i]) * (above[i] / (above[i] - above[j]));
+        (crosses && foot(point, second).is_some()).then_some(point)
+    })
+}
+
+fn hulls_meet(first: &Triangle, second: &Triangle, flat1: bool, flat2: bool) -> bool {
+    if !flat1 && !flat2 {
+        return triangles_meet(first, second);
+    }
+    // A segment or a point against a triangle: all directions but those of the segment's own plane are
+    // among the seventeen; these are its products with the triangle's normal.
+    let (triangle, segment) = if flat2 { (first, second) } else { (second, first) };
+    let normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+    let apart = |axis: Vector| {
+        let [a, b, c] = triangle.map(|corner| axis.dot(corner - triangle[0]));
+        let [d, e, f] = segment.map(|corner| axis.dot(corner - triangle[0]));
+        a.min(b).min(c) > d.max(e).max(f) || d.min(e).min(f) > a.max(b).max(c)
+    };
+    let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
+    let (edges1, edges2) = (edges(triangle), edges(segment));
+    !(apart(normal)
         || edges1.iter().any(|edge1| edges2.iter().any(|edge2| apart(edge1.cross(*edge2))))
-        || edges1.iter().any(|edge| apart(edge.cross(normal1)))
-        || edges2.iter().any(|edge| apart(edge.cross(normal2))))
+        || edges1.iter().chain(&edges2).any(|edge| apart(edge.cross(normal))))
+}
+
+/// Where the perpendicular from a point meets a triangle, if it does.
+fn foot(p: Vector, [a, b, c]: &Triangle) -> Option<Vector> {
+    let (u, v, w) = (*b - *a, *c - *a, p - *a);
+    let normal = u.cross(v);
+    let square = normal.length_squared();
+    let (beta, gamma) = (w.cross(v).dot(normal), u.cross(w).dot(normal));
+    let inside = beta >= 0.0 && gamma >= 0.0 && beta + gamma <= square;
+    inside.then(|| p - normal * (w.dot(normal) / square))
+}
+
+/// The nearest points of the segments `a b` and `c d` (C. Ericson, *Real-time collision detection*,
+/// 2005, section 5.1.9).
+fn nearest_on_segments(a: Vector, b: Vector, c: Vector, d: Vector) -> (Vector, Vector) {
+    let (u, v, w) = (b - a, d - c, a - c);
+    let (uu, vv, vw) = (u.length_squared(), v.length_squared(), v.dot(w));
+    if uu <= 0.0 {
+        let t = if vv > 0.0 { (vw / vv).clamp(0.0, 1.0) } else { 0.0 };
+        return (a, c + v * t);
+    }
+    let uw = u.dot(w);
+    if vv <= 0.0 {
+        return (a + u * (-uw / uu).clamp(0.0, 1.0), c);
+    }
+    let uv = u.dot(v);
+    let denominator = uu * vv - uv * uv;
+    let mut s = 0.0;
+    if denominator > 0.0 {
+        s = ((uv * vw - uw * vv) / denominator).clamp(0.0, 1.0);
+    }
+    let mut t = (uv * s + vw) / vv;
+    if !(0.0..=1.0).contains(&t) {
+        t = t.clamp(0.0, 1.0);
+        s = ((uv * t - uw) / uu).clamp(0.0, 1.0);
+    }
+    (a + u * s, c + v * t)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use parry3d_f64::query::intersection_test;
-    use parry3d_f64::shape::Triangle;
+    use parry3d_f64::math::Pose;
+    use parry3d_f64::query::{self, PointQuery};
+    use parry3d_f64::shape;
     use proptest::prelude::*;
 
     fn point() -> impl Strategy<Value = Vector> {
         (-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0).prop_map(|(x, y, z)| Vector::new(x, y, z))
+    }
+
+    fn parry(t: &Triangle) -> shape::Triangle {
+        shape::Triangle::new(t[0], t[1], t[2])
     }
 
     proptest! {
@@ -80,12 +198,12 @@ mod tests {
         fn triangles_meet_when_parry_says_so(corners in proptest::collection::vec(point(), 6)) {
             let first = [corners[0], corners[1], corners[2]];
             let second = [corners[3], corners[4], corners[5]];
-            let parry = |t: [Vector; 3]| Triangle::new(t[0], t[1], t[2]);
             let still = Pose::IDENTITY;
-            let expected = intersection_test(&still, &parry(first), &still, &parry(second));
+            let expected = query::intersection_test(&still, &parry(&first), &still, &parry(&second));
             let expected = expected.unwrap().intersecting;
             prop_assert_eq!(triangles_meet(&first, &second), expected);
             prop_assert_eq!(triangles_meet(&second, &first), expected);
+            prop_assert_eq!(separating_axis(&first, &second, 0.0).is_none(), expected);
             // Triangles that share a corner or an edge meet.
             prop_assert!(triangles_meet(&first, &[corners[0], corners[4], corners[5]]));
             prop_assert!(triangles_meet(&first, &[corners[0], corners[1], corners[5]]));
@@ -102,22 +220,31 @@ mod tests {
             prop_assert_eq!(triangles_meet(&first, &second), norm < 1.0);
         }
 
+        /// Against parry's distance, of triangles, segments and points.
         #[test]
-        fn meshes_meet_when_any_of_their_triangles_do(
-            points in proptest::collection::vec(point(), 24), far in point(), turn in point(),
+        fn the_nearest_points_are_as_far_apart_as_parry_says(
+            corners in proptest::collection::vec(point(), 6), shift in point(), made in 0usize..9,
         ) {
-            let mesh = |points: &[Vector]| {
-                let triangles = (0..points.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
-                TriMesh::new(points.to_vec(), triangles.collect()).unwrap()
+            let (a, b) = (made % 3, made / 3);
+            let hull = |from: usize, kind: usize| match kind {
+                0 => [corners[from], corners[from + 1], corners[from + 2]],
+                1 => [corners[from], corners[from + 1], corners[from]],
+                _ => [corners[from]; 3],
             };
-            let (mesh1, mesh2) = (mesh(&points[..12]), mesh(&points[12..]));
-            let pos12 = Pose::new(far * 2.0, turn * 3.0);
-            let any = (0..4).any(|i| (0..4).any(|j| {
-                let first = [points[3 * i], points[3 * i + 1], points[3 * i + 2]];
-                let second = [12, 13, 14].map(|k| pos12.transform_point(points[3 * j + k]));
-                triangles_meet(&first, &second)
-            }));
-            prop_assert_eq!(meshes_meet(&pos12, &mesh1, &mesh2), any);
+            let first = hull(0, a);
+            let second = hull(3, b).map(|corner| corner + shift);
+            let still = Pose::IDENTITY;
+            let expected = query::distance(&still, &parry(&first), &still, &parry(&second)).unwrap();
+            let found = nearest_points(&first, &second);
+            let inside = |p: Vector, t: &Triangle| parry(t).distance_to_local_point(p, true) < 1e-6;
+            prop_assert!(inside(found.0, &first) && inside(found.1, &second));
+            let expected = expected.distance;
+            let distance = (found.0 - found.1).length();
+            prop_assert!((distance - expected).abs() < 1e-6, "{} not {}", distance, expected);
+            if let Some((axis, gap)) = separating_axis(&first, &second, 0.0) {
+                prop_assert!(gap <= distance + 1e-12);
+                prop_assert!((axis.length() - 1.0).abs() < 1e-12);
+            }
         }
     }
 }

@@ -25,14 +25,12 @@ fn messages() -> Vec<Vec<u8>> {
     let Outcome::Increment(Ok(set)) = increment.clone() else { panic!("a set") };
     let edge = Edge { low: 0, high: 1, planner: 0, weight: 1.0 };
     let joined = Joined { edges: vec![edge; 3], asked: Asked::default() };
-    let verdict = |parts: Vec<Verdict>| {
-        let (answer, asked) = (None, Asked::default());
-        Verdict { satisfied: true, value: 1.0, threshold: 1.0, answer, parts, asked }
-    };
+    let verdict =
+        |parts: Vec<Verdict>| Verdict { parts, ..Verdict::at_least(1.0, 1.0, Asked::default()) };
     let nested = verdict(vec![verdict(Vec::new()), verdict(vec![verdict(Vec::new())])]);
-    let job = Job::Join { place: 3 };
+    let job = Job::Join { place: 3, strategy: 0, ordinal: 3 };
     let entries = [Entry::Increment(set), Entry::Fold(vec![vec![edge; 2]; 2])];
-    let outcomes = [increment, Outcome::Joined(joined), Outcome::Verdict(nested)];
+    let outcomes = [increment, Outcome::Joined(joined), Outcome::Verdict(Box::new(nested))];
     let mut messages = vec![
         wire::encode(&FromWorker::Hello { protocol: PROTOCOL, build: Digest([1; 32]) }),
         wire::encode(&FromWorker::Ready { canary: Digest([2; 32]) }),

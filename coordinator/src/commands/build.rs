@@ -1,4 +1,5 @@
 use super::grow::{Growth, limit, workers};
+use super::load::load;
 use super::resume::{Change, go_on};
 use crate::cli::BuildArguments;
 use crate::cpu::CpuClock;
@@ -6,7 +7,7 @@ use crate::exit::{Code, Failure};
 use crate::run::ledger::LEDGER;
 use crate::run::{LedgerWriter, RunFolder, RunLock};
 use crate::signals::Signals;
-use roadmill::problem::{Companions, Problem};
+use roadmill::problem::Problem;
 use roadmill_workers::channel::private_umask;
 use std::path::Path;
 use std::sync::Arc;
@@ -59,9 +60,7 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
 
 /// The problem with what the command line changes of it.
 fn problem(arguments: &BuildArguments) -> Result<Problem, Failure> {
-    let companions =
-        Companions { robot: arguments.robot.as_deref(), query: arguments.query.as_deref() };
-    let mut problem = Problem::load_with(&arguments.problem, companions).map_err(Failure::usage)?;
+    let mut problem = load(&arguments.problem)?;
     problem.seed = arguments.seed.unwrap_or(problem.seed);
     problem.limits.seconds = arguments.growth.max_time.or(problem.limits.seconds);
     limit(&mut problem, &arguments.growth)?;

@@ -114,7 +114,7 @@ impl Pool {
     pub fn close(self) -> (Roadmap, Result<(), PoolError>) {
         drop(self.workers);
         let closed = self.hub.close().map_err(PoolError::from);
-        (Arc::unwrap_or_clone(self.replica.roadmap().clone()), closed)
+        (self.replica.into_roadmap(), closed)
     }
 
     fn hire(&mut self) -> std::io::Result<()> {
@@ -327,6 +327,6 @@ impl Executor for Pool {
     }
 
     fn into_roadmap(self) -> Roadmap {
-        Arc::unwrap_or_clone(self.replica.roadmap().clone())
+        self.replica.into_roadmap()
     }
 }

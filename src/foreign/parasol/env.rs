@@ -2,8 +2,7 @@
 
 use super::robot::{self, Robot};
 use super::words::{Words, number};
-use super::{Boundary, Geometry, note};
-use crate::foreign::bodies::Meshes;
+use super::{Boundary, Geometry, Reader};
 use crate::foreign::{ForeignBody, ForeignError};
 
 pub(super) struct Env {
@@ -13,11 +12,7 @@ pub(super) struct Env {
     pub robot: Option<Robot>,
 }
 
-pub(super) fn read(
-    words: &mut Words,
-    meshes: &mut Meshes,
-    notes: &mut Vec<String>,
-) -> Result<Env, ForeignError> {
+pub(super) fn read(words: &mut Words, reader: &mut Reader) -> Result<Env, ForeignError> {
     words.keyword("Boundary")?;
     let boundary = boundary(words)?;
     words.keyword("Multibodies")?;
@@ -32,14 +27,13 @@ pub(super) fn read(
                     words.keyword("Fixed")?;
                 }
                 let pose = words.pose()?;
-                let (body, read) = geometry.body(words.path, pose, meshes)?;
-                notes.push(note(&format!("obstacle {}", env.obstacles.len()), &geometry, &read));
-                env.obstacles.push(body);
+                let what = format!("obstacle {}", env.obstacles.len());
+                env.obstacles.push(geometry.body(&what, words.path, pose, reader)?);
             }
             "active" if env.robot.is_some() => {
                 return Err(words.error("a second active body found; one robot is supported"));
             }
-            "active" => env.robot = Some(robot::read(words, meshes, notes)?),
+            "active" => env.robot = Some(robot::read(words, reader)?),
             _ => {
                 let expected = "`Passive` or `Active` expected";
                 return Err(words.error(format!("`{kind}` not supported; {expected}")));

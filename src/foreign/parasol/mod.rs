@@ -10,37 +10,37 @@ mod query;
 mod robot;
 mod words;
 
-use super::bodies::{Meshes, Named, Solid};
+use super::bodies::{Meshes, Named, why_solid};
 use super::error::read_text;
-use super::{Base, ForeignBody, ForeignError, ForeignScene};
+use super::{Base, ForeignBody, ForeignError, ForeignScene, SceneOptions, Solidity};
 use crate::digest::SourceFile;
-use crate::scene::{Centre, MeshOptions, Pose, ReadMesh};
+use crate::scene::{Centre, MeshOptions, Pose};
 use crate::validity::{Bounds, BoundsMeaning};
 use std::path::{Path, PathBuf};
 use words::Words;
 
-/// Reads a Parasol scene. Without `robot` (needed where the `.env` has no active body) or `query`, the
-/// file beside the `.env` that has its stem is taken, or else the only one with the extension; a
-/// scene without any query file has no query.
+/// Reads a Parasol scene. Where the options name no robot (needed where the `.env` has no active body)
+/// or no query, the file beside the `.env` that has its stem is taken, or else the only one with the
+/// extension; a scene without any query file has no query.
 ///
-/// Meshes are solid if they are closed. The result's angles are radians.
+/// Unless the options say otherwise, meshes are solid if they are closed and their origins are the mean
+/// of their vertices, and the bounds hold every point of the robot. The result's angles are radians.
 ///
 /// # Errors
 /// Names the file and line: unreadable, a word or number out of place, what this reader does not
 /// support, joints that make no tree, a mesh that cannot be read; or the files there are to choose from.
-pub fn read_parasol(
-    env: &Path,
-    robot: Option<&Path>,
-    query: Option<&Path>,
-) -> Result<ForeignScene, ForeignError> {
-    let mut notes = vec![
-        "origins moved to the mean of each mesh's vertices, as Parasol's library does".to_owned(),
-    ];
-    let mut meshes = Meshes::default();
+pub fn read_parasol(env: &Path, options: &SceneOptions) -> Result<ForeignScene, ForeignError> {
+    let mut notes = Vec::new();
+    let meshes = Meshes::new(options, &mut notes);
+    let mut reader = Reader { options, meshes, notes };
+    if options.origin.is_none() {
+        let what = "the mean of each mesh's vertices, as Parasol's library does (--origin)";
+        reader.notes.push(format!("origins moved to {what}"));
+    }
     let text = read_text(env)?;
-    meshes.sources.push(SourceFile::named(env, text.as_bytes()));
-    let found = env::read(&mut Words::new(env, &text), &mut meshes, &mut notes)?;
-    let robot = match (found.robot, robot) {
+    reader.meshes.sources.push(SourceFile::named(env, text.as_bytes()));
+    let found = env::read(&mut Words::new(env, &text), &mut reader)?;
+    let robot = match (found.robot, options.robot) {
         (Some(_), Some(other)) => {
             let message =
                 format!("has an active body; the robot of {} comes beside it", other.display());
@@ -50,29 +50,30 @@ pub fn read_parasol(
         (None, given) => {
             let path = match given {
                 Some(path) => path.to_owned(),
-                None => beside(env, "robot", &mut notes)?.ok_or_else(|| {
+                None => beside(env, "robot", &mut reader.notes)?.ok_or_else(|| {
                     let message = "no active body in it and no .robot beside it; a robot expected";
                     ForeignError::whole(env, message)
                 })?,
             };
             let text = read_text(&path)?;
-            meshes.sources.push(SourceFile::named(&path, text.as_bytes()));
+            reader.meshes.sources.push(SourceFile::named(&path, text.as_bytes()));
             let mut words = Words::new(&path, &text);
-            let robot = robot::read(&mut words, &mut meshes, &mut notes)?;
+            let robot = robot::read(&mut words, &mut reader)?;
             words.end("the end after the connections")?;
             robot
         }
     };
-    let bounds = found.boundary.bounds(robot.base, env, &mut notes)?;
-    let query = match query {
+    let notes = &mut reader.notes;
+    let bounds = found.boundary.bounds(robot.base, env, options, notes)?;
+    let query = match options.query {
         Some(path) => Some(path.to_owned()),
-        None => beside(env, "query", &mut notes)?,
+        None => beside(env, "query", notes)?,
     };
     let query = match query {
         Some(path) => {
             let text = read_text(&path)?;
-            meshes.sources.push(SourceFile::named(&path, text.as_bytes()));
-            Some(query::read(&path, &text, &robot, &mut notes)?)
+            reader.meshes.sources.push(SourceFile::named(&path, text.as_bytes()));
+            Some(query::read(&path, &text, &robot, notes)?)
         }
         None => None,
     };
@@ -84,9 +85,16 @@ pub fn read_parasol(
         links: robot.links,
         may_touch: robot.may_touch,
         query,
-        notes,
-        sources: meshes.sources,
+        notes: reader.notes,
+        sources: reader.meshes.sources,
     })
+}
+
+/// What reading a scene comes with.
+struct Reader<'a> {
+    options: &'a SceneOptions<'a>,
+    meshes: Meshes,
+    notes: Vec<String>,
 }
 
 /// The file beside `env` with another extension: of the same stem, or the only one.
@@ -126,7 +134,10 @@ fn beside(
             None => return Ok(None),
         }
     };
-    notes.push(format!("{extension}: {}, found beside the scene", file_name(&chosen)));
+    notes.push(format!(
+        "{extension}: {}, found beside the scene (--{extension})",
+        file_name(&chosen)
+    ));
     Ok(Some(chosen))
 }
 
@@ -145,6 +156,7 @@ impl Boundary {
         &self,
         base: Base,
         env: &Path,
+        options: &SceneOptions,
         notes: &mut Vec<String>,
     ) -> Result<Bounds, ForeignError> {
         let axes = match base {
@@ -163,7 +175,12 @@ impl Boundary {
         for (axis, [low, high]) in self.intervals.iter().take(axes).enumerate() {
             (min[axis], max[axis]) = (*low, *high);
         }
-        Ok(Bounds { min, max, meaning: BoundsMeaning::Body })
+        let meaning = options.bounds.unwrap_or_else(|| {
+            let what = "every point of the robot, as Parasol's do (--bounds)";
+            notes.push(format!("the bounds hold {what}"));
+            BoundsMeaning::Body
+        });
+        Ok(Bounds { min, max, meaning })
     }
 }
 
@@ -194,27 +211,24 @@ impl<'a> Geometry<'a> {
         Ok(Geometry { line, file, centre })
     }
 
+    /// Reads the mesh and says what was made of it.
     fn body(
         &self,
+        what: &str,
         scene: &Path,
         pose: Pose,
-        meshes: &mut Meshes,
-    ) -> Result<(ForeignBody, ReadMesh), ForeignError> {
+        reader: &mut Reader,
+    ) -> Result<ForeignBody, ForeignError> {
         let named = Named { scene, line: self.line, file: self.file };
-        let options = MeshOptions { centre: self.centre, ..MeshOptions::default() };
-        meshes.body(&named, &options, pose, Solid::Auto)
-    }
-}
-
-/// What was made of a body, for people to read.
-fn note(what: &str, geometry: &Geometry, read: &ReadMesh) -> String {
-    let file = geometry.file;
-    let closed = match read.odd_edges {
-        0 => "solid = true, as the mesh is closed".to_owned(),
-        odd => format!("solid = false, as the mesh has {odd} open edges"),
-    };
-    match geometry.centre {
-        Centre::VertexMean => format!("{what} ({file}): {closed}"),
-        Centre::AsStored => format!("{what} ({file}): {closed}; origin as stored"),
+        let (centre, asked) = (reader.options.origin.unwrap_or(self.centre), reader.options.solid);
+        let options = MeshOptions { centre, ..MeshOptions::default() };
+        let solid = asked.unwrap_or(Solidity::Auto);
+        let (body, read) = reader.meshes.body(&named, &options, pose, solid)?;
+        let mut note = format!("{what} ({}): {}", self.file, why_solid(&body.body, &read, asked));
+        if centre == Centre::AsStored {
+            note += "; origin as stored";
+        }
+        reader.notes.push(note);
+        Ok(body)
     }
 }

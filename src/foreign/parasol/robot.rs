@@ -5,12 +5,12 @@
 //! θ, a spherical one θ and α, whose values in the file then do not count.
 
 use super::words::{Words, number};
-use super::{Geometry, note};
-use crate::foreign::bodies::Meshes;
+use super::{Geometry, Reader};
 use crate::foreign::frames::{compose, turn};
 use crate::foreign::{
-    Base, ForeignBody, ForeignError, ForeignJoint, ForeignJointKind, ForeignLink,
+    Base, DhOrder, ForeignBody, ForeignError, ForeignJoint, ForeignJointKind, ForeignLink,
 };
+use crate::robot::{LINKS_MAX, TURN_MAX};
 use crate::scene::Pose;
 use crate::space::Motion;
 use std::collections::BTreeSet;
@@ -51,22 +51,23 @@ struct Connection {
     before: Pose,
     /// alpha a d theta, angles in radians.
     dh: [f64; 4],
+    /// Whether the four act as Rx(alpha) Tx(a) Rz(theta) Tz(d), not as Rz(theta) Tz(d) Tx(a) Rx(alpha).
+    modified: bool,
     after: Pose,
 }
 
-pub(super) fn read(
-    words: &mut Words,
-    meshes: &mut Meshes,
-    notes: &mut Vec<String>,
-) -> Result<Robot, ForeignError> {
+pub(super) fn read(words: &mut Words, reader: &mut Reader) -> Result<Robot, ForeignError> {
     let count = words.count("the number of the robot's bodies")?;
     if count == 0 {
         return Err(words.error("0 bodies found; at least one expected"));
     }
+    if count > LINKS_MAX {
+        return Err(words.error(format!("{count} bodies found; at most {LINKS_MAX} expected")));
+    }
     let mut bodies = Vec::new();
     let mut names = BTreeSet::new();
     for index in 0..count {
-        let body = body(words, index, &mut names, meshes, notes)?;
+        let body = body(words, index, &mut names, reader)?;
         if body.base.is_some() && bodies.iter().any(|other: &Body| other.base.is_some()) {
             return Err(words.error("a second base found; one, and else `Joint`, expected"));
         }
@@ -86,7 +87,7 @@ pub(super) fn read(
     words.keyword("Connections")?;
     let mut connections = Vec::new();
     for _ in 0..words.count("the number of connections")? {
-        let connection = connection(words, count, notes)?;
+        let connection = connection(words, count, reader)?;
         if connection.to == base {
             return Err(words.error(format!("body {base} is the base and cannot hang on another")));
         }
@@ -108,8 +109,7 @@ fn body(
     words: &mut Words,
     index: usize,
     names: &mut BTreeSet<String>,
-    meshes: &mut Meshes,
-    notes: &mut Vec<String>,
+    reader: &mut Reader,
 ) -> Result<Body, ForeignError> {
     let geometry = Geometry::read(words)?;
     let kind = words.next("`Planar`, `Volumetric`, `Fixed` or `Joint`")?.to_ascii_lowercase();
@@ -135,8 +135,8 @@ fn body(
             return Err(words.error(format!("`{kind}` found; {expected}")));
         }
     };
-    let (body, read) = geometry.body(words.path, Pose::IDENTITY, meshes)?;
-    notes.push(note(&format!("robot body {index}"), &geometry, &read));
+    let what = format!("robot body {index}");
+    let body = geometry.body(&what, words.path, Pose::IDENTITY, reader)?;
     let stem = body.file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
     let name = if names.contains(&stem) { format!("{stem}-{index}") } else { stem };
     names.insert(name.clone());
@@ -146,7 +146,7 @@ fn body(
 fn connection(
     words: &mut Words,
     bodies: usize,
-    notes: &mut Vec<String>,
+    reader: &mut Reader,
 ) -> Result<Connection, ForeignError> {
     let (from, to) = (index(words, bodies)?, index(words, bodies)?);
     let line = words.line();
@@ -166,8 +166,14 @@ fn connection(
         let ends = word.split_once(':');
         let ends = ends.and_then(|(low, high)| Some([number(low)? * PI, number(high)? * PI]));
         *limit = match ends {
-            Some([low, high]) if low <= high => [low, high],
-            _ => return Err(words.error(format!("`{word}` found; limits min:max expected"))),
+            // Ten turns either way, as in problem files.
+            Some([low, high]) if low <= high && low.abs().max(high.abs()) <= TURN_MAX => {
+                [low, high]
+            }
+            _ => {
+                let expected = "limits min:max within ±20 (times π) expected";
+                return Err(words.error(format!("`{word}` found; {expected}")));
+            }
         };
     }
     let before = words.pose()?;
@@ -178,17 +184,20 @@ fn connection(
     let after = words.pose()?;
     let [alpha, a, d, theta] = dh;
     let given_alpha = if kind == Kind::Spherical { 0.0 } else { alpha };
-    if [given_alpha, a, d] != [0.0; 3] {
+    let modified = reader.options.dh == Some(DhOrder::Modified);
+    let notes = &mut reader.notes;
+    if [given_alpha, a, d] != [0.0; 3] && reader.options.dh.is_none() {
         notes.push(format!(
             "line {line}: alpha a d theta read as Rz(theta) Tz(d) Tx(a) Rx(alpha), in radians, as by \
-             Parasol's present library; scenes of older ones may mean Rx(alpha) Tx(a) Rz(theta) Tz(d)"
+             Parasol's present library; scenes of older ones may mean Rx(alpha) Tx(a) Rz(theta) Tz(d) \
+             (--dh)"
         ));
     }
     let moved = [kind != Kind::NonActuated && theta != 0.0, given_alpha != alpha];
     if moved != [false; 2] {
         notes.push(format!("line {line}: values of what the joint moves passed over"));
     }
-    Ok(Connection { line, from, to, kind, limits, before, dh, after })
+    Ok(Connection { line, from, to, kind, limits, before, dh, modified, after })
 }
 
 fn index(words: &mut Words, bodies: usize) -> Result<usize, ForeignError> {
@@ -264,36 +273,53 @@ impl Connection {
             rotation: turn(axis, angle).expect("unit axes have a direction"),
             ..Pose::IDENTITY
         };
-        let offset = Pose { translation: [a, 0.0, d], ..Pose::IDENTITY };
-        let (before, after) = (self.before, self.after);
+        let along = |translation| Pose { translation, ..Pose::IDENTITY };
+        let (by_alpha, by_theta) = (about(X, alpha), about(Z, theta));
+        // The turn about z, what stands between the turns, and the turn about x; or the other way round.
+        let between = along(if self.modified { [a, 0.0, 0.0] } else { [a, 0.0, d] });
+        let (before, mut after) = (self.before, self.after);
+        if self.modified {
+            after = compose(&along([0.0, 0.0, d]), &after);
+        }
         let name = format!("{}-{}", self.from, self.to);
         let turns = |axis, [min, max]: [f64; 2]| ForeignJointKind::Revolute { axis, min, max };
+        let [about_z, about_x] = [turns(Z, self.limits[0]), turns(X, self.limits[1])];
         match self.kind {
             Kind::NonActuated => {
-                let turned = compose(&about(Z, theta), &compose(&offset, &about(X, alpha)));
+                let (first, last) =
+                    if self.modified { (by_alpha, by_theta) } else { (by_theta, by_alpha) };
+                let turned = compose(&first, &compose(&between, &last));
                 let after = compose(&turned, &after);
                 ForeignJoint { name, parent, kind: ForeignJointKind::Fixed, before, after }
             }
             Kind::Revolute => {
                 robot.places.push(place);
-                let after = compose(&compose(&offset, &about(X, alpha)), &after);
-                ForeignJoint { name, parent, kind: turns(Z, self.limits[0]), before, after }
+                let (before, after) = if self.modified {
+                    (compose(&before, &compose(&by_alpha, &between)), after)
+                } else {
+                    (before, compose(&compose(&between, &by_alpha), &after))
+                };
+                ForeignJoint { name, parent, kind: about_z, before, after }
             }
             Kind::Spherical => {
-                robot.places.extend([place, place + 1]);
-                let kind = turns(Z, self.limits[0]);
-                let first = format!("{name}-theta");
+                let mut turns = [("theta", about_z, place), ("alpha", about_x, place + 1)];
+                if self.modified {
+                    turns.reverse();
+                }
+                robot.places.extend(turns.map(|(_, _, place)| place));
+                let [(first, kind, _), (second, last, _)] = turns;
+                let first = format!("{name}-{first}");
                 let joint =
-                    ForeignJoint { name: first.clone(), parent, kind, before, after: offset };
+                    ForeignJoint { name: first.clone(), parent, kind, before, after: between };
                 robot.links.push(ForeignLink {
                     name: first,
                     bodies: Vec::new(),
                     joint: Some(joint),
                 });
                 ForeignJoint {
-                    name: format!("{name}-alpha"),
+                    name: format!("{name}-{second}"),
                     parent: robot.links.len() - 1,
-                    kind: turns(X, self.limits[1]),
+                    kind: last,
                     before: Pose::IDENTITY,
                     after,
                 }

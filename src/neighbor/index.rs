@@ -1,0 +1,186 @@
+//! Nearest neighbours among configurations that only become more.
+
+use super::best::{Best, NearPair, Neighbor, Ranked};
+use super::embedding::Embedding;
+use super::tree::{Place, Seeker, Tree};
+use crate::space::{Configs, Space};
+use std::sync::Arc;
+
+/// Finds the configurations near a place among those numbered from 0 to [`Index::len`]: what brute
+/// force finds, bit for bit, whatever the segments.
+///
+/// The configurations lie in segments with a tree each that never change, so a copy shares them. Each
+/// segment is at least twice as long as the next: when configurations are added, shorter segments are
+/// built anew together with them, which costs each configuration O(log n) buildings (J. L. Bentley,
+/// J. B. Saxe, *Decomposable searching problems*, 1980).
+#[derive(Clone, Debug)]
+pub struct Index {
+    embedding: Arc<Embedding>,
+    segments: Vec<Arc<Tree>>,
+    len: u32,
+}
+
+/// What an index is searched for.
+pub trait Candidates {
+    /// The configuration of an id that counts.
+    fn config(&self, id: u32) -> &[f64];
+
+    /// Whether an id counts.
+    fn counts(&self, _id: u32) -> bool {
+        true
+    }
+
+    /// What the id is called in what is found, where ties are broken by that name.
+    fn name(&self, id: u32) -> u32 {
+        id
+    }
+
+    /// Whether all ids count that have the label of `id`, or none. `None` where labels do not decide.
+    fn label_counts(&self, _id: u32) -> Option<bool> {
+        None
+    }
+}
+
+impl Index {
+    /// The index of nothing.
+    pub fn new(space: &Space) -> Index {
+        Index { embedding: Arc::new(Embedding::new(space)), segments: Vec::new(), len: 0 }
+    }
+
+    /// Number of configurations.
+    pub fn len(&self) -> u32 {
+        self.len
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Forgets all configurations.
+    pub fn clear(&mut self) {
+        self.segments.clear();
+        self.len = 0;
+    }
+
+    #[cfg(test)]
+    pub(super) fn segment_lengths(&self) -> Vec<usize> {
+        self.segments.iter().map(|segment| segment.len()).collect()
+    }
+
+    /// Adds the configurations from [`Index::len`] up to `end`. Configurations with one label keep one
+    /// label for ever.
+    pub fn extend<'a>(
+        &mut self,
+        end: u32,
+        config_of: impl Fn(u32) -> &'a [f64],
+        label_of: impl Fn(u32) -> u32,
+    ) {
+        if end <= self.len {
+            return;
+        }
+        let axes = self.embedding.axes();
+        let mut count = (end - self.len) as usize;
+        let kept = self.segments.iter().rposition(|segment| {
+            let keep = segment.len() >= 2 * count;
+            count += if keep { 0 } else { segment.len() };
+            keep
+        });
+        let mut ids = Vec::with_capacity(count);
+        let mut rows = Vec::with_capacity(count * axes);
+        for segment in self.segments.drain(kept.map_or(0, |last| last + 1)..) {
+            segment.unpack(&mut ids, &mut rows);
+        }
+        for id in self.len..end {
+            ids.push(id);
+            self.embedding.embed(config_of(id), &mut rows);
+        }
+        self.segments.push(Arc::new(Tree::new(axes, ids, rows, &label_of)));
+        self.len = end;
+    }
+
+    /// The at most `k` candidates nearest to `q`, nearest first, ties by id. Ids from [`Index::len`] up
+    /// to `end` are searched too, one by one.
+    pub fn k_nearest(
+        &self,
+        space: &Space,
+        candidates: &impl Candidates,
+        end: u32,
+        q: &[f64],
+        k: usize,
+    ) -> Vec<Neighbor> {
+        let queries = std::iter::once((0, q));
+        self.search((space, candidates, end), queries, k, |_, near| near)
+    }
+
+    /// The at most `count` closest pairs of a configuration of `first` and a candidate, closest first,
+    /// ties by the first id, then by the second. `end` is as in [`Index::k_nearest`].
+    pub fn closest_pairs(
+        &self,
+        space: &Space,
+        first: (&Configs, &[u32]),
+        candidates: &impl Candidates,
+        end: u32,
+        count: usize,
+    ) -> Vec<NearPair> {
+        let queries = first.1.iter().map(|id| (*id, first.0.get(*id as usize)));
+        let pair =
+            |first, near: Neighbor| NearPair { distance: near.distance, first, second: near.id };
+        self.search((space, candidates, end), queries, count, pair)
+    }
+
+    /// The best of what all queries find. Short segments come first, for all queries: what they give
+    /// bounds the search of the long ones.
+    fn search<'a, T: Ranked>(
+        &self,
+        (space, candidates, end): (&Space, &impl Candidates, u32),
+        queries: impl Iterator<Item = (u32, &'a [f64])>,
+        most: usize,
+        item: impl Fn(u32, Neighbor) -> T,
+    ) -> Vec<T> {
+        let mut best = Best::new(most);
+        let queries: Vec<_> =
+            queries.map(|(id, q)| (id, q, Place::new(&self.embedding, q))).collect();
+        for (first, q, _) in &queries {
+            let item = |near| item(*first, near);
+            let mut search = Search { space, candidates, q, best: &mut best, item };
+            (self.len..end).for_each(|id| search.meet(id, false));
+        }
+        for segment in self.segments.iter().rev() {
+            for (first, q, place) in &queries {
+                let item = |near| item(*first, near);
+                let mut search = Search { space, candidates, q, best: &mut best, item };
+                segment.seek(&self.embedding, place, &mut search);
+            }
+        }
+        best.into_items()
+    }
+}
+
+struct Search<'a, C, T, I> {
+    space: &'a Space,
+    candidates: &'a C,
+    q: &'a [f64],
+    best: &'a mut Best<T>,
+    item: I,
+}
+
+impl<C: Candidates, T: Ranked, I: Fn(Neighbor) -> T> Seeker for Search<'_, C, T, I> {
+    fn bound(&self) -> f64 {
+        self.best.bound()
+    }
+
+    fn meet(&mut self, id: u32, counts: bool) {
+        if (counts || self.candidates.counts(id))
+            && let Some(distance) =
+                self.space.distance_unless_above(self.q, self.candidates.config(id), self.bound())
+        {
+            let id = self.candidates.name(id);
+            self.best.offer((self.item)(Neighbor { distance, id }));
+        }
+    }
+
+    fn label_counts(&self, id: u32) -> Option<bool> {
+        self.candidates.label_counts(id)
+    }
+}

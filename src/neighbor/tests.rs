@@ -1,0 +1,195 @@
+use super::*;
+use crate::seed::{Purpose, Seed, Stream};
+use crate::space::{Configs, Dof, Motion, Part, PartKind, Space, rigid_space};
+use proptest::prelude::*;
+
+/// Every kind of motion, and a linkage: a free base with sliding, limited and turning joints.
+fn spaces() -> Vec<Space> {
+    let mut spaces = [
+        Motion::Fixed,
+        Motion::Translation2d,
+        Motion::Rigid2d,
+        Motion::Translation3d,
+        Motion::Rigid3d,
+    ]
+    .map(|motion| rigid_space(motion, [-1.0, -2.0, 995.0], [1.0, 2.0, 1000.0], 0.7))
+    .to_vec();
+    let mut kinds = vec![PartKind::Real { min: -1.0, max: 3.0 }, PartKind::Rotation];
+    kinds.extend([PartKind::Angle; 7]);
+    kinds.extend([PartKind::Rotation, PartKind::Real { min: 0.0, max: 1e-3 }, PartKind::Angle]);
+    spaces.push(product(&kinds, |index| if index == 4 { 0.0 } else { 2.0 / (1 + index) as f64 }));
+    spaces.push(product(&[PartKind::Angle; 12], |index| 6.0 - index as f64 / 2.0));
+    spaces.push(product(&[PartKind::Angle, PartKind::Rotation], |_| 0.0));
+    spaces
+}
+
+fn product(kinds: &[PartKind], weight_of: impl Fn(usize) -> f64) -> Space {
+    let (mut parts, mut at) = (Vec::new(), 0);
+    for (index, kind) in kinds.iter().enumerate() {
+        parts.push(Part { kind: *kind, at, weight: weight_of(index) });
+        at += if *kind == PartKind::Rotation { 4 } else { 1 };
+    }
+    let dofs = (0..at).map(|index| Dof { name: index.to_string(), unit: "1" }).collect();
+    Space::new(parts, dofs, 0)
+}
+
+/// What makes neighbours hard: ties on a grid, the same again and again, all but the same,
+/// rotations that are opposite as quaternions, the seam of angles.
+fn draw(space: &Space, stream: &mut Stream, known: &Configs) -> Vec<f64> {
+    let mut q = vec![0.0; space.len()];
+    space.sample_uniform(stream, &mut q);
+    let kind = (stream.unit() * 6.0) as u32;
+    let other = (stream.unit() * known.len() as f64) as usize;
+    let other = if known.is_empty() { q.clone() } else { known.get(other).to_vec() };
+    let stored = |mut q: Vec<f64>, instead: &[f64]| match space.canonicalize(&mut q) {
+        Ok(()) => q,
+        Err(_) => instead.to_vec(),
+    };
+    match kind {
+        0 => q,
+        1 => stored(q.iter().map(|value| value.round()).collect(), &q),
+        2 => other,
+        3 => {
+            let mut near = q.clone();
+            let step = [1e-3, 1e-7, 1e-9, 1e-15][(stream.unit() * 4.0) as usize];
+            space.interpolate(&other, &q, step, &mut near);
+            stored(near, &q)
+        }
+        4 => {
+            // At half a turn the stored side of a quaternion changes.
+            let mut near = other.clone();
+            for part in space.parts().iter().filter(|part| part.kind == PartKind::Rotation) {
+                near[part.at] = (stream.unit() - 0.5) * 1e-8;
+            }
+            stored(near, &q)
+        }
+        _ => {
+            for part in space.parts().iter().filter(|part| part.kind == PartKind::Angle) {
+                let side = if stream.unit() < 0.5 { 1.0 } else { -1.0 };
+                q[part.at] = side * (std::f64::consts::PI - 1e-7 * stream.unit());
+            }
+            stored(q.clone(), &q)
+        }
+    }
+}
+
+fn configs(space: &Space, stream: &mut Stream, count: usize) -> Configs {
+    let mut configs = Configs::new(space.len());
+    for _ in 0..count {
+        let q = draw(space, stream, &configs);
+        configs.push(&q);
+    }
+    configs
+}
+
+/// Ids with one of a few labels; those of one label count.
+struct Labelled<'a> {
+    configs: &'a Configs,
+    label_of: &'a [u32],
+    wanted: Option<u32>,
+}
+
+impl Candidates for Labelled<'_> {
+    fn config(&self, id: u32) -> &[f64] {
+        self.configs.get(id as usize)
+    }
+    fn counts(&self, id: u32) -> bool {
+        self.label_counts(id) != Some(false)
+    }
+    fn label_counts(&self, id: u32) -> Option<bool> {
+        self.wanted.map(|wanted| self.label_of[id as usize] == wanted)
+    }
+}
+
+/// An index over the first of the configurations, built in steps, and labels that unite meanwhile.
+fn index(
+    space: &Space,
+    configs: &Configs,
+    label_of: &mut [u32],
+    stream: &mut Stream,
+) -> (Index, Vec<u32>) {
+    let mut index = Index::new(space);
+    let mut steps = Vec::new();
+    while stream.unit() < 0.9 {
+        let step = (stream.unit() * stream.unit() * configs.len() as f64) as u32 / 2;
+        let end = (index.len() + step).min(configs.len() as u32);
+        index.extend(end, |id| configs.get(id as usize), |id| label_of[id as usize]);
+        steps.push(end);
+        let [from, to] = [0, 1].map(|_| (stream.unit() * 5.0) as u32);
+        label_of.iter_mut().filter(|label| **label == from).for_each(|label| *label = to);
+    }
+    (index, steps)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn the_index_finds_what_brute_force_finds(
+        ordinal in any::<u64>(),
+        count in 0usize..400,
+        k in 0usize..25,
+    ) {
+        let mut stream = Seed::of_set(1, "index", ordinal).stream(Purpose::Sampling);
+        for space in spaces() {
+            let configs = configs(&space, &mut stream, count);
+            let ids = 0..configs.len() as u32;
+            // Labels by place, so that whole boxes have one.
+            let mut label_of: Vec<u32> = configs
+                .iter()
+                .map(|q| if q.first().is_some_and(|x| *x < 0.0) { 0 } else { 1 + (stream.unit() * 4.0) as u32 })
+                .collect();
+            let (index, steps) = index(&space, &configs, &mut label_of, &mut stream);
+            for wanted in [None, Some(0), Some(1)] {
+                let candidates = Labelled { configs: &configs, label_of: &label_of, wanted };
+                let some: Vec<u32> =
+                    ids.clone().filter(|id| candidates.counts(*id)).collect();
+                let others = super::tests::configs(&space, &mut stream, 6);
+                let mut queries: Vec<&[f64]> = others.iter().collect();
+                queries.extend(configs.iter().step_by(61));
+                for q in queries {
+                    let expected = k_nearest(&space, &configs, some.iter().copied(), q, k);
+                    let found = index.k_nearest(&space, &candidates, ids.end, q, k);
+                    prop_assert_eq!(found, expected, "{:?} {:?}", steps, wanted);
+                }
+                let first: Vec<u32> = (0..others.len() as u32).collect();
+                let first = (&others, &first[..]);
+                let expected = closest_pairs(&space, first, (&configs, &some), k);
+                let found = index.closest_pairs(&space, first, &candidates, ids.end, k);
+                prop_assert_eq!(found, expected, "{:?} {:?}", steps, wanted);
+            }
+        }
+    }
+}
+
+#[test]
+fn lengths_of_any_size_keep_their_neighbours() {
+    for scale in [1e-30, 1e-20, 1e-3, 1e6, 1e18, 1e30, 1e60, 1e150] {
+        let space = rigid_space(Motion::Translation3d, [0.0; 3], [scale; 3], 1.0);
+        let mut stream = Seed::of_set(1, "lengths", 0).stream(Purpose::Sampling);
+        let configs = configs(&space, &mut stream, 300);
+        let mut index = Index::new(&space);
+        index.extend(300, |id| configs.get(id as usize), |_| 0);
+        let candidates = Labelled { configs: &configs, label_of: &[], wanted: None };
+        for q in configs.iter().step_by(7) {
+            let expected = k_nearest(&space, &configs, 0..300, q, 10);
+            assert_eq!(index.k_nearest(&space, &candidates, 300, q, 10), expected, "{scale}");
+        }
+    }
+}
+
+#[test]
+fn segments_are_few_and_configurations_rarely_built_in_anew() {
+    let space = rigid_space(Motion::Translation2d, [0.0; 3], [1.0; 3], 1.0);
+    let mut stream = Seed::of_set(1, "segments", 0).stream(Purpose::Sampling);
+    let configs = configs(&space, &mut stream, 20_000);
+    let (mut index, mut built) = (Index::new(&space), 0);
+    while index.len() < 20_000 {
+        let end = (index.len() + 1 + (stream.unit() * 99.0) as u32).min(20_000);
+        index.extend(end, |id| configs.get(id as usize), |_| 0);
+        let lengths = index.segment_lengths();
+        assert!(lengths.windows(2).all(|pair| pair[0] >= 2 * pair[1]), "{lengths:?}");
+        assert_eq!(lengths.iter().sum::<usize>(), end as usize);
+        built += lengths[lengths.len() - 1];
+    }
+    assert!(built < 20_000 * 10, "{built}");
+}

@@ -1,0 +1,178 @@
+use super::*;
+use crate::img::{Setup, build};
+use crate::neighbor::{Best, NearPair, closest_pairs, k_nearest};
+use crate::problem::Problem;
+use crate::seed::{Purpose, Seed, Stream};
+use crate::space::{Motion, rigid_space};
+use crate::validity::Asked;
+use proptest::prelude::*;
+use std::path::Path;
+use std::sync::Arc;
+
+const GROUPS: u32 = 3;
+
+/// A growing graph: most nodes are tied to an earlier one of their group, so there are a few large
+/// components and many of one node; now and then two groups become one.
+struct Growth {
+    space: Space,
+    stream: Stream,
+    group_of: Vec<u32>,
+    roadmap: Roadmap,
+}
+
+impl Growth {
+    fn new(motion: Motion, ordinal: u64) -> Growth {
+        let space = rigid_space(motion, [0.0; 3], [9.0, 9.0, 2.0], 0.5);
+        let stream = Seed::of_set(1, "growth", ordinal).stream(Purpose::Sampling);
+        let roadmap = Roadmap::new(&space);
+        Growth { space, stream, group_of: Vec::new(), roadmap }
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.stream.unit() * count as f64) as usize
+    }
+
+    /// A configuration, every fourth on a grid so that ties occur.
+    fn draw(&mut self) -> Vec<f64> {
+        let mut q = vec![0.0; self.space.len()];
+        self.space.sample_uniform(&mut self.stream, &mut q);
+        if self.stream.unit() < 0.25 {
+            let mut round: Vec<f64> = q.iter().map(|value| value.round()).collect();
+            if self.space.canonicalize(&mut round).is_ok() {
+                return round;
+            }
+        }
+        q
+    }
+
+    fn fold_round(&mut self, sets: usize, nodes: usize) {
+        let mut round = Vec::new();
+        for _ in 0..sets {
+            let first = self.group_of.len() as u32;
+            let mut configs = Configs::new(self.space.len());
+            let (mut edges, mut joins) = (Vec::new(), Vec::new());
+            for node in first..first + nodes as u32 {
+                configs.push(&self.draw());
+                let group = self.below(GROUPS as usize + 2) as u32;
+                // Nodes outside the groups stay alone, but for a few that tie a group to another.
+                let alone = group >= GROUPS && self.stream.unit() < 0.99;
+                for _ in 0..if alone { 0 } else { 20 } {
+                    let low = self.below(self.group_of.len()) as u32;
+                    let kind = self.group_of.get(low as usize).copied();
+                    if kind == Some(group) || (group >= GROUPS && kind == Some(group - GROUPS)) {
+                        let edge = Edge { low, high: node, planner: 0, weight: 1.0 };
+                        if low >= first {
+                            edges.push(Edge { low: low - first, high: node - first, ..edge });
+                        } else {
+                            joins.push(edge);
+                        }
+                        if group < GROUPS {
+                            break;
+                        }
+                    }
+                }
+                self.group_of.push(group);
+            }
+            round.push((Increment { configs, edges, asked: Asked::default() }, joins));
+        }
+        let sets = round.iter().map(|(increment, joins)| (increment, &joins[..]));
+        self.roadmap.fold_round(&self.space, sets);
+    }
+
+    /// Compares what is found with what brute force finds.
+    fn check(&mut self) {
+        let (k, nodes) = (self.below(12), self.roadmap.components().nodes());
+        let mut queries = Configs::new(self.space.len());
+        for _ in 0..20 {
+            queries.push(&self.draw());
+        }
+        let some = self.below(nodes as usize) as u32;
+        let (space, roadmap) = (&self.space, &self.roadmap);
+        let (configs, components) = (roadmap.configs(), roadmap.components());
+        for q in queries.iter() {
+            let expected = k_nearest(space, configs, 0..nodes, q, k);
+            assert_eq!(roadmap.k_nearest(space, q, k), expected);
+
+            let mut best = Best::new(k);
+            for component in components.iter() {
+                let distance = space.distance(q, &component.centre);
+                best.offer(Neighbor { distance, id: component.name });
+            }
+            assert_eq!(components.nearest(space, q, k), best.into_items());
+        }
+        let largest = components.iter().max_by_key(|component| component.members.len());
+        for component in [components.of_node(some), components.of_node(0), largest.expect("one")] {
+            let ids: Vec<u32> = (0..queries.len() as u32).collect();
+            let expected: Vec<NearPair> =
+                closest_pairs(space, (&queries, &ids), (configs, &component.members), k);
+            let found = components.closest_pairs(space, (&queries, &ids), (configs, component), k);
+            assert_eq!(found, expected);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+    #[test]
+    fn a_growing_roadmap_finds_what_brute_force_finds(
+        ordinal in any::<u64>(),
+        asked_from in 0usize..20,
+    ) {
+        for motion in [Motion::Rigid2d, Motion::Rigid3d] {
+            let mut growth = Growth::new(motion, ordinal);
+            for round in 0..25 {
+                let (sets, nodes) = (1 + growth.below(3), 1 + growth.below(80));
+                growth.fold_round(sets, nodes);
+                if round >= asked_from {
+                    growth.check();
+                }
+                if round == 20 {
+                    growth.roadmap = growth.roadmap.clone();
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn folding_round_by_round_and_finding_the_components_of_the_whole_agree() {
+    let mut growth = Growth::new(Motion::Rigid3d, 0);
+    (0..9).for_each(|_| growth.fold_round(2, 40));
+    let whole = &growth.roadmap;
+    let again = Components::of(&growth.space, whole.configs(), whole.edges());
+    for node in 0..again.nodes() {
+        let (a, b) = (whole.components().of_node(node), again.of_node(node));
+        assert_eq!((a.name, a.members.len()), (b.name, b.members.len()));
+        let near = growth.space.distance(&a.centre, &b.centre);
+        assert!(near < 1e-6, "{near}");
+    }
+    assert_eq!(whole.components().count(), again.count());
+}
+
+#[test]
+fn a_roadmap_knows_what_it_was_after_every_round() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems/judged.toml");
+    let mut problem = Problem::load(&path).unwrap();
+    problem.evaluators.clear();
+    let space = problem.space();
+    problem.limits.sets = 12;
+    let long = build(&Arc::new(Setup::new(problem.clone()))).roadmap;
+    assert_eq!(long.rounds().len(), 6);
+    for (index, extent) in long.rounds().iter().enumerate() {
+        problem.limits.sets = extent.sets;
+        let short = build(&Arc::new(Setup::new(problem.clone()))).roadmap;
+        assert_eq!(short.rounds(), &long.rounds()[..=index]);
+        let then = long.components_at(&space, *extent);
+        assert_eq!(then.count(), short.components().count());
+        for component in then.iter() {
+            let other = short.components().of_node(component.name);
+            let sorted = |component: &Component| {
+                let mut members = component.members.clone();
+                members.sort_unstable();
+                (component.name, members)
+            };
+            assert_eq!(sorted(component), sorted(other));
+            assert_eq!(component.centre, other.centre);
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Whether the bodies of two groups meet where they stand.
+
+use super::element::{Element, elements};
+use super::frame::{Frame, Stance};
+use super::obb::{Obb, Placed};
+use super::piece::Piece;
+use super::tree::{Node, Tree};
+use super::triangles::triangles_meet;
+use crate::scene::Body;
+use parry3d_f64::math::{Pose, Vector};
+use parry3d_f64::query::{DefaultQueryDispatcher, QueryDispatcher};
+use parry3d_f64::shape::{Shape, SupportMap, Triangle};
+
+/// Bodies that move as one, in the frame that they move with.
+pub(super) struct Group {
+    pub tree: Tree,
+    pub pieces: Vec<Piece>,
+}
+
+/// Two groups, one looked at from the other: the link `mover` from the link `still`, or from the world,
+/// in which obstacles stand.
+#[derive(Clone, Copy)]
+pub(super) struct Meeting<'a> {
+    pub mover: &'a Group,
+    pub mover_link: usize,
+    pub still: &'a Group,
+    pub still_link: Option<usize>,
+    /// Outweighs the rounding of every length.
+    pub slack: f64,
+}
+
+impl Meeting<'_> {
+    /// Whether a surface of one meets a surface of the other; a primitive is solid and meets what lies
+    /// inside it, too. Touching counts. That a mesh may enclose the other is not looked at.
+    pub fn surfaces_meet(&self, stance: &Stance, stack: &mut Vec<(u32, u32)>) -> bool {
+        let (movers, stills) = (&self.mover.tree.nodes, &self.still.tree.nodes);
+        let frame = stance.seen(self.mover_link, self.still_link);
+        stack.clear();
+        stack.push((0, 0));
+        let mut held = (0, movers[0].space.placed(&frame));
+        while let Some((i, j)) = stack.pop() {
+            let (mover, still) = (&movers[i as usize], &stills[j as usize]);
+            if held.0 != i {
+                held = (i, mover.space.placed(&frame));
+            }
+            if !boxes_meet(&held.1, mover.space.half, &still.space, self.slack) {
+                continue;
+            }
+            if !mover.ends && (still.ends || mover.space.radius > still.space.radius) {
+                stack.push((mover.left + 1, j));
+                stack.push((mover.left, j));
+            } else if !still.ends {
+                stack.push((i, still.left + 1));
+                stack.push((i, still.left));
+            } else if self.ends_meet(mover, still, &frame, stance) {
+                return true;
+            }
+        }
+        false
+    }
+
+    fn ends_meet(&self, mover: &Node, still: &Node, frame: &Frame, stance: &Stance) -> bool {
+        let first = &self.mover.tree.elements[mover.element as usize];
+        let second = &self.still.tree.elements[still.element as usize];
+        if !first.primitive && !second.primitive {
+            return triangles_meet(&first.corners.map(|p| frame.point(p)), &second.corners);
+        }
+        let (one, other) = (self.mover.piece(first), self.still.piece(second));
+        let at = stance.pose(Some(self.mover_link));
+        let other_at = stance.pose(self.still_link);
+        match (one.is_point(), other.is_point()) {
+            (true, true) => false,
+            (true, false) => other.holds(&other_at, one.place(&at).translation),
+            (false, true) => one.holds(&at, other.place(&other_at).translation),
+            (false, false) => {
+                let (one_triangle, other_triangle) = (first.triangle(), second.triangle());
+                let (one, at) = part(one, &one_triangle, &at);
+                let (other, other_at) = part(other, &other_triangle, &other_at);
+                DefaultQueryDispatcher
+                    .intersection_test(&other_at.inv_mul(&at), other, one)
+                    .expect("parry tests every pair of our shapes")
+                    .intersecting
+            }
+        }
+    }
+}
+
+impl Group {
+    /// The bodies as one; `None` if there are none.
+    pub fn new<'a>(bodies: impl Iterator<Item = &'a Body>) -> Option<Group> {
+        let mut surface = Vec::new();
+        let mut pieces = Vec::new();
+        for body in bodies {
+            surface.extend(elements(body, pieces.len() as u32));
+            pieces.push(Piece::new(body));
+        }
+        Tree::new(surface).map(|tree| Group { tree, pieces })
+    }
+
+    fn piece(&self, element: &Element) -> &Piece {
+        &self.pieces[element.piece as usize]
+    }
+
+    /// An element as a convex shape of parry's, where it stands, and how much thicker it is.
+    pub fn support<'a>(
+        &'a self,
+        element: &Element,
+        triangle: &'a Triangle,
+        at: &Pose,
+    ) -> (&'a dyn SupportMap, Pose, f64) {
+        let piece = self.piece(element);
+        match piece.primitive().and_then(|shape| shape.as_support_map()) {
+            Some(shape) if element.flat => (shape, piece.place(at), 0.0),
+            _ => (triangle, *at, element.radius),
+        }
+    }
+}
+
+impl Element {
+    /// The hull of the corners.
+    pub fn triangle(&self) -> Triangle {
+        let [a, b, c] = self.corners;
+        Triangle::new(a, b, c)
+    }
+}
+
+/// The primitive that the piece is, or else the triangle of it, and where.
+fn part<'a>(piece: &'a Piece, triangle: &'a Triangle, at: &Pose) -> (&'a dyn Shape, Pose) {
+    match piece.primitive() {
+        Some(shape) => (shape, piece.place(at)),
+        None => (triangle, *at),
+    }
+}
+
+/// Whether two boxes may meet, by the axes of both.
+#[inline]
+fn boxes_meet(Placed { centre, axes }: &Placed, own: Vector, still: &Obb, slack: f64) -> bool {
+    let apart = still.centre - *centre;
+    let mut across = [[0.0; 3]; 3];
+    for (k, axis) in still.axes.iter().enumerate() {
+        across[k] = axes.map(|other| axis.dot(other).abs());
+        let [x, y, z] = across[k];
+        let reach = own.x * x + own.y * y + own.z * z;
+        if axis.dot(apart).abs() > still.half[k] + reach + slack {
+            return false;
+        }
+    }
+    axes.iter().enumerate().all(|(j, axis)| {
+        let [x, y, z] = [across[0][j], across[1][j], across[2][j]];
+        let reach = still.half.x * x + still.half.y * y + still.half.z * z;
+        axis.dot(apart).abs() <= own[j] + reach + slack
+    })
+}

@@ -1,0 +1,182 @@
+//! Trees of oriented boxes over the elements of several pieces.
+
+use super::element::Element;
+use super::obb::{Obb, UPRIGHT};
+use parry3d_f64::math::Vector;
+
+/// In place of an index: none.
+pub(super) const NONE: u32 = u32::MAX;
+/// A box, and what lies in it.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub space: Obb,
+    /// The first of the two children, which follow one another; [`NONE`] of a leaf.
+    pub left: u32,
+    /// Its element, or the first of them.
+    pub element: u32,
+    /// Tests of what stands still end here: at a leaf, or at all of a primitive.
+    pub ends: bool,
+}
+
+impl Node {
+    pub fn is_leaf(&self) -> bool {
+        self.left == NONE
+    }
+}
+
+/// A binary tree with one element to a leaf. The root is node 0, and every piece has a node that holds
+/// all of its elements and no others.
+#[derive(Debug)]
+pub(super) struct Tree {
+    pub nodes: Vec<Node>,
+    pub elements: Vec<Element>,
+}
+
+/// Elements that are not told apart yet: those of a piece, or one.
+#[derive(Clone, Copy)]
+struct Unit {
+    first: u32,
+    count: u32,
+}
+
+/// Below this depth lists are halved, so that no tree gets deep.
+const DEPTH: u32 = 40;
+/// Longer lists are tried along the axes of their own box only.
+const LONG: usize = 2000;
+
+impl Tree {
+    /// The tree over elements of which those of a piece follow one another; `None` if there are none.
+    pub fn new(elements: Vec<Element>) -> Option<Tree> {
+        let mut units: Vec<Unit> = Vec::new();
+        for (index, element) in elements.iter().enumerate() {
+            match units.last_mut() {
+                Some(unit) if elements[unit.first as usize].piece == element.piece => {
+                    unit.count += 1;
+                }
+                _ => units.push(Unit { first: index as u32, count: 1 }),
+            }
+        }
+        if units.is_empty() {
+            return None;
+        }
+        let mut tree = Tree { nodes: Vec::with_capacity(2 * elements.len()), elements };
+        let root = tree.node(&units);
+        tree.nodes.push(root);
+        tree.grow(0, &mut units, 0);
+        Some(tree)
+    }
+
+    fn of(&self, units: &[Unit]) -> impl Iterator<Item = &Element> {
+        units.iter().flat_map(|Unit { first, count }| {
+            self.elements[*first as usize..(*first + *count) as usize].iter()
+        })
+    }
+
+    fn node(&self, units: &[Unit]) -> Node {
+        let inside: Vec<&Element> = self.of(units).collect();
+        let alone = inside.iter().all(|element| element.piece == inside[0].piece);
+        let ends = inside.len() == 1 || alone && inside[0].primitive;
+        Node { space: Obb::around(&inside), left: NONE, element: units[0].first, ends }
+    }
+
+    fn grow(&mut self, at: usize, units: &mut [Unit], depth: u32) {
+        if let [Unit { first, count }] = *units {
+            if count > 1 {
+                let mut single: Vec<Unit> =
+                    (first..first + count).map(|first| Unit { first, count: 1 }).collect();
+                self.grow(at, &mut single, depth);
+            }
+            return;
+        }
+        let middle = self.part(at, units, depth);
+        let (low, high) = units.split_at_mut(middle);
+        let left = self.nodes.len();
+        self.nodes[at].left = left as u32;
+        let children = [self.node(low), self.node(high)];
+        self.nodes.extend(children);
+        self.grow(left, low, depth + 1);
+        self.grow(left + 1, high, depth + 1);
+    }
+
+    /// Sorts the units so that they part well, by the surface area heuristic over all places along the
+    /// axes of the node's box and of the frame, and says where.
+    fn part(&self, at: usize, units: &mut [Unit], depth: u32) -> usize {
+        let own = self.nodes[at].space.axes;
+        let mut frames = vec![own];
+        if units.len() <= LONG && own != UPRIGHT {
+            frames.push(UPRIGHT);
+        }
+        let half = units.len() / 2;
+        let mut best = (f64::INFINITY, Vec::new(), half);
+        for axes in frames {
+            let boxes: Vec<(Vector, Vector)> = units.iter().map(|u| self.span(*u, axes)).collect();
+            for axis in 0..3 {
+                let mut order: Vec<u32> = (0..units.len() as u32).collect();
+                let key = |i: &u32| {
+                    let (low, high) = boxes[*i as usize];
+                    (low[axis] + high[axis], units[*i as usize].first)
+                };
+                order.sort_unstable_by(|a, b| {
+                    let ((a, first), (b, second)) = (key(a), key(b));
+                    a.total_cmp(&b).then(first.cmp(&second))
+                });
+                let (cost, place) = if depth < DEPTH {
+                    cheapest(&order, &boxes, units)
+                } else {
+                    let (low, high) = union(order.iter().map(|i| boxes[*i as usize]));
+                    (-(high - low)[axis], half)
+                };
+                if cost < best.0 {
+                    best = (cost, order, place);
+                }
+            }
+        }
+        let sorted: Vec<Unit> = match best.1.is_empty() {
+            true => units.to_vec(),
+            false => best.1.iter().map(|i| units[*i as usize]).collect(),
+        };
+        units.copy_from_slice(&sorted);
+        best.2
+    }
+
+    fn span(&self, unit: Unit, axes: [Vector; 3]) -> (Vector, Vector) {
+        union(self.of(&[unit]).map(|element| {
+            let [x, y, z] = axes.map(|axis| element.span(axis));
+            (Vector::new(x.0, y.0, z.0), Vector::new(x.1, y.1, z.1))
+        }))
+    }
+}
+
+fn union(boxes: impl Iterator<Item = (Vector, Vector)>) -> (Vector, Vector) {
+    let nothing = (Vector::INFINITY, Vector::NEG_INFINITY);
+    boxes.fold(nothing, |(low, high), (from, to)| (low.min(from), high.max(to)))
+}
+
+/// The place at which the order is cut for the least cost: surface times elements on either side.
+fn cheapest(order: &[u32], boxes: &[(Vector, Vector)], units: &[Unit]) -> (f64, usize) {
+    let surface = |(low, high): (Vector, Vector)| {
+        let Vector { x, y, z } = high - low;
+        x * y + y * z + z * x
+    };
+    let n = order.len();
+    let mut after = vec![0.0; n];
+    let (mut around, mut count) = ((Vector::INFINITY, Vector::NEG_INFINITY), 0.0);
+    for place in (1..n).rev() {
+        let i = order[place] as usize;
+        around = union([around, boxes[i]].into_iter());
+        count += f64::from(units[i].count);
+        after[place] = surface(around) * count;
+    }
+    let mut best = (f64::INFINITY, n / 2);
+    (around, count) = ((Vector::INFINITY, Vector::NEG_INFINITY), 0.0);
+    for place in 1..n {
+        let i = order[place - 1] as usize;
+        around = union([around, boxes[i]].into_iter());
+        count += f64::from(units[i].count);
+        let cost = surface(around) * count + after[place];
+        if cost < best.0 {
+            best = (cost, place);
+        }
+    }
+    best
+}

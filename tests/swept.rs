@@ -1,0 +1,77 @@
+//! Motions of real scenes against the same motions looked at step by step.
+//!
+//! The scenes are not part of the repository, see `tests/foreign.rs`.
+
+#[path = "support/scenes.rs"]
+#[allow(dead_code, reason = "only the folder is of interest")]
+mod scenes;
+
+use roadmill::Context;
+use roadmill::problem::Problem;
+use roadmill::seed::{Purpose, Seed};
+use roadmill::validity::{Edges, Scratch, State, TOLERANCE};
+use scenes::data;
+
+/// How much finer motions are looked at step by step than the resolution asks for.
+const FINER: u32 = 16;
+
+/// Whether at each of so many equal steps, the ends excepted, something holds.
+fn at_steps(
+    cx: &Context,
+    (a, b): (&[f64], &[f64]),
+    steps: u64,
+    mut holds: impl FnMut(&[f64]) -> bool,
+) -> bool {
+    let mut q = a.to_vec();
+    (1..steps).all(|i| {
+        cx.space.interpolate(a, b, i as f64 / steps as f64, &mut q);
+        holds(&q)
+    })
+}
+
+#[test]
+fn real_scenes_are_judged_as_step_by_step() {
+    let Some(data) = data() else { return };
+    for (scene, count) in [("ompl/cubicles.cfg", 1200), ("parasol/SerialWalls/serial.env", 1200)] {
+        let mut problem = Problem::load(&data.join("scenes").join(scene)).unwrap();
+        let [swept, sampled] = [Edges::Swept, Edges::Sampled].map(|edges| {
+            problem.edges = edges;
+            problem.context()
+        });
+        let scratch = &mut Scratch::new();
+        let mut stream = Seed::of_set(5, "real scenes", 0).stream(Purpose::Sampling);
+        let (mut a, mut b) = (vec![0.0; swept.space.len()], vec![0.0; swept.space.len()]);
+        let (mut motions, mut free, mut refused) = (0, 0, 0);
+        while motions < count {
+            swept.space.sample_uniform(&mut stream, &mut a);
+            let far = 40.0 * problem.resolution * stream.unit();
+            swept.space.step(&a, far, &mut stream, &mut b);
+            if !(swept.validity.valid(&a, scratch) && swept.validity.valid(&b, scratch)) {
+                continue;
+            }
+            motions += 1;
+            let accepted = swept.validity.motion(&a, &b, 1, scratch);
+            let mut look = |refinement: u32| {
+                let steps = swept.validity.steps(&a, &b, refinement);
+                let free = |q: &[f64]| swept.validity.state(q, scratch) == State::Free;
+                at_steps(&swept, (&a, &b), steps, free)
+            };
+            let (coarse, finer) = (look(1), look(FINER));
+            assert!(!accepted || coarse && finer, "{scene}: {a:?} to {b:?} is not free");
+            assert_eq!(sampled.validity.motion(&a, &b, 1, scratch), coarse, "{scene}");
+            free += usize::from(finer);
+            if finer && !accepted {
+                refused += 1;
+                let steps = swept.validity.steps(&a, &b, 1) * TOLERANCE / 2;
+                let near = problem.resolution / TOLERANCE as f64;
+                let away = at_steps(&swept, (&a, &b), steps, |q| {
+                    let clearance = swept.validity.clearance(q, scratch);
+                    clearance.is_some_and(|clearance| clearance.distance > near)
+                });
+                assert!(!away, "{scene}: {a:?} to {b:?} keeps away from everything");
+            }
+        }
+        println!("{scene}: {motions} motions, {free} free, {refused} of them refused");
+        assert!(free < motions && refused * 200 <= free, "{scene}: {refused} of {free} refused");
+    }
+}
