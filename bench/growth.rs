@@ -182,14 +182,17 @@ fn grow_by_one(
         now
     };
     let (mut generate, mut join, mut fold) = (0.0, 0.0, 0.0);
-    let task = replica.task(setup, Job::Generate { place }).expect("sets can be generated");
+    let (strategy, ordinal) = setup.plan.set_at(place).expect("the schedule does not adapt");
+    let generate_set = Job::Generate { place, strategy, ordinal };
+    let task = replica.task(setup, generate_set).expect("sets can be generated");
     let Outcome::Increment(Ok(increment)) = task.run(setup, scratch) else {
         panic!("the scene has free configurations")
     };
     let now = split(begun, &mut generate);
     replica.publish(setup, Arc::new(increment));
     let now = split(now, &mut fold);
-    let task = replica.task(setup, Job::Join { place }).expect("the set is published");
+    let join_set = Job::Join { place, strategy, ordinal };
+    let task = replica.task(setup, join_set).expect("the set is published");
     let Outcome::Joined(Joined { edges, .. }) = task.run(setup, scratch) else {
         panic!("joins give edges")
     };

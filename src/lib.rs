@@ -47,6 +47,7 @@ pub mod roadmap;
 pub mod robot;
 pub mod sampler;
 pub mod scene;
+pub mod schedule;
 pub mod seed;
 pub mod space;
 mod strategy;

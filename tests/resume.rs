@@ -6,12 +6,13 @@ use roadmill::img::{
 };
 use roadmill::problem::Problem;
 use roadmill::roadmap::Roadmap;
+use roadmill::schedule::Adaptive;
 use roadmill::validity::Edges;
 use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
 
-const PROBLEMS: [&str; 4] = ["judged", "settled", "meshes", "slide"];
+const PROBLEMS: [&str; 5] = ["judged", "settled", "meshes", "slide", "adaptive"];
 
 fn load(name: &str) -> Problem {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems");
@@ -74,10 +75,12 @@ impl Keeper {
 
     /// Goes on from what is kept until the next cut.
     fn go_on(&mut self, setup: &Setup, executor: &mut impl Executor, lookahead: u64) -> Stop {
-        self.rounds.iter().for_each(|round| executor.restore(round));
-        let nodes = executor.roadmap().configs().len() as u64;
-        let verdicts = self.judgement().map(|judgement| judgement.verdicts);
-        let past = Past { rounds: self.rounds.len() as u64, nodes, verdicts };
+        let mut past = Past::new(setup);
+        for round in &self.rounds {
+            executor.restore(round);
+            past.fold(round);
+        }
+        past.verdicts = self.judgement().map(|judgement| judgement.verdicts);
         let Ok(stop) = drive(&mut Core::resume(setup, lookahead, past), executor, self);
         stop
     }
@@ -145,24 +148,40 @@ fn no_schedule_of_cuts_and_mishaps_changes_a_bit() {
 
 /// `slide` with another strategy, scheduled with what is there.
 fn further() -> Problem {
-    let mut changed = load("slide");
+    further_than("slide", None)
+}
+
+fn further_than(name: &str, adaptive: Option<Adaptive>) -> Problem {
+    let mut changed = load(name);
     let mut strategy = changed.strategies[0].clone();
     strategy.label = "further".to_owned();
     strategy.nodes += 3;
     changed.strategies.push(strategy);
     changed.schedule = vec![changed.strategies.len() as u32 - 1, 0];
+    changed.adaptive = adaptive;
     changed.sets_per_round += 1;
     changed.limits.nodes *= 2;
+    changed.limits.sets = changed.limits.sets.saturating_mul(2);
     changed
 }
 
 #[test]
 fn a_chapter_adds_to_what_is_there_and_ordinals_count_on() {
-    let begun = Arc::new(Setup::new(load("slide")));
+    let adaptive = Some(Adaptive { rounds: 3 });
+    // From one schedule to another, to one that adapts, from one that adapts, and to another such.
+    for (name, then) in
+        [("slide", None), ("slide", adaptive), ("adaptive", None), ("adaptive", adaptive)]
+    {
+        a_chapter_adds(name, &further_than(name, then));
+    }
+}
+
+fn a_chapter_adds(name: &str, further: &Problem) {
+    let begun = Arc::new(Setup::new(load(name)));
     let mut kept = Keeper::default();
     kept.go_on(&begun, &mut Serial::new(begun.clone()), 0);
     let before = kept.rounds.len();
-    let problem = begun.problem.continued(&further(), before as u64).unwrap();
+    let problem = begun.problem.continued(further, before as u64).unwrap();
     let setup = Arc::new(Setup::new(problem));
     let whole = resume_with(&setup, Serial::new(setup.clone()), 0, &kept.rounds, None);
 

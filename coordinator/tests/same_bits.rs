@@ -218,6 +218,11 @@ fn same_bits_for_what_is_judged_by_the_roadmaps_history() {
 }
 
 #[test]
+fn same_bits_for_a_schedule_that_adapts() {
+    processes_build_what_threads_build("adaptive");
+}
+
+#[test]
 fn same_bits_for_every_sampler() {
     processes_build_what_threads_build("sampled");
 }

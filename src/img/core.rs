@@ -139,14 +139,28 @@ pub struct Progress {
 }
 
 /// How far a build had come that goes on.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Past {
-    /// Rounds folded.
-    pub rounds: u64,
-    /// Their nodes.
-    pub nodes: u64,
-    /// The verdicts on the last of them; `None` where it is to be judged first.
+    plan: Plan,
+    rounds: u64,
+    nodes: u64,
+    /// The verdicts on the last round; `None` where it is to be judged first.
     pub verdicts: Option<Vec<Verdict>>,
+}
+
+impl Past {
+    /// Nothing yet.
+    pub fn new(setup: &Setup) -> Past {
+        Past { plan: setup.plan.clone(), rounds: 0, nodes: 0, verdicts: None }
+    }
+
+    /// Takes in the next round that was folded.
+    pub fn fold(&mut self, round: &Round) {
+        self.plan.observe(round);
+        self.rounds += 1;
+        self.nodes += round.sets.iter().map(|set| set.increment.configs.len() as u64).sum::<u64>();
+        self.verdicts = None;
+    }
 }
 
 /// The state of a build.
@@ -182,7 +196,7 @@ impl Core {
     /// The build of a problem, from the beginning. `lookahead` is how many sets beyond the
     /// current round may be generated; it changes how well workers are kept busy, never a result.
     pub fn new(setup: &Setup, lookahead: u64) -> Core {
-        Core::resume(setup, lookahead, Past::default())
+        Core::resume(setup, lookahead, Past::new(setup))
     }
 
     /// The build of a problem from where it was interrupted; what was folded is known to the jobs
@@ -192,7 +206,7 @@ impl Core {
         let sets = setup.plan.places_of(past.rounds).start;
         let is_judged = past.verdicts.is_some();
         Core {
-            plan: setup.plan.clone(),
+            plan: past.plan,
             dofs: setup.cx.space.len(),
             set_nodes: strategies.iter().map(|strategy| u64::from(strategy.nodes)).collect(),
             limits: setup.problem.limits,
@@ -283,11 +297,11 @@ impl Core {
         }
         self.done.insert(job, finished.digest);
         match (job, finished.outcome) {
-            (Job::Generate { place }, Outcome::Increment(increment)) => {
+            (Job::Generate { place, .. }, Outcome::Increment(increment)) => {
                 self.progress.sets_generated += 1;
                 self.early.insert(place, increment);
             }
-            (Job::Join { place }, Outcome::Joined(joined)) => {
+            (Job::Join { place, .. }, Outcome::Joined(joined)) => {
                 self.progress.sets_joined += 1;
                 self.joined.insert(place, joined);
             }
@@ -304,11 +318,11 @@ impl Core {
     fn fits(&self, job: Job, outcome: &Outcome) -> bool {
         match (job, outcome) {
             (Job::Generate { .. }, Outcome::Increment(Err(_))) => true,
-            (Job::Generate { place }, Outcome::Increment(Ok(increment))) => {
-                let nodes = self.set_nodes[self.plan.set_at(place).0 as usize];
+            (Job::Generate { strategy, .. }, Outcome::Increment(Ok(increment))) => {
+                let nodes = self.set_nodes[strategy as usize];
                 increment.is_sound(self.dofs) && increment.configs.len() as u64 == nodes
             }
-            (Job::Join { place }, Outcome::Joined(joined)) => {
+            (Job::Join { place, .. }, Outcome::Joined(joined)) => {
                 let offset = (place - self.plan.places_of(self.round).start) as usize;
                 let before = &self.published[..offset.min(self.published.len())];
                 let first = self.progress.nodes
@@ -376,7 +390,7 @@ impl Core {
                 Some(Err(gave_up)) => {
                     // Not before the judgement: it may say that the set was never needed.
                     if self.awaited.is_none() {
-                        let (strategy, ordinal) = self.plan.set_at(place);
+                        let (strategy, ordinal) = self.set_at(place);
                         let gave_up = gave_up.clone();
                         self.stop(Stop::GaveUp { strategy, ordinal, gave_up }, commands);
                     }
@@ -388,7 +402,8 @@ impl Core {
                 let increment = Arc::new(increment);
                 self.published.push(increment.clone());
                 commands.push(Command::Publish(increment));
-                self.submit(Job::Join { place }, commands);
+                let (strategy, ordinal) = self.set_at(place);
+                self.submit(Job::Join { place, strategy, ordinal }, commands);
             }
         }
     }
@@ -402,13 +417,16 @@ impl Core {
         }
         let joined = std::mem::take(&mut self.joined).into_values();
         let mut sets = Vec::with_capacity(count);
-        for (increment, (place, joined)) in self.published.drain(..).zip(places.zip(joined)) {
+        let published = std::mem::take(&mut self.published).into_iter();
+        for (increment, (place, joined)) in published.zip(places.zip(joined)) {
             self.progress.nodes += increment.configs.len() as u64;
-            let (strategy, ordinal) = self.plan.set_at(place);
+            let (strategy, ordinal) = self.set_at(place);
             sets.push(RoundSet { place, strategy, ordinal, increment, joined });
         }
         let round = self.round;
-        commands.push(Command::Fold(Round { index: round, sets }));
+        let folded = Round { index: round, sets };
+        self.plan.observe(&folded);
+        commands.push(Command::Fold(folded));
         self.round += 1;
         self.progress.rounds += 1;
         self.evaluate(round, commands);
@@ -423,9 +441,10 @@ impl Core {
         }
     }
 
-    /// Hands out sets up to the lookahead, but none past the round that reaches a limit.
+    /// Hands out sets up to the lookahead, but none past the round that reaches a limit, and none
+    /// whose strategy depends on rounds to come.
     fn generate(&mut self, commands: &mut Vec<Command>) {
-        let end = self.current().end + self.lookahead;
+        let end = (self.current().end + self.lookahead).min(self.plan.known_until());
         while self.next_generate < end {
             let place = self.next_generate;
             let round = self.plan.places_of(self.plan.round_of(place));
@@ -434,11 +453,12 @@ impl Core {
                 return;
             }
             if place == round.start {
-                let nodes = |place| self.set_nodes[self.plan.set_at(place).0 as usize];
+                let nodes = |place| self.set_nodes[self.set_at(place).0 as usize];
                 self.nodes_ahead += round.map(nodes).sum::<u64>();
             }
             self.next_generate += 1;
-            self.submit(Job::Generate { place }, commands);
+            let (strategy, ordinal) = self.set_at(place);
+            self.submit(Job::Generate { place, strategy, ordinal }, commands);
         }
     }
 
@@ -446,6 +466,11 @@ impl Core {
         let before = self.at_work.insert(job, 0);
         debug_assert!(before.is_none() && !self.done.contains_key(&job), "{job:?} twice");
         commands.push(Command::Submit(job));
+    }
+
+    /// The set at a place of the current round, or of one that was generated ahead.
+    fn set_at(&self, place: u64) -> (u32, u64) {
+        self.plan.set_at(place).expect("nothing is generated where the schedule is not known")
     }
 
     fn current(&self) -> Range<u64> {

@@ -21,11 +21,19 @@ pub enum Job {
     Join {
         /// The set's place.
         place: u64,
+        /// Index of its strategy.
+        strategy: u32,
+        /// Its ordinal within the strategy.
+        ordinal: u64,
     },
     /// Make the increment of the set at `place`.
     Generate {
         /// The set's place.
         place: u64,
+        /// Index of its strategy.
+        strategy: u32,
+        /// Its ordinal within the strategy.
+        ordinal: u64,
     },
 }
 

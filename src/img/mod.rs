@@ -7,6 +7,7 @@
 
 mod core;
 mod drive;
+mod history;
 mod job;
 mod plan;
 mod replica;
@@ -92,12 +93,12 @@ pub fn resume_with(
             Ok(())
         }
     }
-    rounds.iter().for_each(|round| executor.restore(round));
-    let past = Past {
-        rounds: rounds.len() as u64,
-        nodes: executor.roadmap().configs().len() as u64,
-        verdicts: judgement.as_ref().map(|judgement| judgement.verdicts.clone()),
-    };
+    let mut past = Past::new(setup);
+    for round in rounds {
+        executor.restore(round);
+        past.fold(round);
+    }
+    past.verdicts = judgement.as_ref().map(|judgement| judgement.verdicts.clone());
     let mut core = Core::resume(setup, lookahead, past);
     let mut last = Last(judgement);
     let stop = match drive(&mut core, &mut executor, &mut last) {

@@ -59,15 +59,12 @@ impl Replica {
     /// again after a loss, but done by the worker believed dead, and the build has moved on.
     pub fn task(&self, setup: &Setup, job: Job) -> Option<Task> {
         match job {
-            Job::Generate { place } => {
-                let (strategy, ordinal) = setup.plan.set_at(place);
-                Some(Task::Generate { strategy, ordinal })
-            }
-            Job::Join { place } => {
+            Job::Generate { strategy, ordinal, .. } => Some(Task::Generate { strategy, ordinal }),
+            Job::Join { place, strategy, .. } => {
                 let index = usize::try_from(place.checked_sub(self.first)?).ok()?;
                 let increments = self.increments.get(..=index)?.to_vec();
                 let input = JoinInput { roadmap: self.roadmap.clone(), increments };
-                Some(Task::Join { strategy: setup.plan.set_at(place).0, input })
+                Some(Task::Join { strategy, input })
             }
             Job::Evaluate { round, evaluator } => {
                 let current = setup.plan.places_of(round).end == self.first;

@@ -34,6 +34,15 @@ fn setup() -> Arc<Setup> {
     Arc::new(Setup::new(Problem::parse(Path::new("p.toml"), PROBLEM).unwrap()))
 }
 
+/// Of the only strategy.
+fn generate(place: u64) -> Job {
+    Job::Generate { place, strategy: 0, ordinal: place }
+}
+
+fn join(place: u64) -> Job {
+    Job::Join { place, strategy: 0, ordinal: place }
+}
+
 fn jobs(commands: &[Command]) -> Vec<Job> {
     let job = |command: &Command| match command {
         Command::Submit(job) => Some(*job),
@@ -59,12 +68,11 @@ fn joins_wait_for_the_increments_before_them_and_nothing_else() {
     let setup = setup();
     let replica = Replica::new(&setup);
     let mut core = Core::new(&setup, 0);
-    let generate = |place| Job::Generate { place };
     assert_eq!(jobs(&core.start()), [generate(0), generate(1)]);
     // The second increment comes first and waits for the first.
     assert!(core.on_event(done(&setup, &replica, generate(1))).is_empty());
     let commands = core.on_event(done(&setup, &replica, generate(0)));
-    assert_eq!(jobs(&commands), [Job::Join { place: 0 }, Job::Join { place: 1 }]);
+    assert_eq!(jobs(&commands), [join(0), join(1)]);
     let published = |command: &&Command| matches!(command, Command::Publish(_));
     assert_eq!(commands.iter().filter(published).count(), 2);
 }
@@ -90,7 +98,7 @@ fn an_answer_that_differs_from_the_first_ends_the_build() {
     let replica = Replica::new(&setup);
     let mut core = Core::new(&setup, 0);
     core.start();
-    let job = Job::Generate { place: 0 };
+    let job = generate(0);
     core.on_event(done(&setup, &replica, job));
     assert!(core.on_event(done(&setup, &replica, job)).is_empty());
     let other = Outcome::Increment(Err(GaveUp { attempts: 1 }));
@@ -102,7 +110,7 @@ fn an_answer_that_differs_from_the_first_ends_the_build() {
 fn impossible_answers_end_the_build() {
     let setup = setup();
     let replica = Replica::new(&setup);
-    let first = Job::Generate { place: 0 };
+    let first = generate(0);
     let task = replica.task(&setup, first).unwrap();
     let Outcome::Increment(Ok(mut increment)) = task.run(&setup, &mut Scratch::new()) else {
         panic!("the sampler finds milestones");
@@ -111,9 +119,7 @@ fn impossible_answers_end_the_build() {
     let no_such_node = Outcome::Increment(Ok(increment));
     let joined = Outcome::Joined(Joined { edges: Vec::new(), asked: Default::default() });
     let gave_up = Outcome::Increment(Err(GaveUp { attempts: 1 }));
-    for (job, outcome) in
-        [(first, no_such_node), (first, joined), (Job::Generate { place: 99 }, gave_up)]
-    {
+    for (job, outcome) in [(first, no_such_node), (first, joined), (generate(99), gave_up)] {
         let mut core = Core::new(&setup, 0);
         core.start();
         let commands = core.on_event(Event::Done(job, Finished::new(outcome)));
@@ -126,7 +132,7 @@ fn a_job_lost_three_times_ends_the_build_and_is_named() {
     let setup = setup();
     let mut core = Core::new(&setup, 0);
     core.start();
-    let job = Job::Generate { place: 1 };
+    let job = generate(1);
     for _ in 0..2 {
         assert_eq!(jobs(&core.on_event(Event::Lost(job))), [job]);
     }
@@ -144,7 +150,7 @@ fn a_set_that_gave_up_counts_only_if_the_rounds_before_it_do_not_suffice() {
     let mut core = Core::new(&setup, 1);
     let mut replica = Replica::new(&setup);
     let mut commands = core.start();
-    let second = Job::Generate { place: 1 };
+    let second = generate(1);
     let gave_up = Finished::new(Outcome::Increment(Err(GaveUp { attempts: 9 })));
     assert!(core.on_event(Event::Done(second, gave_up)).is_empty());
     loop {
@@ -190,4 +196,39 @@ fn a_sampler_that_gives_up_ends_the_build_with_its_name() {
         assert_eq!(gave_up, GaveUp { attempts: 50 });
         assert!(ordinal >= built.roadmap.sets());
     }
+}
+
+#[test]
+fn nothing_is_generated_whose_strategy_depends_on_rounds_to_come() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems/adaptive.toml");
+    let setup = Arc::new(Setup::new(Problem::load(&path).unwrap()));
+    let sets = setup.problem.sets_per_round as usize;
+    assert_eq!(jobs(&Core::new(&setup, 100).start()).len(), sets);
+
+    struct Keep(Vec<Round>);
+    impl Observer for Keep {
+        type Error = std::convert::Infallible;
+        fn folded(&mut self, round: &Round, _: &Roadmap) -> Result<(), Self::Error> {
+            self.0.push(round.clone());
+            Ok(())
+        }
+    }
+    let mut kept = Keep(Vec::new());
+    let Ok(_) = drive(&mut Core::new(&setup, 100), &mut Serial::new(setup.clone()), &mut kept);
+    // The plan alone, told of the rounds so far, knows the next round and no other.
+    let mut plan = setup.plan.clone();
+    let mut sets_of = vec![0; setup.problem.strategies.len()];
+    for round in &kept.0 {
+        assert_eq!(plan.known_until(), plan.places_of(round.index).end);
+        assert_eq!(plan.set_at(plan.known_until()), None);
+        for set in &round.sets {
+            assert_eq!(plan.set_at(set.place), Some((set.strategy, set.ordinal)));
+            assert_eq!(set.ordinal, sets_of[set.strategy as usize]);
+            sets_of[set.strategy as usize] += 1;
+        }
+        plan.observe(round);
+    }
+    assert!(sets_of.iter().all(|sets| *sets > 0), "every one is tried: {sets_of:?}");
+    let (least, most) = (sets_of.iter().min(), sets_of.iter().max());
+    assert!(least < most, "and some more than others: {sets_of:?}");
 }

@@ -2,10 +2,11 @@
 
 use super::Limits;
 use super::error::ProblemError;
-use super::file::{File, StrategyTable};
+use super::file::{File, PolicyTable, ScheduleTable, StrategyTable};
 use super::source::Source;
 use super::source::Step::{Index, Key};
 use crate::evaluate::{self, EvaluatorKind};
+use crate::schedule::Adaptive;
 use crate::strategy::Strategy;
 
 /// The most nodes a roadmap may have: ids take 32 bits, and two more name start and goal.
@@ -59,8 +60,8 @@ pub(super) fn strategies_of(
 
     let place = [Key("img"), Key("schedule")];
     let schedule = match &file.img.schedule {
-        None => (0..strategies.len() as u32).collect(),
-        Some(labels) => {
+        None | Some(ScheduleTable::Policy(_)) => (0..strategies.len() as u32).collect(),
+        Some(ScheduleTable::Labels(labels)) => {
             let mut schedule = Vec::new();
             for label in labels {
                 let Some(index) = strategies.iter().position(|other| other.label == *label) else {
@@ -88,6 +89,18 @@ pub(super) fn strategies_of(
         return Err(source.error(&[Key("img"), Key("sets_per_round")], message));
     }
     Ok((strategies, schedule, sets as u32))
+}
+
+/// How the schedule adapts, if it does.
+pub(super) fn adaptive_of(source: &Source, file: &File) -> Result<Option<Adaptive>, ProblemError> {
+    match &file.img.schedule {
+        Some(ScheduleTable::Policy(PolicyTable::Adaptive(Adaptive { rounds: 0 }))) => {
+            let message = "rounds = 0 found; at least 1 expected".to_owned();
+            Err(source.error(&[Key("img"), Key("schedule")], message))
+        }
+        Some(ScheduleTable::Policy(PolicyTable::Adaptive(adaptive))) => Ok(Some(*adaptive)),
+        None | Some(ScheduleTable::Labels(_)) => Ok(None),
+    }
 }
 
 /// What a problem that says nothing of it is built with: strategies, schedule, sets per round.

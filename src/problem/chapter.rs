@@ -2,6 +2,7 @@
 //! strategies. What is there already stays what it was.
 
 use super::Problem;
+use crate::schedule::Adaptive;
 use bincode::{Decode, Encode};
 
 /// How the sets of some rounds were scheduled, before another schedule took over.
@@ -11,6 +12,8 @@ pub struct Earlier {
     pub rounds: u64,
     /// As [`Problem::schedule`].
     pub schedule: Vec<u32>,
+    /// As [`Problem::adaptive`].
+    pub adaptive: Option<Adaptive>,
     /// As [`Problem::sets_per_round`].
     pub sets_per_round: u32,
 }
@@ -47,12 +50,14 @@ impl Problem {
         let schedule: Vec<u32> =
             changed.schedule.iter().map(|strategy| index[*strategy as usize]).collect();
         let mut earlier = self.earlier.clone();
-        if (&schedule, changed.sets_per_round) != (&self.schedule, self.sets_per_round) {
+        let present = (&self.schedule, self.adaptive, self.sets_per_round);
+        if (&schedule, changed.adaptive, changed.sets_per_round) != present {
             let before: u64 = earlier.iter().map(|earlier| earlier.rounds).sum();
             if rounds > before {
                 earlier.push(Earlier {
                     rounds: rounds - before,
                     schedule: self.schedule.clone(),
+                    adaptive: self.adaptive,
                     sets_per_round: self.sets_per_round,
                 });
             }
@@ -61,6 +66,7 @@ impl Problem {
             query: changed.query.clone(),
             strategies,
             schedule,
+            adaptive: changed.adaptive,
             sets_per_round: changed.sets_per_round,
             evaluators: changed.evaluators.clone(),
             limits: changed.limits,
@@ -86,6 +92,7 @@ impl Problem {
             query: _,
             strategies: _,
             schedule: _,
+            adaptive: _,
             sets_per_round: _,
             evaluators: _,
             limits: _,

@@ -1,6 +1,7 @@
 use super::Problem;
 use crate::robot::{JointKind, Limits};
 use crate::scene::{Body, Shape};
+use crate::schedule::Adaptive;
 use crate::space::Motion;
 use crate::validity::{BoundsMeaning, Edges, TOLERANCE};
 use std::fmt::Write;
@@ -112,8 +113,13 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         .collect();
     writeln!(
         out,
-        "schedule         {}, over and over; {} sets per round",
+        "schedule         {}, {}; {} sets per round",
         labels.join(" "),
+        match problem.adaptive {
+            None => "over and over".to_owned(),
+            Some(Adaptive { rounds }) =>
+                format!("by what they united for their cost in the last {rounds} rounds"),
+        },
         problem.sets_per_round
     )?;
     for evaluator in &problem.evaluators {

@@ -3,6 +3,7 @@
 use crate::connect::{AmongKind, ComponentPairs, Nearest, WithinKind};
 use crate::evaluate::EvaluatorKind;
 use crate::sampler::{SamplerKind, Uniform};
+use crate::schedule::Adaptive;
 use crate::space::Motion;
 use crate::validity::{BoundsMeaning, Edges};
 use serde::Deserialize;
@@ -185,7 +186,21 @@ pub(super) struct QueryTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct ImgTable {
     pub sets_per_round: Option<u64>,
-    pub schedule: Option<Vec<String>>,
+    pub schedule: Option<ScheduleTable>,
+}
+
+/// Labels over and over, or a policy.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected an array of labels, or { adaptive = { rounds = … } }")]
+pub(super) enum ScheduleTable {
+    Labels(Vec<String>),
+    Policy(PolicyTable),
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum PolicyTable {
+    Adaptive(Adaptive),
 }
 
 #[derive(Deserialize)]

@@ -121,6 +121,7 @@ fn finished(path: &Path, parts: Parts) -> Result<Problem, ProblemError> {
         query: None,
         strategies,
         schedule,
+        adaptive: None,
         sets_per_round,
         evaluators: Vec::new(),
         limits: building::default_limits(),

@@ -27,6 +27,7 @@ use crate::foreign::SceneOptions;
 use crate::roadmap::Digest;
 use crate::robot::Robot;
 use crate::scene::Body;
+use crate::schedule::Adaptive;
 use crate::space::Space;
 use crate::strategy::Strategy;
 use crate::validity::{BodyValidity, Bounds, Edges};
@@ -62,6 +63,8 @@ pub struct Problem {
     pub strategies: Vec<Strategy>,
     /// Indices of strategies; set by set, over and over.
     pub schedule: Vec<u32>,
+    /// Where the schedule adapts: how sets are given out among those of `schedule`.
+    pub adaptive: Option<Adaptive>,
     /// Sets per round (TR05-007: *k*).
     pub sets_per_round: u32,
     /// The criteria that a finished roadmap meets, all of them.
@@ -128,7 +131,7 @@ impl Problem {
             (self.seed, self.bounds),
             (self.resolution, self.edges, self.rotation_length),
             (&self.robot, &self.obstacles),
-            (&self.strategies, &self.schedule, self.sets_per_round, &self.earlier),
+            (&self.strategies, &self.schedule, self.adaptive, self.sets_per_round, &self.earlier),
         );
         Digest::of(&crate::wire::encode(&determining))
     }

@@ -1,7 +1,7 @@
 //! From the file as written to a checked problem.
 
 use super::bodies::{bodies, check_bodies};
-use super::building::{evaluators_of, limits_of, strategies_of};
+use super::building::{adaptive_of, evaluators_of, limits_of, strategies_of};
 use super::error::ProblemError;
 use super::file::{File, QueryTable};
 use super::linkage::{fits, fitting, robot_of};
@@ -33,6 +33,7 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
     let resolution = resolution_of(&source, &file, &bounds, &robot, &mut notes)?;
     let rotation_length = rotation_length_of(&source, &file, &robot, &mut notes)?;
     let (strategies, schedule, sets_per_round) = strategies_of(&source, &file)?;
+    let adaptive = adaptive_of(&source, &file)?;
     let limits = limits_of(&source, &file)?;
     let evaluators = evaluators_of(&source, &file)?;
     let seed = file.seed.unwrap_or(DEFAULT_SEED);
@@ -49,6 +50,7 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
         query: None,
         strategies,
         schedule,
+        adaptive,
         sets_per_round,
         evaluators,
         limits,

@@ -60,6 +60,8 @@ fn errors_in_added_tables_name_the_key() {
             &format!("{strategy}within = {{ nearest = {{ neighbors = 0 }} }}\n"),
             "strategies[0].within: neighbors = 0 found; at least 1 expected",
         ),
+        ("[img]\nschedule = { adaptive = { round = 3 } }\n", "an array of labels, or { adaptive"),
+        ("[img]\nschedule = { adaptive = { rounds = 0 } }\n", "img.schedule: rounds = 0 found"),
         (&format!("{strategy}[img]\nschedule = [\"b\"]\n"), "img.schedule: `b` found"),
         (
             "[[obstacles]]\nshape = { mesh = { file = \"none.obj\" } }\n",

@@ -169,7 +169,10 @@ fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
     let labels = problem.schedule.iter().map(|index| &problem.strategies[*index as usize].label);
     let labels: Vec<&String> = labels.collect();
     writeln!(out, "\n[img]\nsets_per_round = {}", problem.sets_per_round)?;
-    writeln!(out, "schedule = {}", value(&labels))?;
+    match &problem.adaptive {
+        None => writeln!(out, "schedule = {}", value(&labels))?,
+        Some(adaptive) => writeln!(out, "schedule = {{ adaptive = {} }}", value(adaptive))?,
+    }
     for strategy in &problem.strategies {
         writeln!(out, "\n[[strategies]]\nlabel = {}", value(&strategy.label))?;
         writeln!(out, "nodes = {}\nsampler = {}", strategy.nodes, value(&strategy.sampler))?;

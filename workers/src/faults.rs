@@ -75,10 +75,9 @@ impl Faults {
 
     /// What goes wrong with the answer to `job`: nothing, a slip, or the end of the process.
     pub fn at(&self, job: Job, setup: &Setup) -> Option<Slip> {
-        let Job::Generate { place } = job else {
+        let Job::Generate { strategy, ordinal, .. } = job else {
             return None;
         };
-        let (strategy, ordinal) = setup.plan.set_at(place);
         let label = &setup.problem.strategies[strategy as usize].label;
         let here = |fault: &&Fault| fault.ordinal == ordinal && fault.label == *label;
         match &self.faults.iter().find(here)?.effect {

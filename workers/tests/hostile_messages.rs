@@ -28,7 +28,7 @@ fn messages() -> Vec<Vec<u8>> {
     let verdict =
         |parts: Vec<Verdict>| Verdict { parts, ..Verdict::at_least(1.0, 1.0, Asked::default()) };
     let nested = verdict(vec![verdict(Vec::new()), verdict(vec![verdict(Vec::new())])]);
-    let job = Job::Join { place: 3 };
+    let job = Job::Join { place: 3, strategy: 0, ordinal: 3 };
     let entries = [Entry::Increment(set), Entry::Fold(vec![vec![edge; 2]; 2])];
     let outcomes = [increment, Outcome::Joined(joined), Outcome::Verdict(Box::new(nested))];
     let mut messages = vec![

@@ -62,7 +62,7 @@ impl Growth<'_> {
         };
         let (stop, roadmap) = if arguments.crew.threads.is_some() {
             let threads = Threads::new(setup.clone(), workers);
-            let mut threads = Imported::new(threads, setup, imports);
+            let mut threads = Imported::new(threads, imports);
             folder.begun()?;
             let stop = watch.drive(past.as_ref(), &mut threads)?;
             (stop, threads.into_roadmap())
@@ -77,7 +77,7 @@ impl Growth<'_> {
                 }
             };
             folder.begun()?;
-            let mut pool = Imported::new(pool, setup, imports);
+            let mut pool = Imported::new(pool, imports);
             let stop = watch.drive(past.as_ref(), &mut pool);
             // Also where the ledger cannot be written: the workers end before their channel does.
             let (roadmap, closed) = pool.into_inner().close();
@@ -142,7 +142,7 @@ impl Watch {
     ) -> Result<Stop, Failure> {
         let past = match past {
             Some(scan) => self.restore(scan, executor)?,
-            None => Past::default(),
+            None => Past::new(&self.setup),
         };
         let lookahead = LOOKAHEAD_PER_WORKER * self.workers as u64;
         let mut core = Core::resume(&self.setup, lookahead, past);
@@ -153,17 +153,19 @@ impl Watch {
     /// Folds what there is already.
     fn restore(&self, scan: &Scan, executor: &mut impl Executor) -> Result<Past, Failure> {
         let mut replay = Replay::new(scan, &self.setup.problem)?;
+        let mut past = Past::new(&self.setup);
         while let Some(told) = replay.read()? {
             if let Told::Round(round, digest) = told {
                 executor.restore(&round);
                 replay.check(executor.roadmap(), digest)?;
+                past.fold(&round);
             }
             if self.signals.came() {
                 return Err(Failure::new(Code::Interrupted, "a signal came"));
             }
         }
-        let nodes = executor.roadmap().configs().len() as u64;
-        Ok(Past { rounds: scan.rounds(), nodes, verdicts: scan.verdicts.clone() })
+        past.verdicts.clone_from(&scan.verdicts);
+        Ok(past)
     }
 
     /// Writes down and says what the build came to.

@@ -91,6 +91,7 @@ fn difference(present: &Problem, next: &Problem) -> Option<&'static str> {
         ("the limits are", present.limits == next.limits),
         // Of a chapter without rounds these differ alone.
         ("the schedule is", present.schedule == next.schedule),
+        ("the policy of the schedule is", present.adaptive == next.adaptive),
         ("the sets per round are", present.sets_per_round == next.sets_per_round),
     ];
     parts.into_iter().find(|(_, same)| !same).map(|(what, _)| what)

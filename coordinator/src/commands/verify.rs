@@ -203,11 +203,13 @@ impl Check<'_> {
             return Ok(());
         }
         needs_bits(&format!("set {label}:{}", set.ordinal), &self.scan.chapters[chapter])?;
-        let place = set.place;
+        let RoundSet { place, strategy, ordinal, .. } = *set;
         let increment = Outcome::Increment(Ok((*set.increment).clone()));
         let joined = Outcome::Joined(set.joined.clone());
-        for (job, outcome) in [(Job::Generate { place }, increment), (Job::Join { place }, joined)]
-        {
+        for (job, outcome) in [
+            (Job::Generate { place, strategy, ordinal }, increment),
+            (Job::Join { place, strategy, ordinal }, joined),
+        ] {
             self.at_work.insert(job, (outcome, 0));
             executor.submit(job);
         }
@@ -255,20 +257,20 @@ impl Check<'_> {
         }
         let (at, found) = match (job, expected, &finished.outcome) {
             (
-                Job::Generate { place },
+                Job::Generate { place, .. },
                 Outcome::Increment(Ok(recorded)),
                 Outcome::Increment(Ok(found)),
             ) => {
                 let found = difference::of_increments(&self.setup.cx.space, recorded, found);
                 ((place, 0), found)
             }
-            (Job::Generate { place }, _, Outcome::Increment(Err(gave_up))) => {
+            (Job::Generate { place, .. }, _, Outcome::Increment(Err(gave_up))) => {
                 ((place, 0), Some(format!("a set and none: {gave_up}")))
             }
-            (Job::Join { place }, Outcome::Joined(recorded), Outcome::Joined(found)) => {
+            (Job::Join { place, .. }, Outcome::Joined(recorded), Outcome::Joined(found)) => {
                 ((place, 1), difference::of_joins(recorded, found))
             }
-            (Job::Generate { place } | Job::Join { place }, _, _) => ((place, 2), None),
+            (Job::Generate { place, .. } | Job::Join { place, .. }, _, _) => ((place, 2), None),
             (Job::Evaluate { .. }, _, _) => return,
         };
         let found = found.unwrap_or_else(|| "what was recomputed is no such thing".to_owned());

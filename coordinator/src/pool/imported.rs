@@ -1,6 +1,6 @@
 use crate::exit::Failure;
 use crate::run::SetFiles;
-use roadmill::img::{Cut, Event, Executor, Finished, Job, Round, Setup};
+use roadmill::img::{Cut, Event, Executor, Finished, Job, Round};
 use roadmill::roadmap::{Increment, Roadmap};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -9,7 +9,6 @@ use std::time::Duration;
 /// An executor that takes what there is from files of sets and leaves all other jobs to another.
 pub struct Imported<E> {
     inner: E,
-    setup: Arc<Setup>,
     files: SetFiles,
     /// Sets to be read.
     waiting: BTreeSet<Job>,
@@ -18,8 +17,8 @@ pub struct Imported<E> {
 
 impl<E: Executor> Imported<E> {
     /// Puts files before an executor.
-    pub fn new(inner: E, setup: Arc<Setup>, files: SetFiles) -> Imported<E> {
-        Imported { inner, setup, files, waiting: BTreeSet::new(), failure: None }
+    pub fn new(inner: E, files: SetFiles) -> Imported<E> {
+        Imported { inner, files, waiting: BTreeSet::new(), failure: None }
     }
 
     /// The other executor.
@@ -31,10 +30,12 @@ impl<E: Executor> Imported<E> {
     pub fn take_failure(&mut self) -> Option<Failure> {
         self.failure.take()
     }
+}
 
-    fn set_of(&self, job: Job) -> Option<(u32, u64)> {
-        let Job::Generate { place } = job else { return None };
-        Some(self.setup.plan.set_at(place))
+fn set_of(job: Job) -> Option<(u32, u64)> {
+    match job {
+        Job::Generate { strategy, ordinal, .. } => Some((strategy, ordinal)),
+        _ => None,
     }
 }
 
@@ -53,7 +54,7 @@ impl<E: Executor> Executor for Imported<E> {
 
     fn submit(&mut self, job: Job) {
         let is_here = |(strategy, ordinal)| self.files.has(strategy, ordinal);
-        if self.set_of(job).is_some_and(is_here) {
+        if set_of(job).is_some_and(is_here) {
             self.waiting.insert(job);
         } else {
             self.inner.submit(job);
@@ -62,7 +63,7 @@ impl<E: Executor> Executor for Imported<E> {
 
     fn next(&mut self, wait: Duration) -> Option<Event> {
         let Some(job) = self.waiting.pop_first() else { return self.inner.next(wait) };
-        let (strategy, ordinal) = self.set_of(job)?;
+        let (strategy, ordinal) = set_of(job)?;
         match self.files.read(strategy, ordinal) {
             Ok(outcome) => Some(Event::Done(job, Finished::new(outcome?))),
             Err(failure) => {

@@ -55,7 +55,9 @@ impl<'a> Replay<'a> {
                     }
                     let index = self.round;
                     self.round += 1;
-                    return Ok(Some(Told::Round(Round { index, sets }, end.roadmap)));
+                    let round = Round { index, sets };
+                    self.plan.observe(&round);
+                    return Ok(Some(Told::Round(round, end.roadmap)));
                 }
                 Some(Record::Judged(judged)) => return Ok(Some(Told::Judged(judged))),
                 Some(Record::Chapter(_)) => self.chapters += 1,
@@ -85,7 +87,9 @@ impl<'a> Replay<'a> {
 
     /// A set whose folding cannot go out of range, and which is the one that comes here.
     fn set(&mut self, set: Set) -> Result<RoundSet, Failure> {
-        let (strategy, ordinal) = self.plan.set_at(self.place);
+        let Some((strategy, ordinal)) = self.plan.set_at(self.place) else {
+            return Err(self.reader.wrong("more sets than its round has"));
+        };
         let label = &self.problem.strategies[strategy as usize].label;
         if (set.place, &set.label, set.ordinal) != (self.place, label, ordinal) {
             let found = format!("set {}:{} at place {}", set.label, set.ordinal, set.place);

@@ -1,6 +1,6 @@
 use crate::exit::Code;
 use bincode::{Decode, Encode};
-use roadmill::img::{Cut, Job, Plan, Stop};
+use roadmill::img::{Cut, Job, Stop};
 use roadmill::problem::Problem;
 
 /// How a build ended, as the ledger keeps it.
@@ -75,13 +75,14 @@ impl Stopped {
 
 /// A job as people name it: by its set's label and ordinal.
 pub fn name(job: Job, problem: &Problem) -> String {
-    let set = |place: u64| {
-        let (strategy, ordinal) = Plan::new(problem).set_at(place);
+    let set = |strategy: u32, ordinal: u64| {
         format!("{}:{ordinal}", problem.strategies[strategy as usize].label)
     };
     match job {
-        Job::Generate { place } => format!("generating set {}", set(place)),
-        Job::Join { place } => format!("joining set {}", set(place)),
+        Job::Generate { strategy, ordinal, .. } => {
+            format!("generating set {}", set(strategy, ordinal))
+        }
+        Job::Join { strategy, ordinal, .. } => format!("joining set {}", set(strategy, ordinal)),
         Job::Evaluate { round, evaluator } => {
             let evaluator = problem.evaluators[evaluator as usize].method().name();
             format!("the {evaluator} evaluation after round {round}")
