@@ -13,6 +13,8 @@ use roadmill::validity::{Edges, Scratch, State, TOLERANCE};
 use scenes::data;
 
 /// How much finer motions are looked at step by step than the resolution asks for.
+/// Looks at the clearance for every step of the resolution.
+const LOOKS: u64 = 64;
 const FINER: u32 = 16;
 
 /// Whether at each of so many equal steps, the ends excepted, something holds.
@@ -62,8 +64,10 @@ fn real_scenes_are_judged_as_step_by_step() {
             free += usize::from(finer);
             if finer && !accepted {
                 refused += 1;
-                let steps = swept.validity.steps(&a, &b, 1) * TOLERANCE / 2;
-                let near = problem.resolution / TOLERANCE as f64;
+                // Between two looks nothing moves farther than half of their distance from one of them.
+                let steps = swept.validity.steps(&a, &b, 1) * LOOKS;
+                let between = problem.resolution / (2 * LOOKS) as f64;
+                let near = between + problem.resolution / TOLERANCE as f64;
                 let away = at_steps(&swept, (&a, &b), steps, |q| {
                     let clearance = swept.validity.clearance(q, scratch);
                     clearance.is_some_and(|clearance| clearance.distance > near)

@@ -50,8 +50,9 @@ pub enum Edges {
 /// resolution divided by this.
 pub const TOLERANCE: u64 = 2 * FINENESS;
 /// Swept motions are cut into steps so many times finer than the resolution; half a step is the
-/// tolerance.
-const FINENESS: u64 = 64;
+/// tolerance. Milestones nearer than that to something have no edges and count as components of their
+/// own, which crowd out those that could be joined: with 64, one in 2500 among thin walls.
+const FINENESS: u64 = 1 << 16;
 /// More samples than this would be told apart by rounding alone.
 const SAMPLES_MAX: u64 = 1 << 50;
 
@@ -253,12 +254,13 @@ impl BodyValidity {
             })
     }
 
-    /// Whether some two surfaces come, at one of the samples of a swept motion, as near as half a step
-    /// moves the farthest points, or the robot so near to its bounds.
+    /// Whether some two surfaces come, at one of a few samples of a swept motion, so near that they may come
+    /// within the tolerance between two of them, or the robot so near to its bounds.
     #[cfg(test)]
     pub(super) fn comes_near(&self, a: &[f64], b: &[f64], scratch: &mut Scratch) -> bool {
-        let samples = self.steps(a, b, 1) * FINENESS;
+        let samples = self.steps(a, b, 1) * 64;
         let time = 1.0 / samples as f64;
+        let finest = self.resolution / TOLERANCE as f64;
         let Scratch { timeline, stacks, .. } = scratch;
         let clock =
             &mut Clock::new(self.space.way(a, b), self.space.len(), &self.robot, samples, timeline);
@@ -271,13 +273,14 @@ impl BodyValidity {
                 let rates = chain.rates(self.robot.motion, a, b);
                 let tolerance = 0.5 * time * rates.speed_at(reach(meeting.mover, &rates));
                 let way = meeting.nearer(stance, &mut stacks.pairs, None);
-                way.is_some_and(|best| best.clearance.distance <= tolerance + self.slack)
+                way.is_some_and(|best| best.clearance.distance <= tolerance + finest + self.slack)
             }) || self.bounds.meaning == BoundsMeaning::Body
                 && self.links.iter().any(|moving| {
                     let rates = moving.chain.rates(self.robot.motion, a, b);
                     let space = &moving.group.tree.nodes[0].space;
-                    let bend = rates.bend_at(space.radius + rates.distance(space.centre));
-                    let room = bend * time * time / 8.0 + self.slack;
+                    let far = space.radius + rates.distance(space.centre);
+                    let between = 0.5 * time * rates.speed_at(far);
+                    let room = rates.bend_at(far) * time * time / 8.0 + between + self.slack;
                     let Walls { min, max, axes } = self.walls();
                     let [min, max] = [min.map(|x| x + room), max.map(|x| x - room)];
                     let narrower = Walls { min, max, axes };
