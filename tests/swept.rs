@@ -13,9 +13,9 @@ use roadmill::validity::{Edges, Scratch, State, TOLERANCE};
 use scenes::data;
 
 /// How much finer motions are looked at step by step than the resolution asks for.
+const FINER: u32 = 16;
 /// Looks at the clearance for every step of the resolution.
 const LOOKS: u64 = 64;
-const FINER: u32 = 16;
 
 /// Whether at each of so many equal steps, the ends excepted, something holds.
 fn at_steps(
