@@ -11,7 +11,7 @@ use std::sync::Arc;
 const GOLDEN: [(&str, &str); 9] = [
     ("adaptive", "bdc3f3d39470e06d7044cd31f2e028c8270dfd849188e2ad160c4e167864ed57"),
     ("settled", "e237813a24ad6d78c4dcb301cff52da2071c63d2af6896d9d6e0d33f7ddd62fd"),
-    ("judged", "f3804ce9aa28c8aa346f10dbdfacc118baf774d06c8f93eae1eeb7c8633439ea"),
+    ("judged", "fc618620ce842cfd14f9926dee68f3c1843f38ad90540cf4700bf7e3fd771de7"),
     ("arm", "7fcda57408ddceb9c5244707aa39ae6532cb29349ccaae3cdc668ea76019348b"),
     ("ball", "fdcba62150da799a2386ae77855f8dcb2667de5bfd79aeb81a75f8e26180836e"),
     ("planar", "e99f59b51e5663e7f3c2be21d92cf23056d5efd9715aebfdf5486ef168b2f4d9"),
@@ -43,11 +43,15 @@ fn the_digests_are_golden() {
     assert_eq!(found, GOLDEN, "bits of a given seed changed: bump BITS_VERSION");
 }
 
-/// In none of these problems does a motion slip through between two steps or come too near: the two
-/// promises of edges give the same roadmaps, those of version 1 of the bits.
+/// Where motions are looked at step by step, one of these problems has another roadmap, for a motion
+/// that slips by between two steps.
 #[test]
-fn sampled_edges_have_the_same_digests() {
-    for (name, expected) in GOLDEN {
+fn sampled_edges_have_golden_digests_too() {
+    for (name, swept) in GOLDEN {
+        let expected = match name {
+            "judged" => "f3804ce9aa28c8aa346f10dbdfacc118baf774d06c8f93eae1eeb7c8633439ea",
+            _ => swept,
+        };
         let sampled = Problem { edges: Edges::Sampled, ..problem(name) };
         let found = build(&Arc::new(Setup::new(sampled))).roadmap.digest().to_string();
         assert_eq!(found, expected, "{name}");
