@@ -21,13 +21,13 @@ fn read(scratch: &Scratch, name: &str) -> String {
 
 /// A Python that has networkx and NumPy, unless there is none and none is required.
 fn has_python() -> bool {
-    let there = Command::new("python3").args(["-c", "import networkx, numpy"]).output();
+    let there = Command::new("python3").args(["-c", "import networkx, numpy, lxml"]).output();
     let there = there.is_ok_and(|output| output.status.success());
     if !there {
         let required =
             std::env::var_os("ROADMILL_REQUIRE_PYTHON").is_some_and(|value| value == "1");
-        assert!(!required, "no python3 with networkx and numpy");
-        println!("not tested: no python3 with networkx and numpy");
+        assert!(!required, "no python3 with networkx, numpy and lxml");
+        println!("not tested: no python3 with networkx, numpy and lxml");
     }
     there
 }
