@@ -18,7 +18,7 @@ const GOLDEN: [(&str, &str); 10] = [
     ("meshes", "4f45115a3f95d0d341669f610369659336aad26cbd1858cb67e790d3f10efdeb"),
     ("slide", "59298bc3e1054a2863cab638c9f60e2d99d1f6d4daddba67d1d059339a8e7e21"),
     ("sampled", "f331e07eb14dc32f4cb2fc56405afdbeee8b188f62fdb5bdb738f2af9be399cb"),
-    ("axis", "73d113cce6b28eb1d7759b168904a2a79391db8e3405b8535b2245795987eb6c"),
+    ("axis", "ab7ef1b5f01f4e947daedc713c2dd6bfbd6365f059433d7f78506e2358004d8a"),
 ];
 
 fn problem(name: &str) -> Problem {

@@ -256,18 +256,30 @@ impl Pusher<'_> {
         // The balls about the pushed robot that touch the witness lie in one another, so what is nearer once
         // stays so, and the strides may grow.
         let maprm = self.maprm;
-        let (mut near, mut far) = (0.0, maprm.step);
-        while self.still_nearest(q, way, far) {
-            if !self.cx.space.within_bounds(&self.at) {
-                return None;
-            }
-            (near, far) = (far, 2.0 * far);
+        let exit = self.exit(q, &way.away);
+        if self.still_nearest(q, way, exit) {
+            return None;
+        }
+        let (mut near, mut far) = (0.0, maprm.step.min(exit));
+        while far < exit && self.still_nearest(q, way, far) {
+            (near, far) = (far, exit.min(2.0 * far));
         }
         let nearest = |by: f64| Some(self.still_nearest(q, way, by));
         let (near, _) = halve((near, far), SHARE * maprm.tolerance, nearest)?;
         self.shift(q, &way.away, near);
         q.copy_from_slice(&self.at);
         Some(())
+    }
+
+    /// How far the base can be moved within its intervals.
+    fn exit(&self, q: &[f64], away: &[f64; 3]) -> f64 {
+        let base = self.cx.space.translations();
+        let axes = self.cx.space.parts()[..base].iter().zip(q).zip(away);
+        axes.fold(f64::INFINITY, |exit, ((part, value), share)| match part.kind {
+            PartKind::Real { max, .. } if *share > 0.0 => exit.min((max - value) / share),
+            PartKind::Real { min, .. } if *share < 0.0 => exit.min((min - value) / share),
+            _ => exit,
+        })
     }
 
     fn still_nearest(&mut self, q: &[f64], way: &Way, by: f64) -> bool {

@@ -6,7 +6,7 @@ use super::*;
 use crate::math;
 use std::f64::consts::TAU;
 
-/// Halving and the tolerance leave it a hair more than the tolerance, for rounding.
+/// With a hair more for rounding.
 const TOLERANCE: f64 = 0.01 * (1.0 + 1e-9);
 const MAPRM: &str = "maprm = { step = 0.1, tolerance = 0.01 }";
 const BOUNDED: &str = "maprm = { step = 0.1, tolerance = 0.01, bounds = true }";
@@ -67,17 +67,18 @@ fn in_a_room_milestones_are_as_far_from_two_walls() {
     fits(&planes, &[4.0, 20.0]);
 }
 
-/// A rod that turns in the plane, every point of which stays in a room: its distances follow from its angle.
+/// A rod that turns in the plane, in a room of three bounds and a wall: its distances follow from its angle.
 #[test]
 fn a_rod_that_turns_is_as_far_from_two_walls() {
     let cx = context(
         "[space]\nmotion = \"rigid-2d\"\nmin = [-1, 0]\nmax = [3, 3]\nbounds = \"body\"\n\
-         [robot]\nbodies = [{ shape = { box = { size = [1.0, 0.2, 0.2] } } }]\n",
+         [robot]\nbodies = [{ shape = { box = { size = [1.0, 0.2, 0.2] } } }]\n\
+         [[obstacles]]\nshape = { box = { size = [0.5, 3, 1] } }\nposition = [2.75, 1.5, 0]\n",
     );
     for q in milestones(&cx, BOUNDED, 300).iter() {
         let (sin, cos) = (math::sin(q[2]).abs(), math::cos(q[2]).abs());
         let (x, y) = (0.5 * cos + 0.1 * sin, 0.5 * sin + 0.1 * cos);
-        on_axis(vec![q[0] + 1.0 - x, 3.0 - q[0] - x, q[1] - y, 3.0 - q[1] - y]);
+        on_axis(vec![q[0] + 1.0 - x, 2.5 - q[0] - x, q[1] - y, 3.0 - q[1] - y]);
     }
 }
 
