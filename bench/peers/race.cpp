@@ -5,8 +5,11 @@
 //   race grow SCENE NODES K SEED      OMPL's PRM::growRoadmap to NODES nodes with K neighbours
 //   race solve SCENE QUERY SEED LIMIT OMPL's PRM::solve from the first to the second configuration of the
 //                                     file, within LIMIT CPU seconds
+//   race count SCENE PAIRS            prints how many steps OMPL cuts each pair into by itself
+//   race distance SCENE CONFIGS       prints FCL's distance of the surfaces at each configuration, 0 where
+//                                     they meet
 //
-// Each prints the CPU seconds that it took, and what it counted. Configurations are
+// The first three print the CPU seconds that they took, and what they counted. Configurations are
 // x y z qw qx qy qz. A motion is checked at the interior points of `steps` equal steps, like ours: in
 // steps that carry no robot point farther than the scene's resolution.
 //
@@ -83,11 +86,16 @@ static Scene read_scene(const char* path) {
   return scene;
 }
 
-static bool collides(const Scene& scene, const SE3::StateType* state) {
+static fcl::Transform3d pose_of(const SE3::StateType* state) {
   const auto& q = state->rotation();
   fcl::Transform3d pose = fcl::Transform3d::Identity();
   pose.linear() = fcl::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix();
   pose.translation() = fcl::Vector3d(state->getX(), state->getY(), state->getZ());
+  return pose;
+}
+
+static bool collides(const Scene& scene, const SE3::StateType* state) {
+  const fcl::Transform3d pose = pose_of(state);
   static const fcl::CollisionRequestd request(1, false);
   fcl::CollisionResultd result;
   const auto world = fcl::Transform3d::Identity();
@@ -159,11 +167,12 @@ static void set(SE3::StateType* state, const double* q) {
   rotation.z = q[6];
 }
 
-static int race_edges(const Scene& scene, const std::shared_ptr<SE3>& space, const char* pairs, const char* verdicts) {
-  struct Pair {
-    SE3::StateType *a, *b;
-    int steps;
-  };
+struct Pair {
+  SE3::StateType *a, *b;
+  int steps;
+};
+
+static std::vector<Pair> read_pairs(const std::shared_ptr<SE3>& space, const char* pairs) {
   std::vector<Pair> all;
   std::ifstream in(pairs);
   double q[14];
@@ -175,6 +184,11 @@ static int race_edges(const Scene& scene, const std::shared_ptr<SE3>& space, con
     set(pair.b, q + 7);
     all.push_back(pair);
   }
+  return all;
+}
+
+static int race_edges(const Scene& scene, const std::shared_ptr<SE3>& space, const char* pairs, const char* verdicts) {
+  const std::vector<Pair> all = read_pairs(space, pairs);
   auto* between = space->allocState()->as<SE3::StateType>();
   Interior interior;
   std::vector<bool> found;
@@ -187,6 +201,30 @@ static int race_edges(const Scene& scene, const std::shared_ptr<SE3>& space, con
   for (bool free : found) out << free << "\n";
   std::printf("%.6f %zu\n", seconds, all.size());
   return 0;
+}
+
+/// The default: no step is longer than 1 % of the extent, of positions and of rotations apart.
+static int race_count(const std::shared_ptr<SE3>& space, const char* pairs) {
+  for (const auto& pair : read_pairs(space, pairs)) std::printf("%u\n", space->validSegmentCount(pair.a, pair.b));
+  return 0;
+}
+
+static int race_distance(const Scene& scene, const std::shared_ptr<SE3>& space, const char* configs) {
+  auto* state = space->allocState()->as<SE3::StateType>();
+  std::ifstream in(configs);
+  double q[7];
+  for (;;) {
+    for (double& value : q) in >> value;
+    if (!in) return 0;
+    set(state, q);
+    double apart = 0;
+    if (!collides(scene, state)) {
+      fcl::DistanceResultd result;
+      fcl::distance(scene.robot.get(), pose_of(state), scene.world.get(), fcl::Transform3d::Identity(), fcl::DistanceRequestd(), result);
+      apart = result.min_distance;
+    }
+    std::printf("%.17g\n", apart);
+  }
 }
 
 static int race_grow(const Scene& scene, const std::shared_ptr<SE3>& space, unsigned nodes, unsigned k) {
@@ -243,7 +281,8 @@ static int race_solve(const Scene& scene, const std::shared_ptr<SE3>& space, con
 }
 
 int main(int count, char** words) {
-  if (count < 5) fail("edges SCENE PAIRS VERDICTS, grow SCENE NODES K SEED or solve SCENE QUERY SEED LIMIT expected");
+  const char* expected = "edges, grow, solve, count or distance expected, with what the first lines of race.cpp say";
+  if (count < 4) fail(expected);
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   const std::string mode = words[1];
   const Scene scene = read_scene(words[2]);
@@ -255,7 +294,9 @@ int main(int count, char** words) {
   }
   space->setBounds(bounds);
   space->setup();
-  if (mode == "edges") return race_edges(scene, space, words[3], words[4]);
+  if (mode == "count") return race_count(space, words[3]);
+  if (mode == "distance") return race_distance(scene, space, words[3]);
+  if (mode == "edges" && count == 5) return race_edges(scene, space, words[3], words[4]);
   if (mode == "grow" && count == 6) {
     ompl::RNG::setSeed(std::strtoul(words[5], nullptr, 10));
     return race_grow(scene, space, std::atoi(words[3]), std::atoi(words[4]));
@@ -264,5 +305,5 @@ int main(int count, char** words) {
     ompl::RNG::setSeed(std::strtoul(words[4], nullptr, 10));
     return race_solve(scene, space, words[3], std::strtod(words[5], nullptr));
   }
-  fail("edges, grow or solve expected");
+  fail(expected);
 }

@@ -1,6 +1,7 @@
 //! What the benches share.
 #![allow(dead_code, reason = "each bench uses its part")]
 
+pub mod lists;
 pub mod peer;
 
 use roadmill::Context;
@@ -36,9 +37,23 @@ pub struct Arguments {
 
 /// Reads `[--seeds N] [--seconds S] SCENE …`.
 pub fn arguments(seeds: f64, seconds: f64) -> Arguments {
+    arguments_with(seeds, seconds, &[]).0
+}
+
+/// [`arguments`], and the words after some further options.
+pub fn arguments_with(
+    seeds: f64,
+    seconds: f64,
+    further: &[&str],
+) -> (Arguments, Vec<Option<String>>) {
     let mut arguments = Arguments { seeds: seeds as u64, seconds, scenes: Vec::new() };
+    let mut found = vec![None; further.len()];
     let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
     while let Some(word) = words.next() {
+        if let Some(option) = further.iter().position(|option| *option == word) {
+            found[option] = words.next();
+            continue;
+        }
         let mut number = || words.next().and_then(|word| word.parse::<f64>().ok());
         match word.as_str() {
             "--seeds" => arguments.seeds = number().expect("a number after --seeds") as u64,
@@ -46,7 +61,7 @@ pub fn arguments(seeds: f64, seconds: f64) -> Arguments {
             _ => arguments.scenes.push(word),
         }
     }
-    arguments
+    (arguments, found)
 }
 
 /// What a build came to.
