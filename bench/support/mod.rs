@@ -3,6 +3,7 @@
 
 pub mod lists;
 pub mod peer;
+pub mod plot;
 
 use roadmill::Context;
 use roadmill::img::{Core, Cut, Judgement, Observer, Progress, Round, Serial, Setup, Stop, drive};
