@@ -1,6 +1,7 @@
 //! What the benches share.
 #![allow(dead_code, reason = "each bench uses its part")]
 
+pub mod brute;
 pub mod lists;
 pub mod peer;
 pub mod plot;
