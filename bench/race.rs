@@ -13,7 +13,8 @@
 //! at all times (`swept`, the default), at the steps (`sampled`), and by FCL at the same steps. There are
 //! as many as the problem's resolution asks for, or as OMPL takes by itself: no step longer than 1 % of the
 //! extent, of positions and of rotations apart. `differ` counts the pairs of which the last two do not say
-//! the same, `refused` those that are free at the steps but not swept. *Nodes*: one set of 5000 nodes with
+//! the same, `refused` those that are free at the steps but not swept. If `ROADMILL_COAL` names the built
+//! `bench/peers/coal.cpp`, coal 3.0 looks at the same steps too; its own `differ` comes last. *Nodes*: one set of 5000 nodes with
 //! 10 neighbours and swept edges, against `PRM::growRoadmap`. OMPL and FCL know no solids and no bounds of
 //! bodies, so both sides race with surfaces and with bounds that hold the reference point.
 
@@ -90,9 +91,9 @@ fn main() {
         return;
     };
     println!(
-        "| scene | list | steps | per pair | pairs | free | swept/s | sampled/s | FCL/s | swept : FCL | sampled : FCL | differ | refused |"
+        "| scene | list | steps | per pair | pairs | free | swept/s | sampled/s | FCL/s | coal/s | swept : FCL | sampled : FCL | swept : coal | differ | refused | coal's |"
     );
-    println!("|{}", " --- |".repeat(13));
+    println!("|{}", " --- |".repeat(16));
     let (mut ratios, mut nodes) = (BTreeMap::<_, Vec<_>>::new(), Vec::new());
     for scene in &arguments.scenes {
         let track = Track::new(Path::new(scene), &peer);
@@ -177,21 +178,35 @@ impl Track<'_> {
             verdicts
         };
         let (mut swept, mut sampled, mut theirs) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut proved, mut at_steps, mut peer_verdicts) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut proved, mut at_steps) = (Vec::new(), Vec::new());
+        let (mut peer_verdicts, mut coal_verdicts) = (Vec::new(), Vec::new());
+        let (coal, mut coals) = (std::env::var("ROADMILL_COAL").ok(), Vec::new());
         for _ in 0..ROUNDS {
             proved = decide(&swept_cx, &mut swept);
             at_steps = decide(&sampled_cx, &mut sampled);
             let [scene, pairs, out] = ["scene", "pairs", "verdicts"].map(|name| self.file(name));
             theirs.push(run(self.peer, &["edges", &scene, &pairs, &out])[0]);
             peer_verdicts = verdicts(&out);
+            if let Some(coal) = &coal {
+                coals.push(run(coal, &["edges", &scene, &pairs, &out])[0]);
+                coal_verdicts = verdicts(&out);
+            }
         }
-        let differ = at_steps.iter().zip(&peer_verdicts).filter(|(ours, peer)| ours != peer);
+        let differ = |theirs: &[bool]| at_steps.iter().zip(theirs).filter(|(a, b)| a != b).count();
         let refused = at_steps.iter().zip(&proved).filter(|(steps, all)| **steps && !**all);
         let free = at_steps.iter().filter(|free| **free).count();
-        let [swept, sampled, theirs] = [&mut swept, &mut sampled, &mut theirs]
-            .map(|seconds| pairs.len() as f64 / median(seconds));
+        let rate = |seconds: &mut Vec<f64>| pairs.len() as f64 / median(seconds);
+        let [swept, sampled, theirs] = [&mut swept, &mut sampled, &mut theirs].map(rate);
+        let [coal_rate, coal_ratio, coal_differ] = match coal {
+            None => ["–"; 3].map(str::to_owned),
+            Some(_) => {
+                let coal = rate(&mut coals);
+                let differ = differ(&coal_verdicts).to_string();
+                [format!("{coal:.0}"), format!("{:.1}", swept / coal), differ]
+            }
+        };
         println!(
-            "| {} | {} | {} | {:.1} | {} | {:.1} % | {swept:.0} | {sampled:.0} | {theirs:.0} | {:.1} | {:.1} | {} | {} |",
+            "| {} | {} | {} | {:.1} | {} | {:.1} % | {swept:.0} | {sampled:.0} | {theirs:.0} | {coal_rate} | {:.1} | {:.1} | {coal_ratio} | {} | {} | {coal_differ} |",
             self.problem.name,
             list.name(),
             counted.name(),
@@ -200,7 +215,7 @@ impl Track<'_> {
             100.0 * free as f64 / pairs.len() as f64,
             swept / theirs,
             sampled / theirs,
-            differ.count(),
+            differ(&peer_verdicts),
             refused.count(),
         );
         swept / theirs

@@ -14,6 +14,8 @@
 // steps that carry no robot point farther than the scene's resolution.
 //
 // Build: g++ -O3 -march=x86-64 -std=c++17 race.cpp -I/usr/include/eigen3 -I/usr/include/ompl-1.5 -lompl -lfcl -lccd
+#include "scene.h"
+
 #include <fcl/fcl.h>
 #include <ompl/base/DiscreteMotionValidator.h>
 #include <ompl/base/PlannerTerminationCondition.h>
@@ -27,46 +29,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <ctime>
-#include <fstream>
-#include <iostream>
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace ob = ompl::base;
 using SE3 = ob::SE3StateSpace;
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
 
-[[noreturn]] static void fail(const std::string& what) {
-  std::cerr << "race: " << what << "\n";
-  std::exit(2);
-}
-
-static double cpu_seconds() {
-  timespec time;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return time.tv_sec + 1e-9 * time.tv_nsec;
-}
-
-struct Scene {
-  double low[3], high[3], resolution, radius;
+struct Scene : Head {
   std::shared_ptr<Model> world, robot;
 };
 
 static std::shared_ptr<Model> read_model(std::istream& in) {
-  size_t vertices, triangles;
-  if (!(in >> vertices >> triangles)) fail("a mesh expected");
-  std::vector<fcl::Vector3d> points(vertices);
+  std::vector<fcl::Vector3d> points;
   std::vector<fcl::Triangle> faces;
-  for (auto& p : points) in >> p[0] >> p[1] >> p[2];
-  for (size_t i = 0; i < triangles; ++i) {
-    size_t a, b, c;
-    in >> a >> b >> c;
-    faces.emplace_back(a, b, c);
-  }
-  if (!in) fail("the mesh is cut off");
+  read_mesh(in, points, faces);
   auto model = std::make_shared<Model>();
   model->beginModel();
   model->addSubModel(points, faces);
@@ -77,10 +53,7 @@ static std::shared_ptr<Model> read_model(std::istream& in) {
 
 static Scene read_scene(const char* path) {
   std::ifstream in(path);
-  Scene scene;
-  for (double& value : scene.low) in >> value;
-  for (double& value : scene.high) in >> value;
-  if (!(in >> scene.resolution >> scene.radius)) fail("a scene expected");
+  Scene scene{read_head(in), nullptr, nullptr};
   scene.world = read_model(in);
   scene.robot = read_model(in);
   return scene;
@@ -101,26 +74,6 @@ static bool collides(const Scene& scene, const SE3::StateType* state) {
   const auto world = fcl::Transform3d::Identity();
   return fcl::collide(scene.robot.get(), pose, scene.world.get(), world, request, result) != 0;
 }
-
-/// Checks the interior points of `steps` steps, the middle first as OMPL does.
-struct Interior {
-  std::vector<std::pair<int, int>> queue;
-
-  template <class Free>
-  bool free(const SE3& space, const ob::State* a, const ob::State* b, int steps, SE3::StateType* between, Free free) {
-    if (steps < 2) return true;
-    queue.assign(1, {1, steps - 1});
-    for (size_t head = 0; head < queue.size(); ++head) {
-      const auto [low, high] = queue[head];
-      const int middle = (low + high) / 2;
-      space.interpolate(a, b, double(middle) / steps, between);
-      if (!free(between)) return false;
-      if (low < middle) queue.push_back({low, middle - 1});
-      if (middle < high) queue.push_back({middle + 1, high});
-    }
-    return true;
-  }
-};
 
 struct Checker : ob::StateValidityChecker {
   const Scene& scene;
@@ -153,7 +106,10 @@ struct Validator : ob::MotionValidator {
     ++asked;
     const int count = steps(a->as<SE3::StateType>(), b->as<SE3::StateType>());
     // Both ends are milestones.
-    return interior.free(space, a, b, count, between, [&](const ob::State* q) { return si_->isValid(q); });
+    return interior.free(count, [&](int step) {
+      space.interpolate(a, b, double(step) / count, between);
+      return si_->isValid(between);
+    });
   }
   bool checkMotion(const ob::State* a, const ob::State* b, std::pair<ob::State*, double>&) const override { return checkMotion(a, b); }
 };
@@ -172,40 +128,31 @@ struct Pair {
   int steps;
 };
 
-static std::vector<Pair> read_pairs(const std::shared_ptr<SE3>& space, const char* pairs) {
+static std::vector<Pair> pairs_of(const std::shared_ptr<SE3>& space, const char* path) {
   std::vector<Pair> all;
-  std::ifstream in(pairs);
-  double q[14];
-  for (int steps;;) {
-    for (double& value : q) in >> value;
-    if (!(in >> steps)) break;
-    Pair pair{space->allocState()->as<SE3::StateType>(), space->allocState()->as<SE3::StateType>(), steps};
-    set(pair.a, q);
-    set(pair.b, q + 7);
-    all.push_back(pair);
-  }
+  const auto state = [&](const double* q) {
+    auto* state = space->allocState()->as<SE3::StateType>();
+    set(state, q);
+    return state;
+  };
+  read_pairs(path, [&](const double* a, const double* b, int steps) { all.push_back({state(a), state(b), steps}); });
   return all;
 }
 
 static int race_edges(const Scene& scene, const std::shared_ptr<SE3>& space, const char* pairs, const char* verdicts) {
-  const std::vector<Pair> all = read_pairs(space, pairs);
   auto* between = space->allocState()->as<SE3::StateType>();
   Interior interior;
-  std::vector<bool> found;
-  const double begun = cpu_seconds();
-  for (const auto& pair : all) {
-    found.push_back(interior.free(*space, pair.a, pair.b, pair.steps, between, [&](const SE3::StateType* s) { return !collides(scene, s); }));
-  }
-  const double seconds = cpu_seconds() - begun;
-  std::ofstream out(verdicts);
-  for (bool free : found) out << free << "\n";
-  std::printf("%.6f %zu\n", seconds, all.size());
-  return 0;
+  return decide(pairs_of(space, pairs), verdicts, [&](const Pair& pair) {
+    return interior.free(pair.steps, [&](int step) {
+      space->interpolate(pair.a, pair.b, double(step) / pair.steps, between);
+      return !collides(scene, between);
+    });
+  });
 }
 
 /// The default: no step is longer than 1 % of the extent, of positions and of rotations apart.
 static int race_count(const std::shared_ptr<SE3>& space, const char* pairs) {
-  for (const auto& pair : read_pairs(space, pairs)) std::printf("%u\n", space->validSegmentCount(pair.a, pair.b));
+  for (const auto& pair : pairs_of(space, pairs)) std::printf("%u\n", space->validSegmentCount(pair.a, pair.b));
   return 0;
 }
 
