@@ -3,6 +3,7 @@
 //! ```text
 //! ROADMILL_PEER=PEER cargo bench --bench solve -- [--seeds N] [--seconds S] [--among WAYS]
 //!     [--csv FILE] [--svg FILE] SCENE …
+//! cargo bench --bench solve -- --from FILE --svg FILE
 //! ```
 //!
 //! PEER is `bench/peers/race.cpp`, built as `bench/race.rs` says. Builds every scene at default settings
@@ -10,7 +11,8 @@
 //! `--among nearest-nodes,until-joined,…` builds it as often again with other connections among sets
 //! (`docs/problems.md`; `component-pairs` is the default). Prints the medians, those of the times over
 //! all builds: one that is not solved counts with the seconds that it took. The CSV file gets a line for each
-//! build: scene, program, seed, solved or not, nodes, CPU seconds; the SVG file a dot.
+//! build: scene, program, seed, solved or not, nodes, CPU seconds; the SVG file a dot, or a ring where it was
+//! not solved. `--from` draws what stands in a CSV file.
 
 mod support;
 
@@ -36,10 +38,7 @@ struct Builds {
 }
 
 impl Builds {
-    fn add(&mut self, seed: u64, solved: bool, nodes: f64, seconds: f64, csv: &mut String) {
-        let Builds { scene, program, .. } = self;
-        let line = format!("{scene},{program},{seed},{},{nodes},{seconds:.4}", u8::from(solved));
-        writeln!(csv, "{line}").expect("memory");
+    fn add(&mut self, solved: bool, nodes: f64, seconds: f64) {
         self.seconds.push(seconds);
         self.nodes.push(nodes);
         self.solved.push(solved);
@@ -68,7 +67,16 @@ impl Builds {
 }
 
 fn main() {
-    let (arguments, words) = arguments_with(20.0, 60.0, &["--among", "--csv", "--svg"]);
+    let (arguments, words) = arguments_with(20.0, 60.0, &["--among", "--csv", "--svg", "--from"]);
+    let write = |file: &Option<String>, text: String| {
+        if let Some(file) = file {
+            std::fs::write(file, text).expect("the file can be written");
+        }
+    };
+    if let Some(file) = &words[3] {
+        let text = std::fs::read_to_string(file).expect("the file can be read");
+        return write(&words[2], picture(&of_csv(&text)));
+    }
     let Ok(peer) = std::env::var("ROADMILL_PEER") else {
         println!("solve: skipped, ROADMILL_PEER does not name the built bench/peers/race.cpp");
         return;
@@ -77,7 +85,6 @@ fn main() {
     let ways: Vec<_> = ways.split(',').map(|name| (name, among(name))).collect();
     println!("| scene | program | solved | nodes | CPU s | OMPL's median : this |");
     println!("|{}", " --- |".repeat(6));
-    let mut csv = "scene,program,seed,solved,nodes,cpu_seconds\n".to_owned();
     let mut all = Vec::new();
     for scene in &arguments.scenes {
         let problem = surfaces(Path::new(scene));
@@ -103,23 +110,48 @@ fn main() {
                 }
                 let built = solve(&Arc::new(Setup::new(problem)), arguments.seconds);
                 let (solved, nodes) = (built.satisfied, built.nodes as f64);
-                builds.add(seed, solved, nodes, built.seconds, &mut csv);
+                builds.add(solved, nodes, built.seconds);
             }
             let [seed_word, limit] = [seed.to_string(), arguments.seconds.to_string()];
             let [scene, query] = ["scene", "query"].map(file);
             let found = run(&peer, &["solve", &scene, &query, &seed_word, &limit]);
-            theirs.add(seed, found[2] == 1.0, found[1], found[0], &mut csv);
+            theirs.add(found[2] == 1.0, found[1], found[0]);
         }
         let of = median(&mut theirs.seconds.clone());
         ours.push(theirs);
         ours.iter().for_each(|builds| println!("{}", builds.row(of)));
         all.extend(ours);
     }
-    for (file, text) in [(&words[1], csv), (&words[2], picture(&all, arguments.seconds))] {
-        if let Some(file) = file {
-            std::fs::write(file, text).expect("the file can be written");
+    write(&words[1], csv_of(&all));
+    write(&words[2], picture(&all));
+}
+
+fn csv_of(all: &[Builds]) -> String {
+    let mut csv = "scene,program,seed,solved,nodes,cpu_seconds\n".to_owned();
+    for Builds { scene, program, seconds, nodes, solved } in all {
+        for (i, ((seconds, nodes), solved)) in seconds.iter().zip(nodes).zip(solved).enumerate() {
+            let (seed, solved) = (i + 1, u8::from(*solved));
+            writeln!(csv, "{scene},{program},{seed},{solved},{nodes},{seconds:.4}")
+                .expect("memory");
         }
     }
+    csv
+}
+
+fn of_csv(text: &str) -> Vec<Builds> {
+    let mut all: Vec<Builds> = Vec::new();
+    for line in text.lines().skip(1) {
+        let words: Vec<&str> = line.split(',').collect();
+        let (scene, program) = (words[0].to_owned(), words[1].to_owned());
+        let number = |word: usize| words[word].parse::<f64>().expect("a number");
+        let known = all.iter().position(|b| b.scene == scene && b.program == program);
+        let index = known.unwrap_or_else(|| {
+            all.push(Builds { scene, program, ..Builds::default() });
+            all.len() - 1
+        });
+        all[index].add(number(3) == 1.0, number(4), number(5));
+    }
+    all
 }
 
 fn among(name: &str) -> AmongKind {
@@ -133,38 +165,38 @@ fn among(name: &str) -> AmongKind {
 }
 
 /// A row of dots for each scene and program.
-fn picture(all: &[Builds], limit: f64) -> String {
-    let programs: Vec<&str> =
-        all.iter().take_while(|b| b.scene == all[0].scene).map(|b| &*b.program).collect();
-    let rows = all.len() as f64;
+fn picture(all: &[Builds]) -> String {
+    let step = all.iter().take_while(|builds| builds.scene == all[0].scene).count();
+    // An empty row below each scene.
+    let rows = (all.len() + all.len() / step) as f64;
     let x = Scale::decades(all.iter().flat_map(|builds| &builds.seconds).copied());
-    let y = Scale { low: -0.5, high: rows - 0.5, log: false };
-    let title = "CPU seconds until the query is solved; the bars are medians";
-    let below = format!("CPU seconds, at most {limit}");
-    let size = [900.0, 120.0 + 26.0 * rows];
-    let mut plot = Plot::new(title, [&below, ""], size, x, y);
+    let y = Scale { low: 0.0, high: rows, log: false };
+    let title = "CPU seconds until the query is solved; bars are medians, rings were not solved";
+    let mut plot = Plot::new(title, ["CPU seconds", ""], [900.0, 120.0 + 24.0 * rows], x, y);
     let ticks: Vec<_> = x.powers().iter().map(|power| (*power, plain(*power))).collect();
     plot.columns(&ticks);
-    // The first scene on top, its name beside the middle of its rows.
-    let step = programs.len();
-    let names = all.chunks(step).enumerate().map(|(i, builds)| {
-        let middle = (i * step) as f64 + 0.5 * (step - 1) as f64;
-        (rows - 1.0 - middle, builds[0].scene.clone())
-    });
-    plot.rows(&names.collect::<Vec<_>>());
-    for (row, builds) in all.iter().enumerate() {
-        let colour = COLOURS[row % step];
-        let y = rows - 1.0 - row as f64;
-        // A little up and down, so that dots do not cover one another.
-        let aside = |i: usize| 0.12 * ((i % 5) as f64 - 2.0);
-        let points: Vec<_> =
-            builds.seconds.iter().enumerate().map(|(i, x)| [*x, y + aside(i)]).collect();
-        plot.dots(&points, colour, 3.0);
-        plot.bar([median(&mut builds.seconds.clone()), y], 10.0, colour);
+    for (i, builds) in all.chunks(step).enumerate() {
+        let top = rows - (i * (step + 1)) as f64 - 0.5;
+        plot.rows(&[(top - 0.5 * step as f64, builds[0].scene.clone())]);
+        for (row, (builds, colour)) in builds.iter().zip(COLOURS).enumerate() {
+            let y = top - 0.5 - row as f64;
+            for (i, (seconds, solved)) in builds.seconds.iter().zip(&builds.solved).enumerate() {
+                // A little up and down, so that dots do not cover one another.
+                let point = [*seconds, y + 0.12 * ((i % 5) as f64 - 2.0)];
+                if *solved {
+                    plot.dots(&[point], colour, 3.0);
+                } else {
+                    plot.ring(point, colour);
+                }
+            }
+            plot.bar([median(&mut builds.seconds.clone()), y], 10.0, colour);
+        }
     }
-    let legend = programs.iter().zip(COLOURS).map(|(name, colour)| {
-        let name =
-            if *name == "OMPL" { "OMPL PRM".to_owned() } else { format!("roadmill, {name}") };
+    let legend = all[..step].iter().zip(COLOURS).map(|(builds, colour)| {
+        let name = match &*builds.program {
+            "OMPL" => "OMPL PRM".to_owned(),
+            ours => format!("roadmill, {ours}"),
+        };
         (name, colour)
     });
     plot.legend(&legend.collect::<Vec<_>>());

@@ -1,19 +1,20 @@
 //! How far more workers help: the build's own state machine with up to 4096 workers in virtual time.
 //!
 //! ```text
-//! cargo bench --bench workers -- [--nodes N] [--slower F] [--shared] [--set-us U] [--latency-us U]
-//!     [--gigabytes G] [--svg FILE] SCENE
+//! cargo bench --bench workers -- [--nodes N] [--set NODES] [--slower F] [--shared] [--set-us U]
+//!     [--latency-us U] [--gigabytes G] [--svg FILE] SCENE
 //! ```
 //!
-//! First the scene is grown up to N nodes (default 20 000) by doing every job once, and the CPU time of
-//! each is noted over the second half: generating a set, taking it in (decoding it, finding its
-//! components), joining it, folding it; of the criterion, judging the last roadmap that does not meet it.
-//! Then 256 sets are joined as one round, which gives what every earlier set of a round adds to a join.
-//! Then `img::Core` is driven by workers that take these times (`bench/support/virtual_pool.rs`), jobs
-//! being F times longer with `--slower`: proteins' energies take far longer than rigid bodies' tests. The
-//! coordinator works U microseconds per set (default 300), messages arrive after 45 µs and are copied at 0.8
-//! GB/s (`docs/performance.md` has these). As in the program, every worker keeps a copy of the roadmap
-//! and brings it up to date before each job; with `--shared` all read one.
+//! First the scene is grown up to N nodes (default 20 000), in sets of NODES (as the scene says), by doing
+//! every job once, and the CPU time of each is noted over the second half: generating a set, taking it in
+//! (decoding it, finding its components), joining it, folding it; of the criterion, judging the last roadmap
+//! that does not meet it. Then 256 sets are joined as one round, which gives what every earlier set of a
+//! round adds to a join. Then `img::Core` is driven by workers that take these times
+//! (`bench/support/virtual_pool.rs`), jobs being F times longer with `--slower`: proteins' energies take
+//! far longer than rigid bodies' tests. The coordinator works U microseconds per set (default 300, which
+//! is right for sets of 50 nodes), messages arrive after 45 µs and are copied at 0.8 GB/s
+//! (`docs/performance.md` has these). As in the program, every worker keeps a copy of the roadmap and brings
+//! it up to date before each job; with `--shared` all read one.
 //!
 //! Printed per number of workers and sets per round: the efficiency, that is the share of the workers' time
 //! in which they do what a single process would do for the same sets; and what most of the loss goes
@@ -48,6 +49,7 @@ const ROUND: u64 = 256;
 
 struct Arguments {
     nodes: u64,
+    set: Option<u32>,
     machine: Machine,
     svg: Option<String>,
     scene: String,
@@ -62,6 +64,7 @@ fn arguments() -> Option<Arguments> {
         shared: false,
     };
     let (mut nodes, mut machine, mut svg, mut scene) = (20_000, machine, None, None);
+    let mut set = None;
     let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
     while let Some(word) = words.next() {
         let mut number = || {
@@ -70,6 +73,7 @@ fn arguments() -> Option<Arguments> {
         };
         match word.as_str() {
             "--nodes" => nodes = number() as u64,
+            "--set" => set = Some(number() as u32),
             "--slower" => machine.slower = number(),
             "--shared" => machine.shared = true,
             "--set-us" => machine.set_seconds = number() * 1e-6,
@@ -79,15 +83,18 @@ fn arguments() -> Option<Arguments> {
             _ => scene = Some(word),
         }
     }
-    Some(Arguments { nodes, machine, svg, scene: scene? })
+    Some(Arguments { nodes, set, machine, svg, scene: scene? })
 }
 
 fn main() {
-    let Some(Arguments { nodes, machine, svg, scene }) = arguments() else {
+    let Some(Arguments { nodes, set, machine, svg, scene }) = arguments() else {
         println!("workers: skipped, no scene given");
         return;
     };
-    let problem = Problem::load(Path::new(&scene)).unwrap_or_else(|error| panic!("{error}"));
+    let mut problem = Problem::load(Path::new(&scene)).unwrap_or_else(|error| panic!("{error}"));
+    for strategy in &mut problem.strategies {
+        strategy.nodes = set.unwrap_or(strategy.nodes);
+    }
     let costs = measure(&problem, nodes);
     let mean = |values: &[f64]| 1e6 * values.iter().sum::<f64>() / values.len() as f64;
     println!(

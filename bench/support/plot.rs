@@ -157,6 +157,14 @@ impl Plot {
         }
     }
 
+    /// A small ring around a point.
+    pub fn ring(&mut self, point: [f64; 2], colour: &str) {
+        let [x, y] = self.px(point);
+        self.put(format_args!(
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\" fill=\"none\" stroke=\"{colour}\"/>"
+        ));
+    }
+
     /// A short upright bar, so many pixels to either side of a point.
     pub fn bar(&mut self, point: [f64; 2], reach: f64, colour: &str) {
         let [x, y] = self.px(point);
