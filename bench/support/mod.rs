@@ -1,7 +1,9 @@
 //! What the benches share.
 #![allow(dead_code, reason = "each bench uses its part")]
 
+pub mod noting;
 pub mod peer;
+pub mod plot;
 
 use roadmill::Context;
 use roadmill::img::{Core, Cut, Judgement, Observer, Progress, Round, Serial, Setup, Stop, drive};
