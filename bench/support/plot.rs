@@ -1,4 +1,4 @@
-//! Plots as SVG: panels side by side, each with lines or dots over two axes.
+//! Plots as SVG: panels, four to a row, each with lines or dots over two axes.
 
 use std::fmt::Write;
 
@@ -9,7 +9,9 @@ const FONT: &str = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
 pub const COLOURS: [&str; 6] = ["#4f7ea8", "#3f9b6c", "#c9a21f", "#8460b5", "#c0629e", "#9d1f41"];
 /// Of a panel's frame, in pixels, with what stands around it.
 const SIZE: [f64; 2] = [330.0, 300.0];
+/// To the left, above, to the right, below.
 const AROUND: [f64; 4] = [62.0, 44.0, 18.0, 56.0];
+const PER_ROW: usize = 4;
 
 #[derive(Clone, Copy, PartialEq)]
 pub enum Look {
@@ -67,8 +69,11 @@ impl Axes {
                 range[1] = range[0] + 1.0;
             }
         }
-        let [left, top, right, _] = AROUND;
-        Axes { left: left + index as f64 * (SIZE[0] + left + right), top, x, y, log_y: panel.log_y }
+        let [left, top, right, bottom] = AROUND;
+        let (row, column) = ((index / PER_ROW) as f64, (index % PER_ROW) as f64);
+        let left = left + column * (SIZE[0] + left + right);
+        let top = top + row * (SIZE[1] + top + bottom);
+        Axes { left, top, x, y, log_y: panel.log_y }
     }
 
     fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -120,8 +125,9 @@ fn stroke(out: &mut String, path: &str, colour: &str, width: f64) {
 /// The picture of some panels; the names of the first one's series stand below.
 pub fn svg(panels: &[Panel]) -> String {
     let [left, top, right, bottom] = AROUND;
-    let width = panels.len() as f64 * (SIZE[0] + left + right);
-    let height = top + SIZE[1] + bottom + 34.0;
+    let rows = panels.len().div_ceil(PER_ROW) as f64;
+    let width = panels.len().min(PER_ROW) as f64 * (SIZE[0] + left + right);
+    let height = rows * (top + SIZE[1] + bottom) + 34.0;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n\

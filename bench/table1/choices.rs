@@ -65,7 +65,10 @@ impl Choices {
 
     /// `None` if the program has no sampler of that name.
     pub fn sampler(&self, environment: &Environment, strategy: &str) -> Option<SamplerKind> {
-        self.samplers.get(strategy).cloned().or_else(|| environment.sampler(strategy))
+        let sampler =
+            self.samplers.get(strategy).cloned().or_else(|| environment.sampler(strategy))?;
+        assert_eq!(sampler.method().complaint(), None, "{strategy}");
+        Some(sampler)
     }
 
     /// 100 configurations; `label` is `samples` or `tests`.

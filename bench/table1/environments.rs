@@ -58,6 +58,9 @@ impl Environment {
             "gaussian" => format!("gaussian = {{ deviation = {} }}", width / 2.0),
             "bridge" => format!("bridge = {{ deviation = {width} }}"),
             "obprm" => format!("obprm = {{ step = {} }}", width / 4.0),
+            "maprm" => {
+                format!("maprm = {{ step = {}, tolerance = {} }}", width / 4.0, width / 20.0)
+            }
             other => format!("{other} = {{}}"),
         };
         toml::from_str(&text).ok()

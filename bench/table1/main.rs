@@ -1,10 +1,10 @@
 //! The experiment of TR05-007 §4.2 and its Table 1.
 //!
 //! ```text
-//! cargo bench --bench table1 -- [--seeds N] [--n N --k K] [--out FOLDER] [--set 'KEY = VALUE'] … [ENVIRONMENT …]
+//! cargo bench --bench table1 -- [--seeds N] [--n N --k K] [--out FOLDER] [--set 'KEY = VALUE'] … [ENVIRONMENT …] [STRATEGY …]
 //! ```
 //!
-//! Per environment (default: all of `environments.rs`) one build for each strategy and each of the seeds
+//! One build for each environment and each strategy (default: all of `environments.rs`) and each of the seeds
 //! 1 to N (default 30). A build serves all three evaluators: after every round those that have not been
 //! satisfied yet are asked, and the roadmap is measured as it is when one first is. It ends when all have
 //! been, or at the cap; then what is missing is measured on the last roadmap, and counted as capped.
@@ -40,12 +40,13 @@ struct Arguments {
     out: PathBuf,
     choices: Choices,
     environments: Vec<&'static Environment>,
+    strategies: Vec<&'static str>,
 }
 
 fn arguments() -> Arguments {
     let (mut seeds, mut shape, mut sets) = (30, [None; 2], String::new());
     let mut out = PathBuf::from(concat!(env!("CARGO_TARGET_TMPDIR"), "/table1"));
-    let mut names = Vec::new();
+    let (mut environments, mut strategies) = (Vec::new(), Vec::new());
     let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
     while let Some(word) = words.next() {
         let mut value = || words.next().unwrap_or_else(|| panic!("a value after {word} expected"));
@@ -58,28 +59,33 @@ fn arguments() -> Arguments {
             "--k" => shape[1] = Some(number(value()) as u32),
             "--out" => out = PathBuf::from(value()),
             "--set" => sets = sets + &value() + "\n",
-            _ => names.push(word),
+            name => match STRATEGIES.into_iter().find(|known| *known == name) {
+                Some(strategy) => strategies.push(strategy),
+                None => environments.push(environment_of(name)),
+            },
         }
     }
-    let known = |name: &String| {
-        let found = ENVIRONMENTS.iter().find(|environment| environment.name == name);
-        found.unwrap_or_else(|| panic!("{name} found; an environment expected"))
-    };
-    let environments = if names.is_empty() {
-        ENVIRONMENTS.iter().collect()
-    } else {
-        names.iter().map(known).collect()
-    };
+    if environments.is_empty() {
+        environments = ENVIRONMENTS.iter().collect();
+    }
+    if strategies.is_empty() {
+        strategies = STRATEGIES.into();
+    }
     let shapes = match shape {
         [None, None] => vec![[50, 5], [50, 1]],
         [n, k] => vec![[n.unwrap_or(50), k.unwrap_or(5)]],
     };
     let choices = toml::from_str(&sets).unwrap_or_else(|error| panic!("--set: {error}"));
-    Arguments { seeds, shapes, out, choices, environments }
+    Arguments { seeds, shapes, out, choices, environments, strategies }
+}
+
+fn environment_of(name: &str) -> &'static Environment {
+    let found = ENVIRONMENTS.iter().find(|environment| environment.name == name);
+    found.unwrap_or_else(|| panic!("{name} found; an environment or a strategy expected"))
 }
 
 fn main() {
-    let Arguments { seeds, shapes, out, choices, environments } = arguments();
+    let Arguments { seeds, shapes, out, choices, environments, strategies } = arguments();
     std::fs::create_dir_all(&out).unwrap_or_else(|error| panic!("{}: {error}", out.display()));
     let is_available = |name: &&str| choices.sampler(&ENVIRONMENTS[0], name).is_some();
     let available: Vec<&str> = STRATEGIES.into_iter().filter(is_available).collect();
@@ -91,7 +97,7 @@ fn main() {
     for seed in 1..=seeds {
         for experiment in &experiments {
             for [n, k] in &shapes {
-                for strategy in &available {
+                for strategy in available.iter().filter(|name| strategies.contains(name)) {
                     let environment = experiment.environment.name.to_owned();
                     let run =
                         Run { environment, n: *n, k: *k, strategy: (*strategy).to_owned(), seed };
@@ -104,7 +110,9 @@ fn main() {
             }
         }
     }
-    runs.retain(|measured| measured.run.seed <= seeds);
+    runs.retain(|measured| {
+        measured.run.seed <= seeds && strategies.contains(&&*measured.run.strategy)
+    });
     for shape in &shapes {
         report::table(&environments, *shape, &runs, &choices);
     }

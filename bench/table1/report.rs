@@ -95,7 +95,8 @@ pub fn table(environments: &[&Environment], shape: [u32; 2], runs: &[Measured], 
                     .filter(|measured| measured.run.strategy == strategy);
                 let noted: Vec<&Noted> = own.map(|measured| &measured.noted[evaluator]).collect();
                 if noted.is_empty() {
-                    print!(" not available |");
+                    let known = choices.sampler(environment, strategy).is_some();
+                    print!(" {} |", if known { "not run" } else { "not available" });
                     continue;
                 }
                 let column =
