@@ -37,10 +37,10 @@ pub fn run(study: &Study) {
         note(&setup, &[], None, study.choices.cap(), &mut each);
         let first = |line: &[[f64; 2]], below: f64| {
             let met = line.iter().find(|point| point[1] <= below);
-            met.map_or("never".to_owned(), |point| point[0].to_string())
+            met.map_or("never".to_owned(), |point| format!("at {} nodes", point[0]))
         };
         println!(
-            "{}: expansion is met at {} nodes, information gain at {}",
+            "{}: expansion first met {}, information gain {}",
             environment.title,
             first(&lines[2], 1.0),
             first(&lines[3], 5.0)
