@@ -1,15 +1,16 @@
 //! Studies of what TR05-007 leaves open, one at a time.
 //!
 //! ```text
-//! cargo bench --bench studies -- combinations|rounds|schedule [--seeds N] [--nodes N] [--out FOLDER] [ENVIRONMENT …]
+//! cargo bench --bench studies -- combinations|rounds|schedule [--seeds N] [--nodes N] [--out FOLDER] [ENVIRONMENT …] [STRATEGY …]
 //! ```
 //!
 //! - `combinations` (§5): criteria combined: at what size each stops, and what the roadmap is then worth.
 //! - `rounds` (§3.2, §5): expansion and information gain over the rounds of one build, as `rounds.svg`.
 //! - `schedule` (§3.1): a schedule that adapts beside equal shares.
 //!
-//! Environments, samplers and tests are those of `bench/table1`; builds have seeds 1 to N (default 5) and
-//! end at so many nodes (default 30000). Whether coverage and connectivity gain by samples from several
+//! Environments and samplers are those of `bench/table1`. The strategies (default: all) make sets in turn, one
+//! each in a round, and the tests are drawn from them. Builds have seeds 1 to N (default 5) and end at so many
+//! nodes (default 30000). Whether coverage and connectivity gain by samples from several
 //! strategies (§4.2) is a question to `bench/table1`, ways of merging (§5) are compared by `bench/merging.rs`.
 
 #[path = "../table1/choices.rs"]
@@ -37,13 +38,13 @@ pub struct Study {
 }
 
 impl Study {
-    /// The problem with every strategy that is available, in turn: a round has one set of each.
+    /// The problem with all strategies in turn: a round has one set of each.
     pub fn problem(&self, environment: &Environment, seed: u64) -> Problem {
         let mut problem = self.choices.problem(environment);
         problem.seed = seed;
-        let strategies =
-            STRATEGIES.iter().filter_map(|label| self.choices.strategy(environment, label, 50));
-        problem.strategies = strategies.collect();
+        let labels = self.choices.tests.iter();
+        let strategies = labels.map(|label| self.choices.strategy(environment, label, 50));
+        problem.strategies = strategies.map(|each| each.expect("a sampler")).collect();
         problem.schedule = (0..problem.strategies.len() as u32).collect();
         problem.sets_per_round = problem.schedule.len() as u32;
         problem
@@ -57,6 +58,7 @@ fn main() {
         out: PathBuf::from(env!("CARGO_TARGET_TMPDIR")),
         environments: Vec::new(),
     };
+    let mut strategies = Vec::new();
     let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
     let name = words.next().unwrap_or_default();
     while let Some(word) = words.next() {
@@ -65,6 +67,7 @@ fn main() {
             "--seeds" => study.seeds = number(),
             "--nodes" => study.choices.nodes = number(),
             "--out" => study.out = PathBuf::from(words.next().expect("a folder after --out")),
+            other if STRATEGIES.contains(&other) => strategies.push(word),
             other => {
                 let found = ENVIRONMENTS.iter().find(|environment| environment.name == other);
                 study.environments.push(found.unwrap_or_else(|| panic!("{other}: no environment")));
@@ -73,6 +76,9 @@ fn main() {
     }
     if study.environments.is_empty() {
         study.environments = ENVIRONMENTS.iter().collect();
+    }
+    if !strategies.is_empty() {
+        study.choices.tests = strategies;
     }
     match &*name {
         "combinations" => combinations::run(&study),
