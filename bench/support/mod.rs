@@ -3,6 +3,8 @@
 
 pub mod brute;
 pub mod lists;
+pub mod noting;
+pub mod panels;
 pub mod peer;
 pub mod plot;
 

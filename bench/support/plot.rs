@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-const FONT: &str = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
-const PAPER: &str = "#fbfaf6";
-const RULE: &str = "#d9d5c8";
-const INK: &str = "#33393f";
+pub const FONT: &str = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
+pub const PAPER: &str = "#fbfaf6";
+pub const RULE: &str = "#d9d5c8";
+pub const INK: &str = "#33393f";
 /// Of what is drawn, in order.
 pub const COLOURS: [&str; 6] = ["#9d1f41", "#4f7ea8", "#3f9b6c", "#c9a21f", "#8460b5", "#2c9fa3"];
 
