@@ -1,7 +1,12 @@
 //! What the benches share.
 #![allow(dead_code, reason = "each bench uses its part")]
 
+pub mod brute;
+pub mod lists;
+pub mod noting;
+pub mod panels;
 pub mod peer;
+pub mod plot;
 
 use roadmill::Context;
 use roadmill::connect::AmongKind;
@@ -42,11 +47,25 @@ pub struct Arguments {
 /// Reads `[--seeds N] [--seconds S] [--sampler SAMPLER] [--among AMONG] SCENE …`, methods as a problem
 /// file names them.
 pub fn arguments(seeds: f64, seconds: f64) -> Arguments {
+    arguments_with(seeds, seconds, &[]).0
+}
+
+/// [`arguments`], and the words after some further options.
+pub fn arguments_with(
+    seeds: f64,
+    seconds: f64,
+    further: &[&str],
+) -> (Arguments, Vec<Option<String>>) {
     let mut arguments =
         Arguments { seeds: seeds as u64, seconds, sampler: None, among: None, scenes: Vec::new() };
+    let mut found = vec![None; further.len()];
     let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
     while let Some(word) = words.next() {
         let mut next = || words.next().unwrap_or_else(|| panic!("something after {word}"));
+        if let Some(option) = further.iter().position(|option| *option == word) {
+            found[option] = Some(next());
+            continue;
+        }
         let number =
             |text: String| text.parse::<f64>().unwrap_or_else(|_| panic!("{text}: a number"));
         match word.as_str() {
@@ -57,7 +76,7 @@ pub fn arguments(seeds: f64, seconds: f64) -> Arguments {
             _ => arguments.scenes.push(word),
         }
     }
-    arguments
+    (arguments, found)
 }
 
 /// A method as a problem file names it.
