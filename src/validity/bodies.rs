@@ -173,19 +173,26 @@ impl BodyValidity {
         Walls { min, max, axes: self.robot.motion.bounded_axes() }
     }
 
-    fn in_bounds(&self, q: &[f64], stance: &Stance) -> bool {
-        self.space.within_bounds(q)
-            && (self.bounds.meaning == BoundsMeaning::Reference
-                || self.ball_inside(q)
-                || self.links.iter().all(|Moving { link, group, .. }| {
-                    self.walls().hold(&group.tree, &stance.frames[*link])
-                }))
+    /// Whether the bounds hold the robot wherever it turns.
+    pub(super) fn settled_by_ball(&self, q: &[f64]) -> bool {
+        self.bounds.meaning == BoundsMeaning::Reference || self.ball_inside(q)
     }
 
     pub(super) fn look(&self, q: &[f64], scratch: &mut Scratch) -> State {
+        if !self.space.within_bounds(q) {
+            return State::OutOfBounds;
+        }
+        let bounded = self.settled_by_ball(q);
+        if bounded && self.keeps_away(q, q, 0.0) {
+            return State::Free;
+        }
         self.robot.place(q, &mut scratch.stance.poses);
         scratch.stance.settle();
-        if !self.in_bounds(q, &scratch.stance) {
+        let held = bounded
+            || self.links.iter().all(|Moving { link, group, .. }| {
+                self.walls().hold(&group.tree, &scratch.stance.frames[*link])
+            });
+        if !held {
             return State::OutOfBounds;
         }
         let Scratch { stance, stacks, .. } = scratch;

@@ -1,6 +1,6 @@
 //! Whether motions of a robot of rigid links are valid.
 
-use super::bodies::{BodyValidity, BoundsMeaning, Edges};
+use super::bodies::{BodyValidity, Edges};
 use super::swept::{Asks, Clock, Finds, Sweep, misses, stays_inside};
 use super::{Scratch, State, Validity};
 use crate::space::Motion;
@@ -25,14 +25,13 @@ impl BodyValidity {
         refinement: u32,
         scratch: &mut Scratch,
     ) -> bool {
-        let bounded = self.bounds.meaning == BoundsMeaning::Reference
-            // The base's origin goes straight, so that the ball around it needs its ends only.
-            || self.ball_inside(a) && self.ball_inside(b);
+        // The base's origin goes straight, so that the ball around it needs its ends only.
+        let bounded = self.settled_by_ball(a) && self.settled_by_ball(b);
         let within = self.space.within_bounds(a) && self.space.within_bounds(b);
         if self.edges == Edges::Swept && !within {
             return false;
         }
-        if within && bounded && self.keeps_away(a, b, refinement) {
+        if within && bounded && self.keeps_away(a, b, self.resolution / f64::from(refinement)) {
             return true;
         }
         let steps = self.steps(a, b, refinement);
@@ -58,17 +57,17 @@ impl BodyValidity {
         }
     }
 
-    /// Whether the ball about the base's origin that holds the robot stays away, by a step, from the box
-    /// around all obstacles, and nothing else is to be looked at. It settles most motions where there is
+    /// Whether the ball about the base's origin that holds the robot stays farther than `room` from the box
+    /// around all obstacles, and nothing else is to be looked at. It settles most questions where there is
     /// much room.
-    fn keeps_away(&self, a: &[f64], b: &[f64], refinement: u32) -> bool {
+    pub(super) fn keeps_away(&self, a: &[f64], b: &[f64], room: f64) -> bool {
         if !self.self_pairs.is_empty() || self.robot.motion == Motion::Fixed {
             return false;
         }
         let Some(obstacles) = &self.obstacles else { return true };
         let planar = self.robot.motion.translations() == 2;
         let origin = |q: &[f64]| Vector::new(q[0], q[1], if planar { 0.0 } else { q[2] });
-        let room = self.reach + self.resolution / f64::from(refinement) + self.slack;
+        let room = self.reach + room + self.slack;
         misses(origin(a), origin(b), room, &obstacles.tree.nodes[0].space)
     }
 

@@ -45,6 +45,17 @@ pub(super) struct Stacks {
     pub pairs: Vec<(u32, u32)>,
 }
 
+impl Stacks {
+    /// Rubbish, see [`Scratch::poison`](crate::validity::Scratch::poison).
+    pub fn poison(&mut self, rubbish: u64) {
+        let entry = (u32::MAX, Span { from: 0, to: rubbish });
+        self.open = vec![entry; rubbish as usize % 3];
+        self.halves = vec![entry; rubbish as usize % 5];
+        self.children = vec![entry; rubbish as usize % 2];
+        self.pairs = vec![(u32::MAX, 7); rubbish as usize % 3];
+    }
+}
+
 /// What is asked of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Asks {
