@@ -9,29 +9,34 @@
 //! samplers in the place of their strategies' own, with seeds 1 to N (default 5), until all their criteria
 //! are met or S CPU seconds (default 30) have gone by. Prints in how many builds they were met, the nodes of
 //! every build, and the medians over all builds, met or not, of what was asked for: motions, configurations.
+//! Before, what one of 1000 milestones costs: configurations and clearances asked for, CPU microseconds.
 
 mod support;
 
+use roadmill::Context;
 use roadmill::img::Setup;
 use roadmill::problem::Problem;
+use roadmill::roadmap::Configs;
 use roadmill::sampler::SamplerKind;
+use roadmill::seed::Seed;
+use roadmill::validity::Scratch;
 use std::path::Path;
 use std::sync::Arc;
-use support::{Solved, arguments, median, solve};
+use support::{Solved, arguments, cpu_seconds, median, method, solve};
 
 fn main() {
     let arguments = arguments(5.0, 30.0);
     let (samplers, problems): (Vec<&String>, Vec<&String>) =
         arguments.scenes.iter().partition(|word| word.contains('='));
-    println!("| problem | sampler | solved | nodes | motions | configurations |");
-    println!("| --- | --- | --- | --- | --- | --- |");
+    println!(
+        "| problem | sampler | asked each | µs each | solved | nodes | motions | configurations |"
+    );
+    println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
     for path in problems {
         let mut problem = Problem::load(Path::new(path)).unwrap_or_else(|error| panic!("{error}"));
         for text in &samplers {
-            let sampler: SamplerKind =
-                toml::from_str(text).unwrap_or_else(|error| panic!("{text}: {error}"));
-            let method = sampler.method();
-            assert_eq!((method.complaint(), method.suits(&problem.context())), (None, Ok(())));
+            let sampler: SamplerKind = method(text);
+            let cost = cost(&problem.context(), &sampler);
             problem.strategies.iter_mut().for_each(|strategy| strategy.sampler = sampler.clone());
             let builds: Vec<Solved> = (1..=arguments.seeds)
                 .map(|seed| {
@@ -45,7 +50,7 @@ fn main() {
                 median(&mut builds.iter().map(|build| of(build) as f64).collect::<Vec<f64>>())
             };
             println!(
-                "| {} | `{text}` | {solved} of {} | {} | {} | {} |",
+                "| {} | `{text}` | {cost} | {solved} of {} | {} | {} | {} |",
                 problem.name,
                 arguments.seeds,
                 nodes.join(" "),
@@ -54,4 +59,17 @@ fn main() {
             );
         }
     }
+}
+
+/// What one of 1000 milestones costs: configurations asked for, CPU microseconds.
+fn cost(cx: &Context, sampler: &SamplerKind) -> String {
+    let method = sampler.method();
+    assert_eq!((method.complaint(), method.suits(cx)), (None, Ok(())));
+    let (mut scratch, mut configs) = (Scratch::new(), Configs::new(cx.space.len()));
+    let begun = cpu_seconds();
+    let seed = Seed::of_set(1, "cost", 0);
+    let done = method.sample(cx, &seed, 1000, &mut scratch, &mut configs);
+    let micros = (cpu_seconds() - begun) * 1e3;
+    done.unwrap_or_else(|error| panic!("{sampler:?}: {error}"));
+    format!("{:.1} | {micros:.1}", scratch.take_asked().configurations as f64 / 1e3)
 }

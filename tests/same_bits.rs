@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// The digests that each problem of `problems/` has always had. Whoever changes one bumps
 /// `BITS_VERSION`.
-const GOLDEN: [(&str, &str); 9] = [
+const GOLDEN: [(&str, &str); 10] = [
     ("adaptive", "bdc3f3d39470e06d7044cd31f2e028c8270dfd849188e2ad160c4e167864ed57"),
     ("settled", "e237813a24ad6d78c4dcb301cff52da2071c63d2af6896d9d6e0d33f7ddd62fd"),
     ("judged", "fc618620ce842cfd14f9926dee68f3c1843f38ad90540cf4700bf7e3fd771de7"),
@@ -18,6 +18,7 @@ const GOLDEN: [(&str, &str); 9] = [
     ("meshes", "4f45115a3f95d0d341669f610369659336aad26cbd1858cb67e790d3f10efdeb"),
     ("slide", "59298bc3e1054a2863cab638c9f60e2d99d1f6d4daddba67d1d059339a8e7e21"),
     ("sampled", "f331e07eb14dc32f4cb2fc56405afdbeee8b188f62fdb5bdb738f2af9be399cb"),
+    ("axis", "ab7ef1b5f01f4e947daedc713c2dd6bfbd6365f059433d7f78506e2358004d8a"),
 ];
 
 fn problem(name: &str) -> Problem {

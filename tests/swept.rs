@@ -1,16 +1,22 @@
-//! Motions of real scenes against the same motions looked at step by step.
+//! Motions of real scenes against the same motions looked at step by step, and of shipped linkages against
+//! every pair of their bodies.
 //!
-//! The scenes are not part of the repository, see `tests/foreign.rs`.
+//! The real scenes are not part of the repository, see `tests/foreign.rs`.
 
+#[path = "../bench/support/brute.rs"]
+#[allow(dead_code, reason = "a bench asks for distances too")]
+mod brute;
 #[path = "support/scenes.rs"]
 #[allow(dead_code, reason = "only the folder is of interest")]
 mod scenes;
 
+use brute::Brute;
 use roadmill::Context;
 use roadmill::problem::Problem;
 use roadmill::seed::{Purpose, Seed};
 use roadmill::validity::{Edges, Scratch, State, TOLERANCE};
 use scenes::data;
+use std::path::Path;
 
 /// How much finer motions are looked at step by step than the resolution asks for.
 const FINER: u32 = 16;
@@ -77,5 +83,48 @@ fn real_scenes_are_judged_as_step_by_step() {
         }
         println!("{scene}: {motions} motions, {free} free, {refused} of them refused");
         assert!(free < motions && refused * 200 <= free, "{scene}: {refused} of {free} refused");
+    }
+}
+
+/// No tree of ours has a part in what parry says of every pair of bodies.
+#[test]
+fn linkages_are_judged_as_by_every_pair_of_bodies() {
+    let problems = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
+    for name in ["stick2.toml", "stick4.toml", "gantry.toml"] {
+        let mut problem = Problem::load(&problems.join(name)).unwrap();
+        let [swept, sampled] = [Edges::Swept, Edges::Sampled].map(|edges| {
+            problem.edges = edges;
+            problem.context()
+        });
+        let brute = Brute::new(&problem);
+        let scratch = &mut Scratch::new();
+        let mut stream = Seed::of_set(5, "linkages", 0).stream(Purpose::Sampling);
+        let (mut a, mut b) = (vec![0.0; swept.space.len()], vec![0.0; swept.space.len()]);
+        let (mut motions, mut free) = (0, 0);
+        while motions < 150 {
+            swept.space.sample_uniform(&mut stream, &mut a);
+            let far = 60.0 * problem.resolution * stream.unit();
+            swept.space.step(&a, far, &mut stream, &mut b);
+            for q in [&a, &b] {
+                assert_eq!(
+                    swept.validity.valid(q, scratch),
+                    swept.space.within_bounds(q) && brute.is_free(q)
+                );
+            }
+            if !(swept.validity.valid(&a, scratch) && swept.validity.valid(&b, scratch)) {
+                continue;
+            }
+            motions += 1;
+            let steps = swept.validity.steps(&a, &b, 1);
+            let coarse = at_steps(&swept, (&a, &b), steps, |q| brute.is_free(q));
+            assert_eq!(sampled.validity.motion(&a, &b, 1, scratch), coarse, "{name}: {a:?}, {b:?}");
+            if swept.validity.motion(&a, &b, 1, scratch) {
+                free += 1;
+                let finer = at_steps(&swept, (&a, &b), 4 * steps, |q| brute.is_free(q));
+                assert!(coarse && finer, "{name}: {a:?} to {b:?} is not free");
+            }
+        }
+        println!("{name}: {motions} motions, {free} free");
+        assert!(free > 20 && free < motions, "{name}: {free} of {motions}");
     }
 }

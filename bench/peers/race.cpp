@@ -5,12 +5,17 @@
 //   race grow SCENE NODES K SEED      OMPL's PRM::growRoadmap to NODES nodes with K neighbours
 //   race solve SCENE QUERY SEED LIMIT OMPL's PRM::solve from the first to the second configuration of the
 //                                     file, within LIMIT CPU seconds
+//   race count SCENE PAIRS            prints how many steps OMPL cuts each pair into by itself
+//   race distance SCENE CONFIGS       prints FCL's distance of the surfaces at each configuration, 0 where
+//                                     they meet
 //
-// Each prints the CPU seconds that it took, and what it counted. Configurations are
+// The first three print the CPU seconds that they took, and what they counted. Configurations are
 // x y z qw qx qy qz. A motion is checked at the interior points of `steps` equal steps, like ours: in
 // steps that carry no robot point farther than the scene's resolution.
 //
 // Build: g++ -O3 -march=x86-64 -std=c++17 race.cpp -I/usr/include/eigen3 -I/usr/include/ompl-1.5 -lompl -lfcl -lccd
+#include "scene.h"
+
 #include <fcl/fcl.h>
 #include <ompl/base/DiscreteMotionValidator.h>
 #include <ompl/base/PlannerTerminationCondition.h>
@@ -24,46 +29,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <ctime>
-#include <fstream>
-#include <iostream>
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace ob = ompl::base;
 using SE3 = ob::SE3StateSpace;
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
 
-[[noreturn]] static void fail(const std::string& what) {
-  std::cerr << "race: " << what << "\n";
-  std::exit(2);
-}
-
-static double cpu_seconds() {
-  timespec time;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return time.tv_sec + 1e-9 * time.tv_nsec;
-}
-
-struct Scene {
-  double low[3], high[3], resolution, radius;
+struct Scene : Head {
   std::shared_ptr<Model> world, robot;
 };
 
 static std::shared_ptr<Model> read_model(std::istream& in) {
-  size_t vertices, triangles;
-  if (!(in >> vertices >> triangles)) fail("a mesh expected");
-  std::vector<fcl::Vector3d> points(vertices);
+  std::vector<fcl::Vector3d> points;
   std::vector<fcl::Triangle> faces;
-  for (auto& p : points) in >> p[0] >> p[1] >> p[2];
-  for (size_t i = 0; i < triangles; ++i) {
-    size_t a, b, c;
-    in >> a >> b >> c;
-    faces.emplace_back(a, b, c);
-  }
-  if (!in) fail("the mesh is cut off");
+  read_mesh(in, points, faces);
   auto model = std::make_shared<Model>();
   model->beginModel();
   model->addSubModel(points, faces);
@@ -74,45 +53,27 @@ static std::shared_ptr<Model> read_model(std::istream& in) {
 
 static Scene read_scene(const char* path) {
   std::ifstream in(path);
-  Scene scene;
-  for (double& value : scene.low) in >> value;
-  for (double& value : scene.high) in >> value;
-  if (!(in >> scene.resolution >> scene.radius)) fail("a scene expected");
+  Scene scene{read_head(in), nullptr, nullptr};
   scene.world = read_model(in);
   scene.robot = read_model(in);
   return scene;
 }
 
-static bool collides(const Scene& scene, const SE3::StateType* state) {
+static fcl::Transform3d pose_of(const SE3::StateType* state) {
   const auto& q = state->rotation();
   fcl::Transform3d pose = fcl::Transform3d::Identity();
   pose.linear() = fcl::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix();
   pose.translation() = fcl::Vector3d(state->getX(), state->getY(), state->getZ());
+  return pose;
+}
+
+static bool collides(const Scene& scene, const SE3::StateType* state) {
+  const fcl::Transform3d pose = pose_of(state);
   static const fcl::CollisionRequestd request(1, false);
   fcl::CollisionResultd result;
   const auto world = fcl::Transform3d::Identity();
   return fcl::collide(scene.robot.get(), pose, scene.world.get(), world, request, result) != 0;
 }
-
-/// Checks the interior points of `steps` steps, the middle first as OMPL does.
-struct Interior {
-  std::vector<std::pair<int, int>> queue;
-
-  template <class Free>
-  bool free(const SE3& space, const ob::State* a, const ob::State* b, int steps, SE3::StateType* between, Free free) {
-    if (steps < 2) return true;
-    queue.assign(1, {1, steps - 1});
-    for (size_t head = 0; head < queue.size(); ++head) {
-      const auto [low, high] = queue[head];
-      const int middle = (low + high) / 2;
-      space.interpolate(a, b, double(middle) / steps, between);
-      if (!free(between)) return false;
-      if (low < middle) queue.push_back({low, middle - 1});
-      if (middle < high) queue.push_back({middle + 1, high});
-    }
-    return true;
-  }
-};
 
 struct Checker : ob::StateValidityChecker {
   const Scene& scene;
@@ -145,7 +106,10 @@ struct Validator : ob::MotionValidator {
     ++asked;
     const int count = steps(a->as<SE3::StateType>(), b->as<SE3::StateType>());
     // Both ends are milestones.
-    return interior.free(space, a, b, count, between, [&](const ob::State* q) { return si_->isValid(q); });
+    return interior.free(count, [&](int step) {
+      space.interpolate(a, b, double(step) / count, between);
+      return si_->isValid(between);
+    });
   }
   bool checkMotion(const ob::State* a, const ob::State* b, std::pair<ob::State*, double>&) const override { return checkMotion(a, b); }
 };
@@ -159,34 +123,55 @@ static void set(SE3::StateType* state, const double* q) {
   rotation.z = q[6];
 }
 
-static int race_edges(const Scene& scene, const std::shared_ptr<SE3>& space, const char* pairs, const char* verdicts) {
-  struct Pair {
-    SE3::StateType *a, *b;
-    int steps;
-  };
+struct Pair {
+  SE3::StateType *a, *b;
+  int steps;
+};
+
+static std::vector<Pair> pairs_of(const std::shared_ptr<SE3>& space, const char* path) {
   std::vector<Pair> all;
-  std::ifstream in(pairs);
-  double q[14];
-  for (int steps;;) {
-    for (double& value : q) in >> value;
-    if (!(in >> steps)) break;
-    Pair pair{space->allocState()->as<SE3::StateType>(), space->allocState()->as<SE3::StateType>(), steps};
-    set(pair.a, q);
-    set(pair.b, q + 7);
-    all.push_back(pair);
-  }
+  const auto state = [&](const double* q) {
+    auto* state = space->allocState()->as<SE3::StateType>();
+    set(state, q);
+    return state;
+  };
+  read_pairs(path, [&](const double* a, const double* b, int steps) { all.push_back({state(a), state(b), steps}); });
+  return all;
+}
+
+static int race_edges(const Scene& scene, const std::shared_ptr<SE3>& space, const char* pairs, const char* verdicts) {
   auto* between = space->allocState()->as<SE3::StateType>();
   Interior interior;
-  std::vector<bool> found;
-  const double begun = cpu_seconds();
-  for (const auto& pair : all) {
-    found.push_back(interior.free(*space, pair.a, pair.b, pair.steps, between, [&](const SE3::StateType* s) { return !collides(scene, s); }));
-  }
-  const double seconds = cpu_seconds() - begun;
-  std::ofstream out(verdicts);
-  for (bool free : found) out << free << "\n";
-  std::printf("%.6f %zu\n", seconds, all.size());
+  return decide(pairs_of(space, pairs), verdicts, [&](const Pair& pair) {
+    return interior.free(pair.steps, [&](int step) {
+      space->interpolate(pair.a, pair.b, double(step) / pair.steps, between);
+      return !collides(scene, between);
+    });
+  });
+}
+
+/// The default: no step is longer than 1 % of the extent, of positions and of rotations apart.
+static int race_count(const std::shared_ptr<SE3>& space, const char* pairs) {
+  for (const auto& pair : pairs_of(space, pairs)) std::printf("%u\n", space->validSegmentCount(pair.a, pair.b));
   return 0;
+}
+
+static int race_distance(const Scene& scene, const std::shared_ptr<SE3>& space, const char* configs) {
+  auto* state = space->allocState()->as<SE3::StateType>();
+  std::ifstream in(configs);
+  double q[7];
+  for (;;) {
+    for (double& value : q) in >> value;
+    if (!in) return 0;
+    set(state, q);
+    double apart = 0;
+    if (!collides(scene, state)) {
+      fcl::DistanceResultd result;
+      fcl::distance(scene.robot.get(), pose_of(state), scene.world.get(), fcl::Transform3d::Identity(), fcl::DistanceRequestd(), result);
+      apart = result.min_distance;
+    }
+    std::printf("%.17g\n", apart);
+  }
 }
 
 static int race_grow(const Scene& scene, const std::shared_ptr<SE3>& space, unsigned nodes, unsigned k) {
@@ -243,7 +228,8 @@ static int race_solve(const Scene& scene, const std::shared_ptr<SE3>& space, con
 }
 
 int main(int count, char** words) {
-  if (count < 5) fail("edges SCENE PAIRS VERDICTS, grow SCENE NODES K SEED or solve SCENE QUERY SEED LIMIT expected");
+  const char* expected = "edges, grow, solve, count or distance expected, with what the first lines of race.cpp say";
+  if (count < 4) fail(expected);
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   const std::string mode = words[1];
   const Scene scene = read_scene(words[2]);
@@ -255,7 +241,9 @@ int main(int count, char** words) {
   }
   space->setBounds(bounds);
   space->setup();
-  if (mode == "edges") return race_edges(scene, space, words[3], words[4]);
+  if (mode == "count") return race_count(space, words[3]);
+  if (mode == "distance") return race_distance(scene, space, words[3]);
+  if (mode == "edges" && count == 5) return race_edges(scene, space, words[3], words[4]);
   if (mode == "grow" && count == 6) {
     ompl::RNG::setSeed(std::strtoul(words[5], nullptr, 10));
     return race_grow(scene, space, std::atoi(words[3]), std::atoi(words[4]));
@@ -264,5 +252,5 @@ int main(int count, char** words) {
     ompl::RNG::setSeed(std::strtoul(words[4], nullptr, 10));
     return race_solve(scene, space, words[3], std::strtod(words[5], nullptr));
   }
-  fail("edges, grow or solve expected");
+  fail(expected);
 }

@@ -1,16 +1,23 @@
 //! What the benches share.
 #![allow(dead_code, reason = "each bench uses its part")]
 
+pub mod brute;
+pub mod lists;
+pub mod noting;
+pub mod panels;
 pub mod peer;
+pub mod plot;
 
 use roadmill::Context;
+use roadmill::connect::AmongKind;
 use roadmill::img::{Core, Cut, Judgement, Observer, Progress, Round, Serial, Setup, Stop, drive};
 use roadmill::neighbor::k_nearest;
 use roadmill::roadmap::{Configs, Tally};
-use roadmill::sampler::{Sampler, Uniform};
+use roadmill::sampler::{Sampler, SamplerKind, Uniform};
 use roadmill::seed::Seed;
 use roadmill::validity::{Asked, Scratch};
 use rustix::time::{ClockId, clock_gettime};
+use serde::de::DeserializeOwned;
 use std::collections::BTreeSet;
 use std::convert::Infallible;
 use std::sync::Arc;
@@ -31,22 +38,50 @@ pub fn median(values: &mut [f64]) -> f64 {
 pub struct Arguments {
     pub seeds: u64,
     pub seconds: f64,
+    /// Strategies get these in the place of their own.
+    pub sampler: Option<SamplerKind>,
+    pub among: Option<AmongKind>,
     pub scenes: Vec<String>,
 }
 
-/// Reads `[--seeds N] [--seconds S] SCENE …`.
+/// Reads `[--seeds N] [--seconds S] [--sampler SAMPLER] [--among AMONG] SCENE …`, methods as a problem
+/// file names them.
 pub fn arguments(seeds: f64, seconds: f64) -> Arguments {
-    let mut arguments = Arguments { seeds: seeds as u64, seconds, scenes: Vec::new() };
+    arguments_with(seeds, seconds, &[]).0
+}
+
+/// [`arguments`], and the words after some further options.
+pub fn arguments_with(
+    seeds: f64,
+    seconds: f64,
+    further: &[&str],
+) -> (Arguments, Vec<Option<String>>) {
+    let mut arguments =
+        Arguments { seeds: seeds as u64, seconds, sampler: None, among: None, scenes: Vec::new() };
+    let mut found = vec![None; further.len()];
     let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
     while let Some(word) = words.next() {
-        let mut number = || words.next().and_then(|word| word.parse::<f64>().ok());
+        let mut next = || words.next().unwrap_or_else(|| panic!("something after {word}"));
+        if let Some(option) = further.iter().position(|option| *option == word) {
+            found[option] = Some(next());
+            continue;
+        }
+        let number =
+            |text: String| text.parse::<f64>().unwrap_or_else(|_| panic!("{text}: a number"));
         match word.as_str() {
-            "--seeds" => arguments.seeds = number().expect("a number after --seeds") as u64,
-            "--seconds" => arguments.seconds = number().expect("a number after --seconds"),
+            "--seeds" => arguments.seeds = number(next()) as u64,
+            "--seconds" => arguments.seconds = number(next()),
+            "--sampler" => arguments.sampler = Some(method(&next())),
+            "--among" => arguments.among = Some(method(&next())),
             _ => arguments.scenes.push(word),
         }
     }
-    arguments
+    (arguments, found)
+}
+
+/// A method as a problem file names it.
+pub fn method<T: DeserializeOwned>(text: &str) -> T {
+    toml::from_str(text).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
 /// What a build came to.

@@ -2,6 +2,7 @@
 
 use roadmill::problem::Problem;
 use roadmill::scene::{Body, Shape};
+use roadmill::space::Motion;
 use roadmill::validity::BoundsMeaning;
 use std::fmt::Write;
 use std::path::Path;
@@ -12,9 +13,22 @@ use std::process::Command;
 pub fn surfaces(path: &Path) -> Problem {
     let mut problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
     problem.bounds.meaning = BoundsMeaning::Reference;
+    empty(&mut problem);
+    problem
+}
+
+/// Makes mere surfaces of all meshes.
+pub fn empty(problem: &mut Problem) {
     let robot = problem.robot.links.iter_mut().flat_map(|link| &mut link.bodies);
     robot.chain(&mut problem.obstacles).for_each(|body| body.solid = false);
-    problem
+}
+
+/// Whether the peer knows robots and obstacles of this kind: meshes, of which one moves freely.
+pub fn suits(problem: &Problem) -> bool {
+    let mut bodies = problem.robot.bodies().chain(&problem.obstacles);
+    problem.robot.links.len() == 1
+        && problem.robot.motion == Motion::Rigid3d
+        && bodies.all(|body| matches!(body.shape, Shape::Mesh(_)))
 }
 
 /// The scene as text for the peer.
@@ -43,6 +57,27 @@ pub fn scene_text(problem: &Problem) -> String {
         }
     }
     text
+}
+
+/// Configurations that belong together on one line each, with a number of steps.
+pub fn pairs_text<'a>(
+    pairs: impl Iterator<Item = (&'a [f64], &'a [f64])>,
+    steps: impl Iterator<Item = u64>,
+) -> String {
+    let mut text = String::new();
+    for ((a, b), steps) in pairs.zip(steps) {
+        for value in a.iter().chain(b) {
+            write!(text, "{value} ").expect("memory");
+        }
+        writeln!(text, "{steps}").expect("memory");
+    }
+    text
+}
+
+/// The verdicts that the peer wrote.
+pub fn verdicts(path: &str) -> Vec<bool> {
+    let text = std::fs::read_to_string(path).expect("verdicts");
+    text.lines().map(|line| line == "1").collect()
 }
 
 /// Runs the peer; the numbers that it prints, CPU seconds first.

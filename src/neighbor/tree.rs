@@ -172,7 +172,7 @@ impl Tree {
 
     /// The first id in a box.
     fn an_id(&self, level: usize, index: usize) -> u32 {
-        self.ids[index * FAN.pow(level as u32 + 1)]
+        self.ids[index << (FAN.ilog2() as usize * (level + 1))]
     }
 
     /// Shows the seeker every point whose configuration may be within its bound.
@@ -249,11 +249,10 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Squares beyond this belong to configurations beyond the bound.
-    fn limit(&self, bound: f64) -> f64 {
+    fn limit(&self, bound: f64) -> f32 {
         let reach = bound + self.margin;
-        let limit = reach * reach * self.slack + TINY;
-        // Squares beyond single precision are infinite and say nothing.
-        if limit < f64::from(f32::MAX) { limit } else { f64::INFINITY }
+        // Rounded up; squares beyond single precision are infinite and say nothing.
+        ((reach * reach * self.slack + TINY) as f32).next_up()
     }
 
     /// Visits boxes `FAN * block` and following of a level, nearest first. `counts` says that all
@@ -265,20 +264,25 @@ impl Search<'_> {
             .embedding
             .box_squares(&self.place.point, &sides[block * values..(block + 1) * values]);
         let first = block * FAN;
-        let limit = self.limit(seeker.bound());
+        let mut within = within(&squares, self.limit(seeker.bound()));
+        if count - first < FAN {
+            within &= (1 << (count - first)) - 1;
+        }
         // Squares of boxes are numbers and not negative, so their bits order as they do.
         let (mut near, mut found) = ([0u64; FAN], 0);
-        for (child, square) in squares.iter().enumerate().take(count - first) {
-            if f64::from(*square) > limit {
-                continue;
+        for child in ones(within) {
+            let key = u64::from(squares[child].to_bits()) << 32 | child as u64;
+            // Few are within, and mostly in no order: insertion beats what sorts many.
+            let mut at = found;
+            while at > 0 && near[at - 1] > key {
+                near[at] = near[at - 1];
+                at -= 1;
             }
-            near[found] = u64::from(square.to_bits()) << 32 | child as u64;
+            near[at] = key;
             found += 1;
         }
-        near[..found].sort_unstable();
         for key in &near[..found] {
-            let square = f32::from_bits((key >> 32) as u32);
-            if f64::from(square) > self.limit(seeker.bound()) {
+            if f32::from_bits((key >> 32) as u32) > self.limit(seeker.bound()) {
                 return;
             }
             let index = first + (key & u64::from(u32::MAX)) as usize;
@@ -302,13 +306,32 @@ impl Search<'_> {
         let points = &self.tree.points[leaf * values..(leaf + 1) * values];
         let squares = self.embedding.squares(&self.place.point, points);
         let mut limit = self.limit(seeker.bound());
-        for (id, square) in self.tree.ids[leaf * FAN..].iter().zip(squares) {
-            // What is not a number is looked at.
-            if f64::from(square) > limit || *id == NONE {
+        let ids = &self.tree.ids[leaf * FAN..(leaf + 1) * FAN];
+        for at in ones(within(&squares, limit)) {
+            if squares[at] > limit || ids[at] == NONE {
                 continue;
             }
-            seeker.meet(*id, counts);
+            seeker.meet(ids[at], counts);
             limit = self.limit(seeker.bound());
         }
     }
+}
+
+/// A bit for every square that is not beyond the limit; what is not a number is looked at.
+#[inline]
+fn within(squares: &[f32; FAN], limit: f32) -> u32 {
+    let mut bits = 0;
+    for (at, square) in squares.iter().enumerate() {
+        bits |= u32::from(!(*square > limit)) << at;
+    }
+    bits
+}
+
+/// The places of the bits that are set, lowest first.
+fn ones(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let at = bits.trailing_zeros();
+        bits &= bits.wrapping_sub(1);
+        (at < u32::BITS).then_some(at as usize)
+    })
 }

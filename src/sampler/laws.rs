@@ -9,7 +9,7 @@ use crate::space::{Motion, rigid_space};
 use std::f64::consts::PI;
 
 /// A point in the plane, in a box from the origin, among boxes given as x, y, width, height.
-fn plane(width: f64, height: f64, boxes: &[[f64; 4]]) -> Context {
+pub(super) fn plane(width: f64, height: f64, boxes: &[[f64; 4]]) -> Context {
     let mut scene = format!(
         "[space]\nmotion = \"translation-2d\"\nmin = [0, 0]\nmax = [{width}, {height}]\n\
          bounds = \"reference\"\n[robot]\nbodies = [{{ shape = {{ point = {{}} }} }}]\n"
@@ -25,13 +25,13 @@ fn plane(width: f64, height: f64, boxes: &[[f64; 4]]) -> Context {
     context(&scene)
 }
 
-fn points(cx: &Context, text: &str, count: usize) -> Vec<[f64; 2]> {
+pub(super) fn points(cx: &Context, text: &str, count: usize) -> Vec<[f64; 2]> {
     let configs = sets(cx, &sampler(text), 0..1, count, &mut Scratch::new());
     configs.iter().map(|q| [q[0], q[1]]).collect()
 }
 
 /// Kolmogorov and Smirnov: the sample has the distribution function `law`.
-fn follows(mut sample: Vec<f64>, law: impl Fn(f64) -> f64) {
+pub(super) fn follows(mut sample: Vec<f64>, law: impl Fn(f64) -> f64) {
     sample.sort_by(f64::total_cmp);
     let n = sample.len() as f64;
     let gap = sample.iter().enumerate().fold(0.0f64, |gap, (i, x)| {
@@ -42,7 +42,7 @@ fn follows(mut sample: Vec<f64>, law: impl Fn(f64) -> f64) {
 }
 
 /// Chi-square: the counts come from the probabilities.
-fn fits(counts: &[usize], probabilities: &[f64]) {
+pub(super) fn fits(counts: &[usize], probabilities: &[f64]) {
     let n: usize = counts.iter().sum();
     let whole: f64 = probabilities.iter().sum();
     let square: f64 = counts

@@ -7,6 +7,7 @@ mod bridge;
 mod gaussian;
 mod grid;
 mod halton;
+mod maprm;
 mod mix;
 mod obprm;
 mod shares;
@@ -24,6 +25,7 @@ methods! {
         Mix(mix::Mix),
         Obprm(obprm::Obprm),
         Uobprm(uobprm::Uobprm),
+        Maprm(maprm::Maprm),
     }
 }
 
@@ -31,6 +33,7 @@ pub use bridge::Bridge;
 pub use gaussian::Gaussian;
 pub use grid::Grid;
 pub use halton::Halton;
+pub use maprm::Maprm;
 pub use mix::{Mix, Share};
 pub use obprm::{Obprm, Start};
 pub use uniform::Uniform;
@@ -139,5 +142,7 @@ pub struct GaveUp {
 
 #[cfg(test)]
 mod laws;
+#[cfg(test)]
+mod maprm_laws;
 #[cfg(test)]
 mod tests;

@@ -82,6 +82,8 @@ fn samplers() -> Vec<SamplerKind> {
         "uobprm = { length = 0.5, step = 0.1, bounds = true }",
         "grid = { cells = 3, block = 7 }",
         "halton = {}",
+        "maprm = { step = 0.1, tolerance = 0.01 }",
+        "maprm = { step = 0.2, tolerance = 0.02, directions = 4, bounds = true, steps = 50 }",
         "mix = [{ weight = 2, sampler = { bridge = { deviation = 0.5 } } }, { sampler = { halton = {} } }]",
     ];
     samplers.map(sampler).to_vec()
@@ -166,6 +168,10 @@ fn a_sampler_that_can_find_nothing_gives_up() {
         (&full, "grid = { cells = 3, attempts = 50, block = 7 }"),
         (&full, "halton = { attempts = 50 }"),
         (&full, "gaussian = { deviation = 0.3, attempts = 50 }"),
+        (
+            &full,
+            "maprm = { step = 0.1, tolerance = 0.01, directions = 4, steps = 3, attempts = 50 }",
+        ),
         (&full, "mix = [{ sampler = { uniform = { attempts = 50 } } }]"),
         (&empty, "bridge = { deviation = 0.1, attempts = 50 }"),
         (&empty, "obprm = { step = 0.01, start = \"colliding\", attempts = 50 }"),
@@ -176,7 +182,10 @@ fn a_sampler_that_can_find_nothing_gives_up() {
         let sampler = sampler(text);
         let error = sampler.method().sample(cx, &seed, 1, &mut scratch, &mut configs).unwrap_err();
         assert_eq!(error, GaveUp { attempts: 50 }, "{text}");
-        assert!(scratch.take_asked().configurations >= 50, "{text}");
+        let asked = scratch.take_asked().configurations;
+        // At most so many steps in so many directions for each.
+        let most = if text.starts_with("maprm") { 50 * (3 + 4 * 3) } else { u64::MAX };
+        assert!((50..=most).contains(&asked), "{text}: {asked}");
     }
 }
 
@@ -191,6 +200,7 @@ fn samplers_say_what_they_cannot_work_with() {
         (nothing, "bridge = { deviation = 1 }", "nothing to collide with"),
         (nothing, "obprm = { step = 1 }", "nothing to collide with"),
         (nothing, "uobprm = { length = 1, step = 1 }", "nothing to collide with"),
+        (nothing, "maprm = { step = 1, tolerance = 0.1 }", "nothing to collide with"),
         (
             nothing,
             "mix = [{ sampler = { bridge = { deviation = 1 } } }]",
@@ -205,6 +215,14 @@ fn samplers_say_what_they_cannot_work_with() {
         (SCENE, "obprm = { step = 1, steps = 0 }", "steps = 0 found; at least 1"),
         (SCENE, "obprm = { step = 1, start = \"both\" }", "unknown variant `both`"),
         (SCENE, "uobprm = { length = 1, step = 2 }", "step = 2 found; a millionth"),
+        (SCENE, "maprm = { step = inf, tolerance = 1 }", "step = inf found; a positive length"),
+        (SCENE, "maprm = { step = 1, tolerance = 2 }", "tolerance = 2 found; a billionth"),
+        (
+            SCENE,
+            "maprm = { step = 1, tolerance = 1, directions = 3 }",
+            "directions = 3 found; an even number",
+        ),
+        (SCENE, "maprm = { step = 1, tolerance = 1, steps = 0 }", "steps = 0 found; at least 1"),
         (SCENE, "grid = { cells = 0 }", "cells = 0 found; at least 1"),
         (SCENE, "grid = { cells = 2, block = 0 }", "block = 0 found; at least 1"),
         (SCENE, "halton = { attempts = 0 }", "attempts = 0 found; at least 1"),

@@ -1,0 +1,281 @@
+//! What is measured: inputs are made once, and every run does the same with them.
+
+use super::support::sample;
+use roadmill::Context;
+use roadmill::connect::{Nearest, Within};
+use roadmill::img::{Job, Outcome, Replica, Setup};
+use roadmill::neighbor::{Candidates, Index, k_nearest};
+use roadmill::problem::Problem;
+use roadmill::query::{Attachment, solve};
+use roadmill::roadmap::{Configs, Increment};
+use roadmill::sampler::SamplerKind;
+use roadmill::seed::Seed;
+use roadmill::validity::{Edges, Scratch};
+use roadmill::wire;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Does all operations once, and says how many there were.
+type Work = Box<dyn FnMut() -> usize>;
+
+/// One kernel.
+pub struct Kernel {
+    pub name: &'static str,
+    /// What is counted as one.
+    pub operation: &'static str,
+    pub prepare: fn() -> Work,
+}
+
+const fn kernel(name: &'static str, operation: &'static str, prepare: fn() -> Work) -> Kernel {
+    Kernel { name, operation, prepare }
+}
+
+/// All of them.
+pub const KERNELS: &[Kernel] = &[
+    kernel("state-mesh", "configuration", || states("cage")),
+    kernel("state-boxes", "configuration", || states("walls")),
+    kernel("state-linkage", "configuration", || states("stick4")),
+    kernel("swept-mesh", "motion", || motions("cage", Edges::Swept)),
+    kernel("swept-boxes", "motion", || motions("walls", Edges::Swept)),
+    kernel("swept-linkage", "motion", || motions("stick4", Edges::Swept)),
+    kernel("swept-plane", "motion", || motions("maze", Edges::Swept)),
+    kernel("sampled-mesh", "motion", || motions("cage", Edges::Sampled)),
+    kernel("clearance-mesh", "configuration", clearances),
+    kernel("sample-uniform", "milestone", || samples("uniform = {}")),
+    kernel("sample-gaussian", "milestone", || samples("gaussian = { deviation = 0.5 }")),
+    kernel("sample-bridge", "milestone", || samples("bridge = { deviation = 0.5 }")),
+    kernel("sample-obprm", "milestone", || samples("obprm = { step = 0.1 }")),
+    kernel("sample-uobprm", "milestone", || samples("uobprm = { length = 0.5, step = 0.1 }")),
+    kernel("index-build", "configuration", index_built),
+    kernel("index-search", "query", index_searched),
+    kernel("brute-search", "query", brute_searched),
+    kernel("connect", "milestone", connected),
+    kernel("join", "milestone", joined),
+    kernel("fold", "milestone", folded),
+    kernel("query", "query", queried),
+    kernel("wire", "milestone", wired),
+];
+
+fn problem(name: &str) -> Problem {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
+    Problem::load(&folder.join(name).with_extension("toml")).expect("it ships")
+}
+
+/// Configurations drawn uniformly, valid or not.
+fn uniform(cx: &Context, count: usize) -> Configs {
+    let mut stream = Seed::of_set(1, "kernels", 0).stream(roadmill::seed::Purpose::Sampling);
+    let (mut configs, mut q) = (Configs::new(cx.space.len()), vec![0.0; cx.space.len()]);
+    for _ in 0..count {
+        cx.space.sample_uniform(&mut stream, &mut q);
+        configs.push(&q);
+    }
+    configs
+}
+
+fn states(name: &str) -> Work {
+    let cx = problem(name).context();
+    let configs = uniform(&cx, 2000);
+    let mut scratch = Scratch::new();
+    Box::new(move || {
+        (0..configs.len()).for_each(|i| {
+            std::hint::black_box(cx.validity.state(configs.get(i), &mut scratch));
+        });
+        configs.len()
+    })
+}
+
+fn motions(name: &str, edges: Edges) -> Work {
+    let cx = Problem { edges, ..problem(name) }.context();
+    let configs = sample(&cx, 300, 0);
+    let mut pairs = Vec::new();
+    for i in 0..configs.len() {
+        let others = (0..configs.len() as u32).filter(|other| *other as usize != i);
+        let near = k_nearest(&cx.space, &configs, others, configs.get(i), 5);
+        pairs.extend(near.iter().map(|near| (i, near.id as usize)));
+    }
+    let mut scratch = Scratch::new();
+    Box::new(move || {
+        for (a, b) in &pairs {
+            let (a, b) = (configs.get(*a), configs.get(*b));
+            std::hint::black_box(cx.validity.motion(a, b, 1, &mut scratch));
+        }
+        pairs.len()
+    })
+}
+
+fn clearances() -> Work {
+    let cx = problem("cage").context();
+    let configs = sample(&cx, 200, 0);
+    let mut scratch = Scratch::new();
+    Box::new(move || {
+        (0..configs.len()).for_each(|i| {
+            std::hint::black_box(cx.validity.clearance(configs.get(i), &mut scratch));
+        });
+        configs.len()
+    })
+}
+
+fn samples(sampler: &str) -> Work {
+    let cx = problem("cage").context();
+    let sampler: SamplerKind = toml::from_str(sampler).expect("a sampler");
+    let mut scratch = Scratch::new();
+    Box::new(move || {
+        let mut configs = Configs::new(cx.space.len());
+        let seed = Seed::of_set(1, "kernels", 0);
+        let sampled = sampler.method().sample(&cx, &seed, 50, &mut scratch, &mut configs);
+        sampled.expect("the cage has room");
+        configs.len()
+    })
+}
+
+/// All configurations count.
+struct All(Configs);
+
+impl Candidates for All {
+    fn config(&self, id: u32) -> &[f64] {
+        self.0.get(id as usize)
+    }
+}
+
+fn index_built() -> Work {
+    let cx = problem("walls").context();
+    let configs = uniform(&cx, 5000);
+    Box::new(move || {
+        let mut index = Index::new(&cx.space);
+        // As sets come in.
+        for end in (50..=configs.len() as u32).step_by(50) {
+            index.extend(end, |id| configs.get(id as usize), |_| 0);
+        }
+        index.len() as usize
+    })
+}
+
+const QUERIES: usize = 200;
+
+fn index_searched() -> Work {
+    let cx = problem("walls").context();
+    let all = All(uniform(&cx, 10_000));
+    let mut index = Index::new(&cx.space);
+    let end = all.0.len() as u32;
+    index.extend(end, |id| all.config(id), |_| 0);
+    Box::new(move || {
+        for i in 0..QUERIES {
+            let found = index.k_nearest(&cx.space, &all, end, all.0.get(i), 10);
+            assert_eq!(found.len(), 10);
+        }
+        QUERIES
+    })
+}
+
+fn brute_searched() -> Work {
+    let cx = problem("walls").context();
+    let configs = uniform(&cx, 1000);
+    Box::new(move || {
+        for i in 0..QUERIES {
+            let found = k_nearest(&cx.space, &configs, 0..1000, configs.get(i), 10);
+            assert_eq!(found.len(), 10);
+        }
+        QUERIES
+    })
+}
+
+fn connected() -> Work {
+    let cx = problem("walls").context();
+    let configs = sample(&cx, 500, 0);
+    let mut scratch = Scratch::new();
+    Box::new(move || {
+        let seed = Seed::of_set(1, "kernels", 0);
+        let edges = Nearest::default().connect(&cx, &seed, &configs, &mut scratch);
+        assert!(!edges.is_empty());
+        configs.len()
+    })
+}
+
+/// The walls after some sets, one to a round, and the increment of the next.
+fn grown(sets: u64) -> (Setup, Replica, Arc<Increment>) {
+    let setup = Setup::new(problem("walls"));
+    let (mut replica, mut scratch) = (Replica::new(&setup), Scratch::new());
+    for place in 0..sets {
+        let increment = generate(&setup, &replica, place, &mut scratch);
+        replica.publish(&setup, increment);
+        let edges = join(&setup, &replica, place, &mut scratch);
+        replica.fold(&setup, std::iter::once(&edges[..]));
+    }
+    let next = generate(&setup, &replica, sets, &mut scratch);
+    (setup, replica, next)
+}
+
+fn generate(setup: &Setup, replica: &Replica, place: u64, scratch: &mut Scratch) -> Arc<Increment> {
+    let (strategy, ordinal) = setup.plan.set_at(place).expect("the schedule does not adapt");
+    let task = replica.task(setup, Job::Generate { place, strategy, ordinal });
+    match task.expect("sets can be generated").run(setup, scratch) {
+        Outcome::Increment(Ok(increment)) => Arc::new(increment),
+        other => panic!("no increment: {other:?}"),
+    }
+}
+
+fn join(
+    setup: &Setup,
+    replica: &Replica,
+    place: u64,
+    scratch: &mut Scratch,
+) -> Vec<roadmill::roadmap::Edge> {
+    let (strategy, ordinal) = setup.plan.set_at(place).expect("the schedule does not adapt");
+    let task = replica.task(setup, Job::Join { place, strategy, ordinal });
+    match task.expect("the set is published").run(setup, scratch) {
+        Outcome::Joined(joined) => joined.edges,
+        other => panic!("no edges: {other:?}"),
+    }
+}
+
+const SETS: u64 = 40;
+
+fn joined() -> Work {
+    let (setup, mut replica, next) = grown(SETS);
+    let nodes = next.configs.len();
+    replica.publish(&setup, next);
+    let mut scratch = Scratch::new();
+    Box::new(move || {
+        std::hint::black_box(join(&setup, &replica, SETS, &mut scratch));
+        nodes
+    })
+}
+
+fn folded() -> Work {
+    let (setup, mut replica, _) = grown(SETS);
+    let increments: Vec<Arc<Increment>> = {
+        let (mut scratch, place) = (Scratch::new(), SETS);
+        (0..20).map(|i| generate(&setup, &replica, place + i, &mut scratch)).collect()
+    };
+    let nodes = increments.iter().map(|increment| increment.configs.len()).sum();
+    // Every run adds the same sets to a roadmap that grows; the counted run is always the second.
+    Box::new(move || {
+        for increment in &increments {
+            replica.publish(&setup, increment.clone());
+            replica.fold(&setup, std::iter::once(&[][..]));
+        }
+        nodes
+    })
+}
+
+fn queried() -> Work {
+    let (setup, replica, _) = grown(SETS);
+    let mut scratch = Scratch::new();
+    Box::new(move || {
+        let ends = setup.cx.query.as_ref().expect("the walls have a query");
+        let ends = (&ends.start[..], &ends.goal[..]);
+        let attachment = Attachment::default();
+        std::hint::black_box(solve(&setup.cx, replica.roadmap(), ends, &attachment, &mut scratch));
+        1
+    })
+}
+
+fn wired() -> Work {
+    let (_, _, increment) = grown(1);
+    Box::new(move || {
+        let bytes = wire::encode(&*increment);
+        let back: Increment = wire::decode(&bytes).expect("what was encoded");
+        assert_eq!(back.configs.len(), increment.configs.len());
+        increment.configs.len()
+    })
+}

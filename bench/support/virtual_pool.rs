@@ -1,0 +1,227 @@
+//! A pool of workers in virtual time: the jobs are not done, they take the time that was measured.
+
+use roadmill::evaluate::Verdict;
+use roadmill::img::{Cut, Event, Executor, Finished, Job, Joined, Outcome, Round, Setup};
+use roadmill::roadmap::{Configs, Increment, Roadmap, Tally};
+use roadmill::validity::Asked;
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap, VecDeque};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// What was measured of a problem, in CPU seconds and bytes, all per set.
+#[derive(Clone, Debug, Default)]
+pub struct Costs {
+    pub generate: Vec<f64>,
+    pub join: Vec<f64>,
+    /// What every earlier set of the round adds to a join.
+    pub join_more: f64,
+    /// Decoding the set and finding its components, in every process that has a copy of the roadmap.
+    pub take_in: f64,
+    pub fold: f64,
+    /// Of a round.
+    pub evaluate: f64,
+    pub bytes: f64,
+}
+
+/// What the machine takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Machine {
+    /// The coordinator's CPU seconds per set, whatever the number of workers.
+    pub set_seconds: f64,
+    /// From one end of a message to the other.
+    pub latency: f64,
+    pub bytes_per_second: f64,
+    /// How many times slower than measured all jobs are.
+    pub slower: f64,
+    /// Whether all workers read one copy of the roadmap, instead of keeping one each.
+    pub shared: bool,
+}
+
+/// Time spent since the beginning, of all workers together but for the coordinator's.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Spent {
+    /// On the clock.
+    pub now: f64,
+    pub sets: u64,
+    pub coordinator: f64,
+    /// Generating, joining and evaluating.
+    pub jobs: f64,
+    /// Of that, evaluating.
+    pub evaluations: f64,
+    /// Of that, what joins take because their rounds have many sets.
+    pub rounds: f64,
+    /// Bringing copies of the roadmap up to date.
+    pub copies: f64,
+}
+
+/// The pool.
+pub struct VirtualPool<'a> {
+    costs: &'a Costs,
+    machine: Machine,
+    sets_per_round: u64,
+    dofs: usize,
+    /// After so many sets the build is cut.
+    sets_max: u64,
+    /// How much of the log each worker has.
+    places: Vec<usize>,
+    idle: BTreeSet<usize>,
+    waiting: BTreeSet<Job>,
+    /// Answers on their way: nanoseconds of arrival, worker and job.
+    answers: BinaryHeap<Reverse<(u64, usize, Job)>>,
+    heard: VecDeque<Job>,
+    /// Bytes and CPU seconds of all entries up to each.
+    log: Vec<[f64; 2]>,
+    roadmap: Roadmap,
+    pub spent: Spent,
+    /// [`VirtualPool::spent`] when a third of the sets were folded.
+    pub warm: Option<Spent>,
+}
+
+impl<'a> VirtualPool<'a> {
+    pub fn new(
+        setup: &Setup,
+        (costs, machine): (&'a Costs, Machine),
+        workers: usize,
+        sets_max: u64,
+    ) -> VirtualPool<'a> {
+        VirtualPool {
+            costs,
+            machine,
+            sets_per_round: u64::from(setup.problem.sets_per_round),
+            dofs: setup.cx.space.len(),
+            sets_max,
+            places: vec![0; workers],
+            idle: (0..workers).collect(),
+            waiting: BTreeSet::new(),
+            answers: BinaryHeap::new(),
+            heard: VecDeque::new(),
+            log: vec![[0.0; 2]],
+            roadmap: Roadmap::new(&setup.cx.space),
+            spent: Spent::default(),
+            warm: None,
+        }
+    }
+
+    fn log(&mut self, bytes: f64, seconds: f64) {
+        let [bytes_so_far, seconds_so_far] = self.log[self.log.len() - 1];
+        self.log.push([bytes_so_far + bytes, seconds_so_far + seconds]);
+    }
+
+    /// The coordinator is at work.
+    fn coordinate(&mut self, seconds: f64) {
+        self.spent.now += seconds;
+        self.spent.coordinator += seconds;
+    }
+
+    /// Seconds of a job; and of them, what it takes because its round has many sets.
+    fn seconds_of(&self, job: Job) -> [f64; 2] {
+        let costs = self.costs;
+        let of = |each: &[f64], place: u64| each[place as usize % each.len()];
+        let earlier = match job {
+            Job::Join { place, .. } => (place % self.sets_per_round) as f64,
+            Job::Generate { .. } | Job::Evaluate { .. } => 0.0,
+        };
+        let checking = match job {
+            Job::Generate { place, .. } => of(&costs.generate, place),
+            Job::Join { place, .. } => of(&costs.join, place),
+            Job::Evaluate { .. } => costs.evaluate,
+        };
+        // Searching more sets takes no more checks.
+        let more = earlier * costs.join_more;
+        [checking * self.machine.slower + more, more]
+    }
+
+    /// Gives jobs to the workers that wait for one, the most urgent first.
+    fn feed(&mut self) {
+        while let (Some(worker), Some(job)) = (self.idle.first().copied(), self.waiting.first()) {
+            let job = *job;
+            self.waiting.remove(&job);
+            self.idle.remove(&worker);
+            let (from, to) = (self.log[self.places[worker]], self.log[self.log.len() - 1]);
+            self.places[worker] = self.log.len() - 1;
+            let (bytes, copying) = (to[0] - from[0], to[1] - from[1]);
+            let mut copies = 0.0;
+            if !self.machine.shared {
+                self.coordinate(bytes / self.machine.bytes_per_second);
+                copies = copying;
+            }
+            let [seconds, more] = self.seconds_of(job);
+            self.spent.jobs += seconds;
+            if matches!(job, Job::Evaluate { .. }) {
+                self.spent.evaluations += seconds;
+            }
+            self.spent.rounds += more;
+            self.spent.copies += copies;
+            let arrival = self.spent.now + 2.0 * self.machine.latency + copies + seconds;
+            self.answers.push(Reverse(((arrival * 1e9) as u64, worker, job)));
+        }
+    }
+
+    /// An outcome that the job could have.
+    fn outcome(&self, job: Job) -> Outcome {
+        match job {
+            Job::Generate { .. } => {
+                let mut configs = Configs::new(self.dofs);
+                configs.push(&vec![0.0; self.dofs]);
+                let (edges, asked) = (Vec::new(), Asked::default());
+                Outcome::Increment(Ok(Increment { configs, edges, asked }))
+            }
+            Job::Join { .. } => {
+                Outcome::Joined(Joined { edges: Vec::new(), asked: Asked::default() })
+            }
+            Job::Evaluate { .. } => {
+                Outcome::Verdict(Box::new(Verdict::at_least(1.0, 0.0, Asked::default())))
+            }
+        }
+    }
+}
+
+impl Executor for VirtualPool<'_> {
+    fn publish(&mut self, _: &Arc<Increment>) {
+        self.log(self.costs.bytes, self.costs.take_in);
+    }
+
+    fn fold(&mut self, round: &Round) {
+        let sets = round.sets.len() as u64;
+        self.log(0.0, sets as f64 * self.costs.fold);
+        self.spent.sets += sets;
+        if self.spent.sets >= self.sets_max / 3 && self.warm.is_none() {
+            self.warm = Some(self.spent);
+        }
+    }
+
+    fn submit(&mut self, job: Job) {
+        self.waiting.insert(job);
+    }
+
+    fn next(&mut self, _: Duration) -> Option<Event> {
+        if self.spent.sets >= self.sets_max {
+            return Some(Event::Cut(Cut::Time));
+        }
+        loop {
+            self.feed();
+            if let Some(job) = self.heard.pop_front() {
+                return Some(Event::Done(job, Finished::new(self.outcome(job))));
+            }
+            let Reverse((arrival, ..)) = self.answers.peek()?;
+            self.spent.now = self.spent.now.max(*arrival as f64 * 1e-9);
+            while let Some(Reverse((arrival, worker, job))) = self.answers.peek().copied()
+                && arrival as f64 * 1e-9 <= self.spent.now
+            {
+                self.answers.pop();
+                self.coordinate(self.machine.set_seconds / 2.0);
+                self.idle.insert(worker);
+                self.heard.push_back(job);
+            }
+        }
+    }
+
+    fn alive(&self) -> usize {
+        self.places.len()
+    }
+
+    fn tally(&self) -> &Tally {
+        self.roadmap.tally()
+    }
+}

@@ -1,0 +1,272 @@
+//! How far more workers help: the build's own state machine with up to 4096 workers in virtual time.
+//!
+//! ```text
+//! cargo bench --bench workers -- [--nodes N] [--set NODES] [--slower F] [--shared] [--set-us U]
+//!     [--latency-us U] [--gigabytes G] [--svg FILE] SCENE
+//! ```
+//!
+//! First the scene is grown up to N nodes (default 20 000), in sets of NODES (as the scene says), by doing
+//! every job once, and the CPU time of each is noted over the second half: generating a set, taking it in
+//! (decoding it, finding its components), joining it, folding it; of the criterion, judging the last roadmap
+//! that does not meet it. Then 256 sets are joined as one round, which gives what every earlier set of a
+//! round adds to a join. Then `img::Core` is driven by workers that take these times
+//! (`bench/support/virtual_pool.rs`), jobs being F times longer with `--slower`: proteins' energies take
+//! far longer than rigid bodies' tests. The coordinator works U microseconds per set (default 300, which
+//! is right for sets of 50 nodes), messages arrive after 45 µs and are copied at 0.8 GB/s
+//! (`docs/performance.md` has these). As in the program, every worker keeps a copy of the roadmap and brings
+//! it up to date before each job; with `--shared` all read one.
+//!
+//! Printed per number of workers and sets per round: the efficiency, that is the share of the workers' time
+//! in which they do what a single process would do for the same sets; and what most of the loss goes
+//! into where that is under 0.9: `copies` of the roadmap, the `coordinator` (at work for over 70 % of the
+//! time), longer joins in `rounds` of many sets, the `criteria`, or else `waiting` for the end of a round.
+//! Costs are those of a roadmap of N nodes throughout.
+
+mod support;
+#[path = "support/virtual_pool.rs"]
+mod virtual_pool;
+
+use roadmill::img::{Core, Job, Joined, Observer, Outcome, Replica, Setup, Task, drive};
+use roadmill::problem::{Limits, Problem};
+use roadmill::roadmap::Increment;
+use roadmill::validity::Scratch;
+use roadmill::wire;
+use std::convert::Infallible;
+use std::path::Path;
+use std::sync::Arc;
+use support::plot::{COLOURS, Plot, Scale};
+use support::{cpu_seconds, median};
+use virtual_pool::{Costs, Machine, Spent, VirtualPool};
+
+const WORKERS: [usize; 7] = [1, 4, 16, 64, 256, 1024, 4096];
+const SETS_PER_ROUND: [u32; 5] = [5, 50, 500, 5000, 20_000];
+/// As `coordinator` has it.
+const LOOKAHEAD_PER_WORKER: u64 = 4;
+/// A coordinator that is at work for a larger share of the time is what workers wait for.
+const BUSY: f64 = 0.7;
+/// Sets joined as one round.
+const ROUND: u64 = 256;
+
+struct Arguments {
+    nodes: u64,
+    set: Option<u32>,
+    machine: Machine,
+    svg: Option<String>,
+    scene: String,
+}
+
+fn arguments() -> Option<Arguments> {
+    let machine = Machine {
+        set_seconds: 300e-6,
+        latency: 45e-6,
+        bytes_per_second: 0.8e9,
+        slower: 1.0,
+        shared: false,
+    };
+    let (mut nodes, mut machine, mut svg, mut scene) = (20_000, machine, None, None);
+    let mut set = None;
+    let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
+    while let Some(word) = words.next() {
+        let mut number = || {
+            let number = words.next().and_then(|word| word.parse::<f64>().ok());
+            number.unwrap_or_else(|| panic!("a number after {word}"))
+        };
+        match word.as_str() {
+            "--nodes" => nodes = number() as u64,
+            "--set" => set = Some(number() as u32),
+            "--slower" => machine.slower = number(),
+            "--shared" => machine.shared = true,
+            "--set-us" => machine.set_seconds = number() * 1e-6,
+            "--latency-us" => machine.latency = number() * 1e-6,
+            "--gigabytes" => machine.bytes_per_second = number() * 1e9,
+            "--svg" => svg = words.next(),
+            _ => scene = Some(word),
+        }
+    }
+    Some(Arguments { nodes, set, machine, svg, scene: scene? })
+}
+
+fn main() {
+    let Some(Arguments { nodes, set, machine, svg, scene }) = arguments() else {
+        println!("workers: skipped, no scene given");
+        return;
+    };
+    let mut problem = Problem::load(Path::new(&scene)).unwrap_or_else(|error| panic!("{error}"));
+    for strategy in &mut problem.strategies {
+        strategy.nodes = set.unwrap_or(strategy.nodes);
+    }
+    let costs = measure(&problem, nodes);
+    let mean = |values: &[f64]| 1e6 * values.iter().sum::<f64>() / values.len() as f64;
+    println!(
+        "{}: sets of {} nodes: generate {:.0} µs, take in {:.0}, join {:.0} and {:.2} for every earlier set of the round, fold {:.0}, {:.0} bytes; evaluate {:.0} µs",
+        problem.name,
+        problem.strategies[0].nodes,
+        mean(&costs.generate),
+        1e6 * costs.take_in,
+        mean(&costs.join),
+        1e6 * costs.join_more,
+        1e6 * costs.fold,
+        costs.bytes,
+        1e6 * costs.evaluate,
+    );
+    let set = machine.slower * (mean(&costs.generate) + mean(&costs.join))
+        + 1e6 * (costs.take_in + costs.fold);
+    println!(
+        "{machine:?}\na set's work is {set:.0} µs: the coordinator feeds {:.0} workers; every copy of the roadmap takes it {:.1} µs per set\n",
+        set / (1e6 * machine.set_seconds),
+        1e6 * costs.bytes / machine.bytes_per_second,
+    );
+    println!("| workers |{}", SETS_PER_ROUND.map(|k| format!(" {k} sets per round |")).concat());
+    println!("|{}", " --- |".repeat(1 + SETS_PER_ROUND.len()));
+    let mut curves = SETS_PER_ROUND.map(|_| Vec::new());
+    for workers in WORKERS {
+        let cells = SETS_PER_ROUND.iter().zip(&mut curves).map(|(sets_per_round, curve)| {
+            let (efficiency, loss) = run(&problem, (&costs, machine), workers, *sets_per_round);
+            curve.push([workers as f64, efficiency]);
+            let loss = if efficiency < 0.9 { format!(", {loss}") } else { String::new() };
+            format!(" {efficiency:.3}{loss} |")
+        });
+        println!("| {workers} |{}", cells.collect::<String>());
+    }
+    if let Some(file) = svg {
+        let slower = match machine.slower {
+            1.0 => String::new(),
+            slower => format!(", sets {slower} times slower"),
+        };
+        let copies = if machine.shared { "one copy of the roadmap" } else { "a copy each" };
+        let title = format!("{}{slower}: efficiency of workers with {copies}", problem.name);
+        std::fs::write(file, picture(&title, &curves)).expect("the file can be written");
+    }
+}
+
+/// The real jobs, once each.
+fn measure(problem: &Problem, nodes: u64) -> Costs {
+    let setup = Setup::new(Problem { sets_per_round: 1, ..problem.clone() });
+    let (mut replica, scratch) = (Replica::new(&setup), &mut Scratch::new());
+    let mut costs = Costs::default();
+    let (mut take_in, mut fold) = (Vec::new(), Vec::new());
+    let (mut place, mut met) = (0, problem.evaluators.is_empty());
+    while (replica.roadmap().configs().len() as u64) < nodes {
+        let (bytes, generate) = timed(|| generate(&setup, &replica, place, scratch));
+        let ((), taking) = timed(|| take(&setup, &mut replica, &bytes));
+        let (Joined { edges, .. }, join) = timed(|| join(&setup, &replica, place, scratch));
+        let ((), folding) = timed(|| replica.fold(&setup, std::iter::once(&edges[..])));
+        if !met {
+            let roadmap = replica.roadmap().clone();
+            let task = Task::Evaluate { evaluator: 0, roadmap };
+            let (outcome, seconds) = timed(|| task.run(&setup, scratch));
+            let Outcome::Verdict(verdict) = outcome else { panic!("evaluations give verdicts") };
+            met = verdict.satisfied;
+            if !met {
+                costs.evaluate = seconds;
+            }
+        }
+        place += 1;
+        if replica.roadmap().configs().len() as u64 > nodes / 2 {
+            costs.generate.push(generate);
+            costs.join.push(join);
+            take_in.push(taking);
+            fold.push(folding);
+            costs.bytes = bytes.len() as f64;
+        }
+    }
+    // The mean: a set that waits for an index to be built anew does so in every copy.
+    costs.take_in = take_in.iter().sum::<f64>() / take_in.len() as f64;
+    costs.fold = fold.iter().sum::<f64>() / fold.len() as f64;
+    let mut joins = Vec::new();
+    for earlier in 0..ROUND {
+        let bytes = generate(&setup, &replica, place + earlier, scratch);
+        take(&setup, &mut replica, &bytes);
+        joins.push(timed(|| join(&setup, &replica, place + earlier, scratch)).1);
+    }
+    let quarter = joins.len() / 4;
+    let late = median(&mut joins[3 * quarter..].to_vec());
+    let early = median(&mut joins[..quarter].to_vec());
+    costs.join_more = (late - early) / (3 * quarter) as f64;
+    costs
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let begun = cpu_seconds();
+    (work(), cpu_seconds() - begun)
+}
+
+fn generate(setup: &Setup, replica: &Replica, place: u64, scratch: &mut Scratch) -> Vec<u8> {
+    let (strategy, ordinal) = setup.plan.set_at(place).expect("the schedule does not adapt");
+    let job = Job::Generate { place, strategy, ordinal };
+    let task = replica.task(setup, job).expect("sets can be generated");
+    let Outcome::Increment(Ok(increment)) = task.run(setup, scratch) else {
+        panic!("the scene has free configurations")
+    };
+    wire::encode(&increment)
+}
+
+fn take(setup: &Setup, replica: &mut Replica, bytes: &[u8]) {
+    let increment: Increment = wire::decode(bytes).expect("what was encoded");
+    replica.publish(setup, Arc::new(increment));
+}
+
+fn join(setup: &Setup, replica: &Replica, place: u64, scratch: &mut Scratch) -> Joined {
+    let (strategy, ordinal) = setup.plan.set_at(place).expect("the schedule does not adapt");
+    let job = Job::Join { place, strategy, ordinal };
+    let task = replica.task(setup, job).expect("the set is published");
+    let Outcome::Joined(joined) = task.run(setup, scratch) else { panic!("joins give edges") };
+    joined
+}
+
+/// The efficiency once all are at work, and what most of the loss goes into.
+fn run(
+    problem: &Problem,
+    (costs, machine): (&Costs, Machine),
+    workers: usize,
+    sets_per_round: u32,
+) -> (f64, &'static str) {
+    let mut problem = Problem { sets_per_round, ..problem.clone() };
+    problem.obstacles.clear();
+    problem.evaluators.truncate(1);
+    problem.limits = Limits { nodes: u64::MAX, sets: u64::MAX, seconds: None };
+    problem.strategies.iter_mut().for_each(|strategy| strategy.nodes = 1);
+    let setup = Setup::new(problem);
+    let sets = (12 * workers as u64).max(6 * u64::from(sets_per_round)).max(1000);
+    let mut core = Core::new(&setup, LOOKAHEAD_PER_WORKER * workers as u64);
+    let mut pool = VirtualPool::new(&setup, (costs, machine), workers, sets);
+    struct Nobody;
+    impl Observer for Nobody {
+        type Error = Infallible;
+    }
+    let Ok(_) = drive(&mut core, &mut pool, &mut Nobody);
+    let (warm, end) = (pool.warm.expect("a third is less than all"), pool.spent);
+    let since = |of: fn(&Spent) -> f64| of(&end) - of(&warm);
+    let elapsed = since(|spent| spent.now);
+    let sets = (end.sets - warm.sets) as f64;
+    let all = workers as f64 * elapsed;
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let jobs = machine.slower * (mean(&costs.generate) + mean(&costs.join));
+    let useful = sets * (jobs + costs.take_in + costs.fold);
+    let waiting = all - since(|spent| spent.jobs) - since(|spent| spent.copies);
+    let busy = since(|spent| spent.coordinator) > BUSY * elapsed;
+    let losses = [
+        (since(|spent| spent.rounds), "rounds"),
+        (since(|spent| spent.evaluations), "criteria"),
+        (since(|spent| spent.copies) - sets * (costs.take_in + costs.fold), "copies"),
+        (waiting, if busy { "coordinator" } else { "waiting" }),
+    ];
+    let loss = losses.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).expect("four");
+    (useful / all, loss.1)
+}
+
+fn picture(title: &str, curves: &[Vec<[f64; 2]>]) -> String {
+    let x = Scale { low: 1.0, high: 4096.0, log: true };
+    let y = Scale { low: 0.0, high: 1.1, log: false };
+    let mut plot = Plot::new(title, ["workers", "efficiency"], [900.0, 460.0], x, y);
+    plot.columns(&WORKERS.map(|workers| (workers as f64, workers.to_string())));
+    plot.rows(&[0.0, 0.25, 0.5, 0.75, 0.9, 1.0].map(|share| (share, format!("{share}"))));
+    let names = SETS_PER_ROUND.iter().zip(COLOURS);
+    plot.legend(
+        &names.map(|(k, colour)| (format!("{k} sets a round"), colour)).collect::<Vec<_>>(),
+    );
+    for (curve, colour) in curves.iter().zip(COLOURS) {
+        plot.line(curve, colour);
+    }
+    plot.finish()
+}

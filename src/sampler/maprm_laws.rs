@@ -1,0 +1,155 @@
+//! The law of medial axis sampling: equally far from two witnesses, and on axes that are known.
+
+use super::laws::{fits, follows, plane, points};
+use super::tests::{context, sampler, sets};
+use super::*;
+use crate::math;
+use std::f64::consts::TAU;
+
+/// With a hair more for rounding.
+const TOLERANCE: f64 = 0.01 * (1.0 + 1e-9);
+const MAPRM: &str = "maprm = { step = 0.1, tolerance = 0.01 }";
+const BOUNDED: &str = "maprm = { step = 0.1, tolerance = 0.01, bounds = true }";
+
+fn milestones(cx: &Context, text: &str, count: usize) -> Configs {
+    sets(cx, &sampler(text), 0..1, count, &mut Scratch::new())
+}
+
+/// The two least distances, each to another thing, are equal within the tolerance.
+fn on_axis(mut distances: Vec<f64>) {
+    distances.sort_by(f64::total_cmp);
+    assert!(distances[0] > 0.0 && distances[1] - distances[0] <= TOLERANCE, "{distances:?}");
+}
+
+/// A passage of width 1 between two half spaces: what is drawn in them is moved out by the nearest side and
+/// then, as what is drawn in between, straight to the middle, so that along the passage all is uniform.
+#[test]
+fn between_two_walls_milestones_lie_in_the_middle_and_uniformly_along() {
+    let cx = plane(21.0, 20.0, &[[0.0, 0.0, 10.0, 20.0], [11.0, 0.0, 10.0, 20.0]]);
+    let found = points(&cx, MAPRM, 3000);
+    assert!(found.iter().all(|[x, _]| (x - 10.5).abs() <= TOLERANCE / 2.0));
+    let far = found.iter().filter(|[_, y]| (5.0..15.0).contains(y));
+    follows(far.map(|[_, y]| (y - 5.0) / 10.0).collect(), |share| share);
+}
+
+/// A block that all but fills the room: by its diagonals it falls into two triangles and two trapezoids, one
+/// for each side that is nearest.
+#[test]
+fn a_point_inside_a_block_leaves_it_by_the_nearest_side() {
+    let (width, height, gap) = (2.0, 1.0, 0.01);
+    let cx = plane(width + 2.0 * gap, height + 2.0 * gap, &[[gap, gap, width, height]]);
+    let text =
+        "maprm = { step = 0.001, tolerance = 0.0001, bounds = true, directions = 2, steps = 1 }";
+    let mut sides = [0; 4];
+    for [x, y] in points(&cx, text, 3000) {
+        let gaps = [x, width + 2.0 * gap - x, y, height + 2.0 * gap - y];
+        let near = gaps.iter().position(|far| *far < 0.0051).expect("it lies in a gap");
+        assert!(gaps[near] > 0.0049);
+        sides[near] += 1;
+    }
+    let (end, side) = (0.25 + gap * (height + gap), 0.75 + gap * (width + gap));
+    fits(&sides, &[end, end, side, side]);
+}
+
+/// In an empty box, where the bounds count as obstacles, every point goes along the normal of its nearest
+/// wall: to the middle plane those above and below the part of it that is nowhere nearer to another wall.
+#[test]
+fn in_a_room_milestones_are_as_far_from_two_walls() {
+    let cx = context(
+        "[space]\nmotion = \"translation-3d\"\nmin = [0, 0, 0]\nmax = [4, 3, 2]\n\
+         bounds = \"reference\"\n[robot]\nbodies = [{ shape = { point = {} } }]\n",
+    );
+    let mut planes = [0; 2];
+    for q in milestones(&cx, BOUNDED, 2000).iter() {
+        on_axis(vec![q[0], 4.0 - q[0], q[1], 3.0 - q[1], q[2], 2.0 - q[2]]);
+        planes[usize::from((q[2] - 1.0).abs() > TOLERANCE / 2.0)] += 1;
+    }
+    fits(&planes, &[4.0, 20.0]);
+}
+
+/// A rod that turns in the plane, in a room of three bounds and a wall: its distances follow from its angle.
+#[test]
+fn a_rod_that_turns_is_as_far_from_two_walls() {
+    let cx = context(
+        "[space]\nmotion = \"rigid-2d\"\nmin = [-1, 0]\nmax = [3, 3]\nbounds = \"body\"\n\
+         [robot]\nbodies = [{ shape = { box = { size = [1.0, 0.2, 0.2] } } }]\n\
+         [[obstacles]]\nshape = { box = { size = [0.5, 3, 1] } }\nposition = [2.75, 1.5, 0]\n",
+    );
+    for q in milestones(&cx, BOUNDED, 300).iter() {
+        let (sin, cos) = (math::sin(q[2]).abs(), math::cos(q[2]).abs());
+        let (x, y) = (0.5 * cos + 0.1 * sin, 0.5 * sin + 0.1 * cos);
+        on_axis(vec![q[0] + 1.0 - x, 2.5 - q[0] - x, q[1] - y, 3.0 - q[1] - y]);
+    }
+}
+
+/// A ball that could also turn, and a point, among balls: two of them are equally near, or a ball and a bound.
+#[test]
+fn among_balls_milestones_have_two_witnesses() {
+    let balls =
+        [[1.0, 1.0, 1.0, 0.8], [3.0, 1.2, 0.5, 0.6], [2.0, 3.0, 2.0, 0.9], [1.0, 2.5, 3.5, 0.4]];
+    for (motion, body, radius) in
+        [("rigid-3d", "sphere = { radius = 0.15 }", 0.15), ("translation-3d", "point = {}", 0.0)]
+    {
+        let mut scene = format!(
+            "[space]\nmotion = \"{motion}\"\nmin = [0, 0, 0]\nmax = [4, 4, 4]\nbounds = \"body\"\n\
+             [robot]\nbodies = [{{ shape = {{ {body} }} }}]\n"
+        );
+        for [x, y, z, radius] in balls {
+            scene += &format!(
+                "[[obstacles]]\nshape = {{ sphere = {{ radius = {radius} }} }}\n\
+                 position = [{x}, {y}, {z}]\n"
+            );
+        }
+        let cx = context(&scene);
+        for (text, bounds) in [(MAPRM, false), (BOUNDED, true)] {
+            for q in milestones(&cx, text, 300).iter() {
+                let mut distances: Vec<f64> = balls
+                    .iter()
+                    .map(|ball| {
+                        let way = [0, 1, 2].map(|i| q[i] - ball[i]);
+                        let far = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+                        far.sqrt() - ball[3] - radius
+                    })
+                    .collect();
+                if bounds {
+                    distances.extend(q[..3].iter().flat_map(|x| [x - radius, 4.0 - x - radius]));
+                }
+                on_axis(distances);
+            }
+        }
+    }
+}
+
+/// A ball on a turning arm among three others: its space is a circle, on which random directions find the
+/// nearest exactly, so the middles between neighbours are all that there is, each for what is drawn between
+/// the centres of its two.
+#[test]
+fn an_arm_that_turns_stops_in_the_middle_between_two_obstacles() {
+    let obstacles = [0.0f64, 100.0, 220.0].map(f64::to_radians);
+    let mut scene =
+        "[space]\nmotion = \"fixed\"\nmin = [-2, -2, -2]\nmax = [2, 2, 2]\nbounds = \"body\"\n\
+         [robot]\nbodies = []\n\
+         [[robot.links]]\nname = \"arm\"\n\
+         bodies = [{ shape = { sphere = { radius = 0.1 } }, position = [1, 0, 0] }]\n\
+         joint = { kind = { revolute = { axis = [0, 0, 1] } } }\n"
+            .to_owned();
+    for angle in obstacles {
+        scene += &format!(
+            "[[obstacles]]\nshape = {{ sphere = {{ radius = 0.3 }} }}\nposition = [{}, {}, 0]\n",
+            math::cos(angle),
+            math::sin(angle)
+        );
+    }
+    let cx = context(&scene);
+    let mut counts = [0; 3];
+    for q in milestones(&cx, "maprm = { step = 0.1, tolerance = 0.01, directions = 2 }", 600).iter()
+    {
+        let near = (0..3).find(|&i| {
+            let [one, other] = [i, (i + 1) % 3].map(|i| obstacles[i]);
+            let middle = one + (other - one).rem_euclid(TAU) / 2.0;
+            cx.space.distance(q, &[math::wrap_angle(middle)]) <= TOLERANCE
+        });
+        counts[near.expect("it is in the middle of two")] += 1;
+    }
+    fits(&counts, &[100.0, 120.0, 140.0]);
+}
