@@ -40,7 +40,7 @@ fn main() {
 }
 
 fn share_of_a_build(folder: &Path, seconds: u64) {
-    let problem = cage(folder, 4_000_000);
+    let problem = cage(folder, 4_000_000, u64::from(SET_NODES));
     let out = folder.join("run");
     let done = Command::new(env!("CARGO_BIN_EXE_roadmill"))
         .arg("build")
@@ -79,11 +79,11 @@ fn opening(folder: &Path, nodes: u64) {
     while let Some(told) = replay.read().expect("whole") {
         if let Told::Round(round, digest) = told {
             executor.restore(&round);
-            replay.check(executor.roadmap(), digest).expect("the same roadmap");
+            replay.check(executor.tally(), digest).expect("the same roadmap");
         }
     }
     println!("to resume  {:.2} s, hashes included", begun.elapsed().as_secs_f64());
-    let edges = executor.roadmap().edges().len();
+    let edges = executor.tally().edges();
     drop(executor);
     let begun = Instant::now();
     let ledger = Ledger::read(&run).expect("whole");
@@ -111,7 +111,7 @@ fn make(run: &Path, problem: &Problem, nodes: u64) {
             .collect();
         let folded = sets.iter().map(|set| (&*set.increment, &set.joined.edges[..]));
         roadmap.fold_round(&space, folded);
-        ledger.round(&Round { index, sets }, problem, &roadmap).expect("it can be written");
+        ledger.round(&Round { index, sets }, problem, roadmap.tally()).expect("it can be written");
     }
 }
 

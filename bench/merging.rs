@@ -16,7 +16,7 @@ use roadmill::evaluate::{EvaluatorKind, Not, Query};
 use roadmill::img::{Core, Judgement, Observer, Round, Serial, Setup, drive};
 use roadmill::local::Planner;
 use roadmill::problem::Problem;
-use roadmill::roadmap::{Components, Roadmap};
+use roadmill::roadmap::{Components, Roadmap, Tally};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -60,7 +60,8 @@ fn main() {
                 let not = EvaluatorKind::Not(Not(Box::new(query.clone())));
                 problem.evaluators = vec![query, not];
                 let setup = Arc::new(Setup::new(problem));
-                let mut watch = Watch { space: Some(setup.clone()), ..sum };
+                let build = Some((setup.clone(), Roadmap::new(&setup.cx.space)));
+                let mut watch = Watch { build, ..sum };
                 let mut serial = Serial::new(setup.clone());
                 let Ok(_) = drive(&mut Core::new(&setup, 0), &mut serial, &mut watch);
                 watch.end();
@@ -93,7 +94,8 @@ fn until(neighbors: u32, planners: &[Planner]) -> AmongKind {
 /// What builds came to, one after the other.
 #[derive(Default)]
 struct Watch {
-    space: Option<Arc<Setup>>,
+    /// The problem at work, and its roadmap so far.
+    build: Option<(Arc<Setup>, Roadmap)>,
     tried: u64,
     free: usize,
     joined: usize,
@@ -116,14 +118,16 @@ impl Watch {
 impl Observer for Watch {
     type Error = std::convert::Infallible;
 
-    fn folded(&mut self, round: &Round, roadmap: &Roadmap) -> Result<(), Self::Error> {
-        let space = &self.space.as_ref().expect("a build").cx.space;
+    fn folded(&mut self, round: &Round, _: &Tally) -> Result<(), Self::Error> {
+        let (setup, roadmap) = self.build.as_mut().expect("a build");
+        let space = &setup.cx.space;
         let mut before = self.now.0;
         for set in &round.sets {
             self.tried += set.joined.asked.motions;
             self.free += set.joined.edges.len();
             before += Components::of(space, &set.increment.configs, &set.increment.edges).count();
         }
+        roadmap.fold_round(space, round.parts());
         self.now.0 = roadmap.components().count();
         self.joined += before - self.now.0;
         let sizes = roadmap.components().iter().map(|component| component.members.len());

@@ -5,7 +5,7 @@ use roadmill::img::{
     Simulated, Stop, build, drive, resume_with,
 };
 use roadmill::problem::Problem;
-use roadmill::roadmap::Roadmap;
+use roadmill::roadmap::Tally;
 use roadmill::schedule::Adaptive;
 use roadmill::validity::Edges;
 use std::convert::Infallible;
@@ -43,7 +43,7 @@ struct Keeper {
 impl Observer for Keeper {
     type Error = Infallible;
 
-    fn folded(&mut self, round: &Round, _: &Roadmap) -> Result<(), Infallible> {
+    fn folded(&mut self, round: &Round, _: &Tally) -> Result<(), Infallible> {
         assert_eq!(round.index, self.rounds.len() as u64);
         self.rounds.push(round.clone());
         Ok(())
@@ -55,7 +55,7 @@ impl Observer for Keeper {
         Ok(())
     }
 
-    fn tick(&mut self, _: &Progress, _: &Roadmap, _: usize) -> Result<Option<Cut>, Infallible> {
+    fn tick(&mut self, _: &Progress, _: &Tally, _: usize) -> Result<Option<Cut>, Infallible> {
         match &mut self.looks {
             Some(0) => Ok(Some(Cut::Interrupted)),
             Some(looks) => {
@@ -196,7 +196,7 @@ fn a_chapter_adds(name: &str, further: &Problem) {
         cut.looks = None;
         let mut simulated = Simulated::new(setup.clone(), 4, seed + 1000, &mut memo);
         cut.go_on(&setup, &mut simulated, 2);
-        assert_eq!(simulated.roadmap().digest(), whole.roadmap.digest(), "{seed}");
+        assert_eq!(simulated.tally().digest(), whole.roadmap.digest(), "{seed}");
 
         let mut next = vec![0; setup.problem.strategies.len()];
         for set in cut.rounds.iter().flat_map(|round| &round.sets) {

@@ -12,7 +12,7 @@ use roadmill::Context;
 use roadmill::connect::AmongKind;
 use roadmill::img::{Core, Cut, Judgement, Observer, Progress, Round, Serial, Setup, Stop, drive};
 use roadmill::neighbor::k_nearest;
-use roadmill::roadmap::{Configs, Roadmap};
+use roadmill::roadmap::{Configs, Tally};
 use roadmill::sampler::{Sampler, SamplerKind, Uniform};
 use roadmill::seed::Seed;
 use roadmill::validity::{Asked, Scratch};
@@ -117,7 +117,7 @@ struct Watch {
 impl Observer for Watch {
     type Error = Infallible;
 
-    fn folded(&mut self, round: &Round, _: &Roadmap) -> Result<(), Infallible> {
+    fn folded(&mut self, round: &Round, _: &Tally) -> Result<(), Infallible> {
         for set in &round.sets {
             self.asked += set.increment.asked;
             self.asked += set.joined.asked;
@@ -130,7 +130,7 @@ impl Observer for Watch {
         Ok(())
     }
 
-    fn tick(&mut self, _: &Progress, _: &Roadmap, _: usize) -> Result<Option<Cut>, Infallible> {
+    fn tick(&mut self, _: &Progress, _: &Tally, _: usize) -> Result<Option<Cut>, Infallible> {
         Ok((cpu_seconds() >= self.end).then_some(Cut::Time))
     }
 }

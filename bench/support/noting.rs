@@ -3,9 +3,9 @@
 use super::cpu_seconds;
 use roadmill::Context;
 use roadmill::evaluate::{Connectivity, Coverage, EvaluatorKind, Samples, Verdict};
-use roadmill::img::{Core, Cut, Executor, Observer, Progress, Round, Serial, Setup, Stop, drive};
+use roadmill::img::{Core, Cut, Observer, Progress, Round, Serial, Setup, Stop, drive};
 use roadmill::local::Planner;
-use roadmill::roadmap::{Configs, Roadmap};
+use roadmill::roadmap::{Configs, Roadmap, Tally};
 use roadmill::sampler::SamplerKind;
 use roadmill::seed::Seed;
 use roadmill::validity::Scratch;
@@ -102,11 +102,13 @@ pub fn note(
         noted: vec![None; criteria.len()],
         cost: 0,
         scratch: Scratch::new(),
+        roadmap: Roadmap::new(&setup.cx.space),
         each,
     };
     let mut serial = Serial::new(setup.clone());
     let Ok(stop) = drive(&mut Core::new(&setup, 0), &mut serial, &mut watch);
-    let last = watch.now(serial.roadmap(), false);
+    let roadmap = std::mem::replace(&mut watch.roadmap, Roadmap::new(&setup.cx.space));
+    let last = watch.now(&roadmap, false);
     (watch.noted.into_iter().map(|noted| noted.unwrap_or_else(|| last.clone())).collect(), stop)
 }
 
@@ -119,6 +121,7 @@ struct Watch<'a> {
     noted: Vec<Option<Noted>>,
     cost: u64,
     scratch: Scratch,
+    roadmap: Roadmap,
     each: &'a mut dyn FnMut(&Roadmap),
 }
 
@@ -151,22 +154,26 @@ impl Watch<'_> {
 impl Observer for Watch<'_> {
     type Error = Infallible;
 
-    fn folded(&mut self, round: &Round, roadmap: &Roadmap) -> Result<(), Infallible> {
+    fn folded(&mut self, round: &Round, _: &Tally) -> Result<(), Infallible> {
+        let space = &self.setup.cx.space;
+        let mut roadmap = std::mem::replace(&mut self.roadmap, Roadmap::new(space));
+        roadmap.fold_round(space, round.parts());
         for asked in round.sets.iter().flat_map(|set| [set.increment.asked, set.joined.asked]) {
             self.cost += asked.configurations + asked.motions;
         }
         for (index, criterion) in self.criteria.iter().enumerate() {
             let met =
-                |watch: &mut Self| watch.judge(criterion, &index.to_string(), roadmap).satisfied;
+                |watch: &mut Self| watch.judge(criterion, &index.to_string(), &roadmap).satisfied;
             if self.noted[index].is_none() && met(self) {
-                self.noted[index] = Some(self.now(roadmap, true));
+                self.noted[index] = Some(self.now(&roadmap, true));
             }
         }
-        (self.each)(roadmap);
+        (self.each)(&roadmap);
+        self.roadmap = roadmap;
         Ok(())
     }
 
-    fn tick(&mut self, _: &Progress, _: &Roadmap, _: usize) -> Result<Option<Cut>, Infallible> {
+    fn tick(&mut self, _: &Progress, _: &Tally, _: usize) -> Result<Option<Cut>, Infallible> {
         let all = !self.noted.is_empty() && self.noted.iter().all(Option::is_some);
         Ok((all || cpu_seconds() >= self.end).then_some(Cut::Time))
     }

@@ -2,7 +2,7 @@
 
 use roadmill::evaluate::Verdict;
 use roadmill::img::{Cut, Event, Executor, Finished, Job, Joined, Outcome, Round, Setup};
-use roadmill::roadmap::{Configs, Increment, Roadmap};
+use roadmill::roadmap::{Configs, Increment, Roadmap, Tally};
 use roadmill::validity::Asked;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, VecDeque};
@@ -221,11 +221,7 @@ impl Executor for VirtualPool<'_> {
         self.places.len()
     }
 
-    fn roadmap(&self) -> &Roadmap {
-        &self.roadmap
-    }
-
-    fn into_roadmap(self) -> Roadmap {
-        self.roadmap
+    fn tally(&self) -> &Tally {
+        self.roadmap.tally()
     }
 }

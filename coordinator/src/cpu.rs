@@ -2,6 +2,29 @@
 
 use rustix::time::{ClockId, clock_gettime};
 
+/// CPU time of one thread that went into one kind of work.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Meter {
+    seconds: f64,
+}
+
+impl Meter {
+    /// The time of this thread now: what [`Meter::end`] wants.
+    pub fn begin() -> f64 {
+        seconds_of(ClockId::ThreadCPUTime)
+    }
+
+    /// Adds the time since then.
+    pub fn end(&mut self, begun: f64) {
+        self.seconds += Meter::begin() - begun;
+    }
+
+    /// CPU seconds so far.
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+}
+
 /// CPU time since the clock was started. A process may have a past that is not its own: whoever calls
 /// `exec`, as `cargo run` does, hands on what it and its children have used.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +51,11 @@ impl CpuClock {
 }
 
 fn own_seconds() -> f64 {
-    let time = clock_gettime(ClockId::ProcessCPUTime);
+    seconds_of(ClockId::ProcessCPUTime)
+}
+
+fn seconds_of(clock: ClockId) -> f64 {
+    let time = clock_gettime(clock);
     time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }
 

@@ -4,7 +4,7 @@ use crate::run::EvaluatorValue;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use roadmill::img::Progress;
 use roadmill::problem::Problem;
-use roadmill::roadmap::Roadmap;
+use roadmill::roadmap::Tally;
 use serde::Serialize;
 use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
@@ -92,7 +92,7 @@ impl Reporter {
         &mut self,
         problem: &Problem,
         progress: &Progress,
-        roadmap: &Roadmap,
+        tally: &Tally,
         workers: (usize, usize),
     ) {
         let now = Instant::now();
@@ -107,8 +107,8 @@ impl Reporter {
             sets_joined: progress.sets_joined,
             rounds: progress.rounds,
             nodes: progress.nodes,
-            edges: roadmap.edges().len(),
-            components: roadmap.components().count(),
+            edges: tally.edges(),
+            components: tally.components(),
             nodes_per_second: progress.nodes as f64 / seconds.max(1e-9),
             evaluators: EvaluatorValue::all(problem, &progress.verdicts),
             workers_alive: workers.0,

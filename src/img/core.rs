@@ -3,7 +3,7 @@
 use super::{Finished, Job, Joined, Outcome, Plan, Setup};
 use crate::evaluate::Verdict;
 use crate::problem::Limits;
-use crate::roadmap::{Digest, Increment};
+use crate::roadmap::{Digest, Edge, Increment};
 use crate::sampler::GaveUp;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -45,6 +45,13 @@ pub struct Round {
     pub index: u64,
     /// Its sets in the order of their places.
     pub sets: Vec<RoundSet>,
+}
+
+impl Round {
+    /// What its sets add, and the edges that join each: what a fold takes.
+    pub fn parts(&self) -> impl Iterator<Item = (&Increment, &[Edge])> {
+        self.sets.iter().map(|set| (&*set.increment, &set.joined.edges[..]))
+    }
 }
 
 /// A set of a complete round.

@@ -1,5 +1,5 @@
 use super::{Command, Core, Cut, Event, Job, Judgement, Progress, Round, Stop};
-use crate::roadmap::{Increment, Roadmap};
+use crate::roadmap::{Increment, Roadmap, Tally};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -29,13 +29,14 @@ pub trait Executor {
     /// How many workers are ready or at work.
     fn alive(&self) -> usize;
 
-    /// The roadmap folded so far.
-    fn roadmap(&self) -> &Roadmap;
+    /// What the roadmap folded so far comes to.
+    fn tally(&self) -> &Tally;
+}
 
+/// An executor that has the roadmap itself.
+pub trait InProcess: Executor {
     /// The roadmap at the end.
-    fn into_roadmap(self) -> Roadmap
-    where
-        Self: Sized;
+    fn into_roadmap(self) -> Roadmap;
 }
 
 /// Whoever watches a build and may end it.
@@ -43,8 +44,8 @@ pub trait Observer {
     /// Why watching failed (a ledger that cannot be written, say).
     type Error;
 
-    /// A round was folded; `roadmap` includes it.
-    fn folded(&mut self, _round: &Round, _roadmap: &Roadmap) -> Result<(), Self::Error> {
+    /// A round was folded; `tally` includes it.
+    fn folded(&mut self, _round: &Round, _tally: &Tally) -> Result<(), Self::Error> {
         Ok(())
     }
 
@@ -58,7 +59,7 @@ pub trait Observer {
     fn tick(
         &mut self,
         _progress: &Progress,
-        _roadmap: &Roadmap,
+        _tally: &Tally,
         _alive: usize,
     ) -> Result<Option<Cut>, Self::Error> {
         Ok(None)
@@ -85,13 +86,13 @@ pub fn drive<E: Executor, O: Observer>(
                 Command::Submit(job) => executor.submit(job),
                 Command::Fold(round) => {
                     executor.fold(&round);
-                    observer.folded(&round, executor.roadmap())?;
+                    observer.folded(&round, executor.tally())?;
                 }
                 Command::Judge(judgement) => observer.judged(&judgement)?,
                 Command::Stop(stop) => return Ok(stop),
             }
         }
-        let event = match observer.tick(core.progress(), executor.roadmap(), executor.alive())? {
+        let event = match observer.tick(core.progress(), executor.tally(), executor.alive())? {
             Some(cut) => Some(Event::Cut(cut)),
             None => executor.next(TICK),
         };

@@ -18,10 +18,10 @@ mod threads;
 pub use self::core::{
     Command, Core, Cut, Event, Judgement, LOSSES_MAX, Past, Progress, Round, RoundSet, Stop,
 };
-pub use drive::{Executor, Observer, TICK, drive};
+pub use drive::{Executor, InProcess, Observer, TICK, drive};
 pub use job::{Finished, Job, Joined, Outcome, Task};
 pub use plan::Plan;
-pub use replica::Replica;
+pub use replica::{Front, Replica};
 pub use serial::Serial;
 pub use simulated::{Memo, Simulated};
 pub use threads::Threads;
@@ -72,7 +72,7 @@ pub fn build_in_threads(setup: &Arc<Setup>, threads: usize) -> Build {
 }
 
 /// Builds a roadmap with any executor, up to `lookahead` sets beyond the current round at hand.
-pub fn build_with(setup: &Arc<Setup>, executor: impl Executor, lookahead: u64) -> Build {
+pub fn build_with(setup: &Arc<Setup>, executor: impl InProcess, lookahead: u64) -> Build {
     resume_with(setup, executor, lookahead, &[], None)
 }
 
@@ -80,7 +80,7 @@ pub fn build_with(setup: &Arc<Setup>, executor: impl Executor, lookahead: u64) -
 /// What comes of it is what would have come of the build without the interruption.
 pub fn resume_with(
     setup: &Arc<Setup>,
-    mut executor: impl Executor,
+    mut executor: impl InProcess,
     lookahead: u64,
     rounds: &[Round],
     judgement: Option<Judgement>,

@@ -3,32 +3,82 @@ use crate::connect::{Built, JoinInput};
 use crate::roadmap::{Edge, Increment, Roadmap};
 use std::sync::Arc;
 
+/// Where a build stands: which jobs have what they read.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Front {
+    /// Place of the first set of the round that comes next.
+    first: u64,
+    /// Sets of it that are published.
+    published: u64,
+}
+
+impl Front {
+    /// The place of the set that is published next.
+    pub fn next(&self) -> u64 {
+        self.first + self.published
+    }
+
+    /// Whether a job makes a set that is still to be published.
+    pub fn is_ahead(&self, job: Job) -> bool {
+        matches!(job, Job::Generate { place, .. } if place >= self.next())
+    }
+
+    /// Takes note of the increment at the next place.
+    pub fn publish(&mut self) {
+        self.published += 1;
+    }
+
+    /// Takes note of the end of the round.
+    pub fn fold(&mut self) {
+        *self = Front { first: self.next(), published: 0 };
+    }
+
+    /// Whether a job has its inputs. Where they are gone, it was handed out again after a loss, but done
+    /// by the worker believed dead, and the build has moved on.
+    pub fn has(&self, setup: &Setup, job: Job) -> bool {
+        match job {
+            Job::Generate { .. } => true,
+            Job::Join { place, .. } => (self.first..self.next()).contains(&place),
+            Job::Evaluate { round, .. } => setup.plan.places_of(round).end == self.first,
+        }
+    }
+}
+
 /// The state that jobs read: the roadmap folded so far and the increments of the round that comes
 /// next. Every process keeps one, fed with the same increments and folds in the same order.
 #[derive(Clone, Debug)]
 pub struct Replica {
     roadmap: Arc<Roadmap>,
     increments: Vec<Arc<Built>>,
-    /// Place of the first of `increments`.
-    first: u64,
+    front: Front,
 }
 
 impl Replica {
     /// The state before the first round.
     pub fn new(setup: &Setup) -> Replica {
         let roadmap = Arc::new(Roadmap::new(&setup.cx.space));
-        Replica { roadmap, increments: Vec::new(), first: 0 }
+        Replica { roadmap, increments: Vec::new(), front: Front::default() }
+    }
+
+    /// The same for a worker, that has no more than its jobs read: without evaluators no edges.
+    pub fn of_worker(setup: &Setup) -> Replica {
+        let mut replica = Replica::new(setup);
+        if setup.problem.evaluators.is_empty() {
+            replica.roadmap = Arc::new(Roadmap::for_joins(&setup.cx.space));
+        }
+        replica
     }
 
     /// Takes in the increment at the next place.
     pub fn publish(&mut self, setup: &Setup, increment: Arc<Increment>) {
+        self.front.publish();
         self.increments.push(Arc::new(Built::new(&setup.cx, increment)));
     }
 
     /// Folds the published increments with the edges that join each.
     pub fn fold<'a>(&mut self, setup: &Setup, joins: impl Iterator<Item = &'a [Edge]>) {
         let increments = std::mem::take(&mut self.increments);
-        self.first += increments.len() as u64;
+        self.front.fold();
         let kept: Vec<_> = increments.iter().map(|built| built.increment.clone()).collect();
         // Copies are made only where a job that no longer matters still reads what was.
         let components = increments.into_iter().map(|built| match Arc::try_unwrap(built) {
@@ -55,21 +105,18 @@ impl Replica {
         &self.increments
     }
 
-    /// The job with its inputs as they are now. `None` where they are gone: the job was handed out
-    /// again after a loss, but done by the worker believed dead, and the build has moved on.
+    /// The job with its inputs as they are now. `None` where they are gone, see [`Front::has`].
     pub fn task(&self, setup: &Setup, job: Job) -> Option<Task> {
-        match job {
-            Job::Generate { strategy, ordinal, .. } => Some(Task::Generate { strategy, ordinal }),
+        self.front.has(setup, job).then(|| match job {
+            Job::Generate { strategy, ordinal, .. } => Task::Generate { strategy, ordinal },
             Job::Join { place, strategy, .. } => {
-                let index = usize::try_from(place.checked_sub(self.first)?).ok()?;
-                let increments = self.increments.get(..=index)?.to_vec();
+                let increments = self.increments[..=(place - self.front.first) as usize].to_vec();
                 let input = JoinInput { roadmap: self.roadmap.clone(), increments };
-                Some(Task::Join { strategy, input })
+                Task::Join { strategy, input }
             }
-            Job::Evaluate { round, evaluator } => {
-                let current = setup.plan.places_of(round).end == self.first;
-                current.then(|| Task::Evaluate { evaluator, roadmap: self.roadmap.clone() })
+            Job::Evaluate { evaluator, .. } => {
+                Task::Evaluate { evaluator, roadmap: self.roadmap.clone() }
             }
-        }
+        })
     }
 }

@@ -1,5 +1,5 @@
-use super::{Event, Executor, Finished, Job, Replica, Round, Setup};
-use crate::roadmap::{Increment, Roadmap};
+use super::{Event, Executor, Finished, InProcess, Job, Replica, Round, Setup};
+use crate::roadmap::{Increment, Roadmap, Tally};
 use crate::validity::Scratch;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -45,10 +45,12 @@ impl Executor for Serial {
         1
     }
 
-    fn roadmap(&self) -> &Roadmap {
-        self.replica.roadmap()
+    fn tally(&self) -> &Tally {
+        self.replica.roadmap().tally()
     }
+}
 
+impl InProcess for Serial {
     fn into_roadmap(self) -> Roadmap {
         self.replica.into_roadmap()
     }

@@ -1,7 +1,7 @@
 //! An executor that does everything that can go wrong, all from one seed.
 
-use super::{Event, Executor, Finished, Job, Replica, Round, Setup, Task};
-use crate::roadmap::{Digest, Increment, Roadmap};
+use super::{Event, Executor, Finished, InProcess, Job, Replica, Round, Setup, Task};
+use crate::roadmap::{Digest, Increment, Roadmap, Tally};
 use crate::seed::{Purpose, Seed, Stream};
 use crate::validity::Scratch;
 use std::collections::{BTreeMap, BTreeSet};
@@ -142,10 +142,12 @@ impl Executor for Simulated<'_> {
         self.workers
     }
 
-    fn roadmap(&self) -> &Roadmap {
-        self.replica.roadmap()
+    fn tally(&self) -> &Tally {
+        self.replica.roadmap().tally()
     }
+}
 
+impl InProcess for Simulated<'_> {
     fn into_roadmap(self) -> Roadmap {
         self.replica.into_roadmap()
     }

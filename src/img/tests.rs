@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::problem::Problem;
+use crate::roadmap::Tally;
 use crate::sampler::GaveUp;
 use crate::validity::Scratch;
 use std::path::Path;
@@ -208,7 +209,7 @@ fn nothing_is_generated_whose_strategy_depends_on_rounds_to_come() {
     struct Keep(Vec<Round>);
     impl Observer for Keep {
         type Error = std::convert::Infallible;
-        fn folded(&mut self, round: &Round, _: &Roadmap) -> Result<(), Self::Error> {
+        fn folded(&mut self, round: &Round, _: &Tally) -> Result<(), Self::Error> {
             self.0.push(round.clone());
             Ok(())
         }

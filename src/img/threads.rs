@@ -1,5 +1,5 @@
-use super::{Event, Executor, Finished, Job, Replica, Round, Setup};
-use crate::roadmap::{Increment, Roadmap};
+use super::{Event, Executor, Finished, InProcess, Job, Replica, Round, Setup};
+use crate::roadmap::{Increment, Roadmap, Tally};
 use crate::validity::Scratch;
 use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, unbounded};
 use std::cell::RefCell;
@@ -93,10 +93,12 @@ impl Executor for Threads {
         self.pool.current_num_threads()
     }
 
-    fn roadmap(&self) -> &Roadmap {
-        self.replica.roadmap()
+    fn tally(&self) -> &Tally {
+        self.replica.roadmap().tally()
     }
+}
 
+impl InProcess for Threads {
     fn into_roadmap(self) -> Roadmap {
         self.replica.into_roadmap()
     }

@@ -322,7 +322,8 @@ impl Search<'_> {
 fn within(squares: &[f32; FAN], limit: f32) -> u32 {
     let mut bits = 0;
     for (at, square) in squares.iter().enumerate() {
-        bits |= u32::from(!(*square > limit)) << at;
+        let beyond = *square > limit;
+        bits |= u32::from(!beyond) << at;
     }
     bits
 }

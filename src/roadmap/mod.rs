@@ -4,18 +4,21 @@ mod centre;
 mod components;
 mod digest;
 mod finder;
+mod forest;
 mod increment;
 mod search;
+mod tally;
 
 pub use crate::digest::Digest;
 pub use crate::space::Configs;
 pub use components::{Component, Components};
+pub(crate) use forest::Forest;
 pub use increment::{Edge, Increment};
 pub use search::{Graph, Route};
+pub use tally::{Outline, Tally};
 
 use crate::neighbor::Neighbor;
 use crate::space::Space;
-use digest::RoadmapHasher;
 
 /// A roadmap: the milestones and edges of the node sets folded so far, in their order.
 ///
@@ -27,7 +30,8 @@ pub struct Roadmap {
     edges: Vec<Edge>,
     components: Components,
     rounds: Vec<Extent>,
-    hasher: RoadmapHasher,
+    tally: Tally,
+    keeps_edges: bool,
 }
 
 /// How far a roadmap went at the end of a round: everything before is what it then was, since nodes
@@ -50,8 +54,15 @@ impl Roadmap {
             edges: Vec::new(),
             components: Components::default(),
             rounds: Vec::new(),
-            hasher: RoadmapHasher::new(space.len()),
+            tally: Tally::new(space),
+            keeps_edges: true,
         }
+    }
+
+    /// The same without edges, which take most of a roadmap's memory: for those who join sets to it and
+    /// judge nothing. [`Roadmap::edges`] and [`Roadmap::rounds`] stay empty.
+    pub fn for_joins(space: &Space) -> Roadmap {
+        Roadmap { keeps_edges: false, ..Roadmap::new(space) }
     }
 
     /// Folds the next round: its increments in set order, and for each the edges that join it to
@@ -74,26 +85,32 @@ impl Roadmap {
         space: &Space,
         sets: impl IntoIterator<Item = (&'a Increment, Components, &'a [Edge])>,
     ) {
-        let (mut sets_now, mut joins) = (self.sets(), Vec::new());
+        let mut joins = Vec::new();
         for (increment, components, edges) in sets {
             let first = self.configs.len() as u32;
-            self.hasher.add_set(first, increment, edges);
+            self.tally.add_set(increment, edges);
             self.components.append(components);
             self.configs.extend(&increment.configs);
-            self.edges.extend(increment.edges.iter().map(|edge| edge.shifted(first)));
-            sets_now += 1;
+            if self.keeps_edges {
+                self.edges.extend(increment.edges.iter().map(|edge| edge.shifted(first)));
+            }
             joins.push(edges);
         }
         for edge in joins.into_iter().flatten() {
             self.components.unite(edge.low, edge.high);
-            self.edges.push(*edge);
+            if self.keeps_edges {
+                self.edges.push(*edge);
+            }
         }
-        self.rounds.push(Extent {
-            sets: sets_now,
-            nodes: self.configs.len(),
-            edges: self.edges.len(),
-        });
+        if self.keeps_edges {
+            self.rounds.push(Extent {
+                sets: self.tally.sets(),
+                nodes: self.configs.len(),
+                edges: self.edges.len(),
+            });
+        }
         self.components.refresh_centres(space, &self.configs);
+        self.tally.set_components(self.components.count());
     }
 
     /// The at most `k` milestones nearest to `q`, nearest first, ties by id.
@@ -119,7 +136,7 @@ impl Roadmap {
 
     /// Number of node sets folded.
     pub fn sets(&self) -> u64 {
-        self.rounds.last().map_or(0, |extent| extent.sets)
+        self.tally.sets()
     }
 
     /// How far the roadmap went at the end of each round.
@@ -133,9 +150,14 @@ impl Roadmap {
         Components::built(space, &self.configs, nodes, &self.edges[..extent.edges])
     }
 
+    /// What the roadmap comes to.
+    pub fn tally(&self) -> &Tally {
+        &self.tally
+    }
+
     /// The digest of the roadmap's canonical bytes; `docs/architecture.md` defines them.
     pub fn digest(&self) -> Digest {
-        self.hasher.digest()
+        self.tally.digest()
     }
 }
 

@@ -18,14 +18,17 @@ struct Growth {
     stream: Stream,
     group_of: Vec<u32>,
     roadmap: Roadmap,
+    for_joins: Roadmap,
+    outline: Outline,
 }
 
 impl Growth {
     fn new(motion: Motion, ordinal: u64) -> Growth {
         let space = rigid_space(motion, [0.0; 3], [9.0, 9.0, 2.0], 0.5);
         let stream = Seed::of_set(1, "growth", ordinal).stream(Purpose::Sampling);
-        let roadmap = Roadmap::new(&space);
-        Growth { space, stream, group_of: Vec::new(), roadmap }
+        let (roadmap, outline) = (Roadmap::new(&space), Outline::new(&space));
+        let for_joins = Roadmap::for_joins(&space);
+        Growth { space, stream, group_of: Vec::new(), roadmap, for_joins, outline }
     }
 
     fn below(&mut self, count: usize) -> usize {
@@ -75,8 +78,10 @@ impl Growth {
             }
             round.push((Increment { configs, edges, asked: Asked::default() }, joins));
         }
-        let sets = round.iter().map(|(increment, joins)| (increment, &joins[..]));
-        self.roadmap.fold_round(&self.space, sets);
+        let sets = || round.iter().map(|(increment, joins)| (increment, &joins[..]));
+        self.roadmap.fold_round(&self.space, sets());
+        self.for_joins.fold_round(&self.space, sets());
+        self.outline.fold_round(sets());
     }
 
     /// Compares what is found with what brute force finds.
@@ -147,6 +152,27 @@ fn folding_round_by_round_and_finding_the_components_of_the_whole_agree() {
         assert!(near < 1e-6, "{near}");
     }
     assert_eq!(whole.components().count(), again.count());
+}
+
+#[test]
+fn those_who_keep_less_come_to_the_same() {
+    let numbers = |tally: &Tally| {
+        (tally.sets(), tally.nodes(), tally.edges(), tally.components(), tally.digest())
+    };
+    let mut growth = Growth::new(Motion::Rigid2d, 1);
+    for round in 1..9 {
+        growth.fold_round(2, 40);
+        let whole = growth.roadmap.tally();
+        assert_eq!(whole.sets(), 2 * round);
+        assert_eq!(whole.nodes(), growth.roadmap.configs().len());
+        assert_eq!(whole.edges(), growth.roadmap.edges().len());
+        assert_eq!(whole.components(), growth.roadmap.components().count());
+        assert_eq!(numbers(growth.outline.tally()), numbers(whole));
+        assert_eq!(numbers(growth.for_joins.tally()), numbers(whole));
+    }
+    assert!(growth.for_joins.edges().is_empty());
+    std::mem::swap(&mut growth.roadmap, &mut growth.for_joins);
+    growth.check();
 }
 
 #[test]

@@ -102,7 +102,7 @@ impl Sampler for Maprm {
             let expected = "a billionth of the step up to the step";
             return Some(("tolerance", self.tolerance.to_string(), expected));
         }
-        if !(1..=DIRECTIONS_MAX).contains(&self.directions) || self.directions % 2 == 1 {
+        if !(1..=DIRECTIONS_MAX).contains(&self.directions) || !self.directions.is_multiple_of(2) {
             return Some(("directions", self.directions.to_string(), "an even number, 2 to 1000"));
         }
         if self.steps == 0 {
@@ -299,7 +299,7 @@ impl Pusher<'_> {
         while self.lines.len() < self.maprm.directions as usize / 2 {
             self.lines.push(self.cx.space.direction(&mut self.stream));
         }
-        let length = if direction % 2 == 0 { length } else { -length };
+        let length = if direction.is_multiple_of(2) { length } else { -length };
         self.cx.space.along(q, &self.lines[direction / 2], length, &mut self.at);
     }
 

@@ -4,7 +4,7 @@ use super::clearance::Clearance;
 use super::frame::Stance;
 use super::meet::{Group, Meeting};
 use super::piece::Piece;
-use super::swept::{Clock, Sweep, Walls, stays_inside};
+use super::swept::Walls;
 use super::{Scratch, State, Validity};
 use crate::robot::{Chain, Rates, Robot, Speeds};
 use crate::scene::Body;
@@ -46,49 +46,41 @@ pub enum Edges {
     Sampled,
 }
 
-/// A swept motion that is found not to be free comes, at some time, nearer to something than the
-/// resolution divided by this.
-pub const TOLERANCE: u64 = 2 * FINENESS;
-/// Swept motions are cut into steps so many times finer than the resolution; half a step is the
-/// tolerance. Milestones nearer than that to something have no edges and count as components of their
-/// own, which crowd out those that could be joined: with 64, one in 2500 among thin walls.
-const FINENESS: u64 = 1 << 16;
-/// More samples than this would be told apart by rounding alone.
-const SAMPLES_MAX: u64 = 1 << 50;
-
 /// Validity of a robot among obstacles that stand still.
 ///
 /// Bodies collide when their surfaces meet or when one lies wholly inside another that is solid.
 /// Links that are neighbours, or that [`Robot::may_touch`] names, may touch. How motions are looked at
 /// says [`Edges`]; `docs/validity.md` has the methods.
 pub struct BodyValidity {
-    space: Space,
-    robot: Robot,
+    pub(super) space: Space,
+    pub(super) robot: Robot,
     speeds: Speeds,
-    bounds: Bounds,
-    resolution: f64,
-    edges: Edges,
+    pub(super) bounds: Bounds,
+    pub(super) resolution: f64,
+    pub(super) edges: Edges,
     /// A bound on the distance of the robot's points from the base's origin.
-    reach: f64,
-    links: Vec<Moving>,
-    obstacles: Option<Group>,
+    pub(super) reach: f64,
+    pub(super) links: Vec<Moving>,
+    pub(super) obstacles: Option<Group>,
     /// The obstacles' boxes.
     boxes: Vec<Aabb>,
     /// Pairs of links that must not touch each other.
-    self_pairs: Vec<SelfPair>,
+    pub(super) self_pairs: Vec<SelfPair>,
+    /// There are bodies whose insides their elements do not show.
+    pub(super) solid: bool,
     /// Outweighs the rounding of every length.
-    slack: f64,
+    pub(super) slack: f64,
 }
 
 /// A link that has bodies.
-struct Moving {
-    link: usize,
-    group: Group,
-    chain: Chain,
+pub(super) struct Moving {
+    pub link: usize,
+    pub group: Group,
+    pub chain: Chain,
 }
 
 /// Indices of moving links, and the joints from the first to the second.
-struct SelfPair {
+pub(super) struct SelfPair {
     first: usize,
     second: usize,
     chain: Chain,
@@ -125,6 +117,8 @@ impl BodyValidity {
             .fold(scale.into_iter().fold(0.0, f64::max), |most, element| {
                 most.max(element.reach(&Rates::default()))
             });
+        let groups = links.iter().map(|moving| &moving.group).chain(&obstacles);
+        let solid = groups.into_iter().any(Group::has_insides);
         BodyValidity {
             space,
             speeds: robot.speeds(),
@@ -137,12 +131,13 @@ impl BodyValidity {
             links,
             obstacles,
             self_pairs,
+            solid,
             slack: 1e-12 * scale,
         }
     }
 
     /// What moves in what: every link among the obstacles, then the pairs of links.
-    fn meetings(&self) -> impl Iterator<Item = (Meeting<'_>, &Chain)> {
+    pub(super) fn meetings(&self) -> impl Iterator<Item = (Meeting<'_>, &Chain)> {
         let slack = self.slack;
         let among = self.links.iter().filter_map(move |Moving { link, group, chain }| {
             let still = self.obstacles.as_ref()?;
@@ -165,7 +160,7 @@ impl BodyValidity {
 
     /// Whether the ball about the base's origin that holds the robot is within the bounds. It settles
     /// most configurations.
-    fn ball_inside(&self, q: &[f64]) -> bool {
+    pub(super) fn ball_inside(&self, q: &[f64]) -> bool {
         let Bounds { min, max, .. } = &self.bounds;
         let fixed = self.robot.motion == Motion::Fixed;
         let centre = if fixed { &self.robot.base.translation } else { q };
@@ -173,24 +168,31 @@ impl BodyValidity {
             .all(|i| centre[i] - self.reach >= min[i] && centre[i] + self.reach <= max[i])
     }
 
-    fn walls(&self) -> Walls {
+    pub(super) fn walls(&self) -> Walls {
         let Bounds { min, max, .. } = self.bounds;
         Walls { min, max, axes: self.robot.motion.bounded_axes() }
     }
 
-    fn in_bounds(&self, q: &[f64], stance: &Stance) -> bool {
-        self.space.within_bounds(q)
-            && (self.bounds.meaning == BoundsMeaning::Reference
-                || self.ball_inside(q)
-                || self.links.iter().all(|Moving { link, group, .. }| {
-                    self.walls().hold(&group.tree, &stance.frames[*link])
-                }))
+    /// Whether the bounds hold the robot wherever it turns.
+    pub(super) fn settled_by_ball(&self, q: &[f64]) -> bool {
+        self.bounds.meaning == BoundsMeaning::Reference || self.ball_inside(q)
     }
 
-    fn look(&self, q: &[f64], scratch: &mut Scratch) -> State {
+    pub(super) fn look(&self, q: &[f64], scratch: &mut Scratch) -> State {
+        if !self.space.within_bounds(q) {
+            return State::OutOfBounds;
+        }
+        let bounded = self.settled_by_ball(q);
+        if bounded && self.keeps_away(q, q, 0.0) {
+            return State::Free;
+        }
         self.robot.place(q, &mut scratch.stance.poses);
         scratch.stance.settle();
-        if !self.in_bounds(q, &scratch.stance) {
+        let held = bounded
+            || self.links.iter().all(|Moving { link, group, .. }| {
+                self.walls().hold(&group.tree, &scratch.stance.frames[*link])
+            });
+        if !held {
             return State::OutOfBounds;
         }
         let Scratch { stance, stacks, .. } = scratch;
@@ -204,7 +206,7 @@ impl BodyValidity {
         let either = |one: &Piece, at: &ParryPose, other: &Piece, other_at: &ParryPose| {
             one.encloses(at, other, other_at) || other.encloses(other_at, one, at)
         };
-        let hollow = |group: &Group| group.pieces.iter().any(Piece::is_hollow);
+        let hollow = Group::is_hollow;
         self.links.iter().any(|moving| {
             let Some(obstacles) = &self.obstacles else { return false };
             let at = stance.pose(Some(moving.link));
@@ -228,95 +230,6 @@ impl BodyValidity {
                 })
         })
     }
-
-    /// Whether the motion is free at all times, by looking at so many equal steps. Valid ends are taken
-    /// for granted: what no surface meets on the way cannot come to lie inside anything.
-    fn is_free(&self, a: &[f64], b: &[f64], samples: u64, scratch: &mut Scratch) -> bool {
-        if !(self.space.within_bounds(a) && self.space.within_bounds(b)) {
-            return false;
-        }
-        let Scratch { timeline, stacks, .. } = scratch;
-        let motion = self.robot.motion;
-        let clock =
-            &mut Clock::new(self.space.way(a, b), self.space.len(), &self.robot, samples, timeline);
-        // The base's origin goes straight, so that the ball needs its ends only.
-        let bounded = self.bounds.meaning == BoundsMeaning::Reference
-            || self.ball_inside(a) && self.ball_inside(b);
-        let inside = bounded
-            || self.links.iter().all(|Moving { link, group, chain }| {
-                let rates = chain.rates(motion, a, b);
-                stays_inside(&self.walls(), (&group.tree, *link), &rates, clock)
-            });
-        inside
-            && self.meetings().all(|(meeting, chain)| {
-                let rates = chain.rates(motion, a, b);
-                Sweep { meeting, rates, clock, stacks }.is_free()
-            })
-    }
-
-    /// Whether some two surfaces come, at one of a few samples of a swept motion, so near that they may come
-    /// within the tolerance between two of them, or the robot so near to its bounds.
-    #[cfg(test)]
-    pub(super) fn comes_near(&self, a: &[f64], b: &[f64], scratch: &mut Scratch) -> bool {
-        let samples = self.steps(a, b, 1) * 64;
-        let time = 1.0 / samples as f64;
-        let finest = self.resolution / TOLERANCE as f64;
-        let Scratch { timeline, stacks, .. } = scratch;
-        let clock =
-            &mut Clock::new(self.space.way(a, b), self.space.len(), &self.robot, samples, timeline);
-        let reach = |group: &Group, rates: &Rates| {
-            group.tree.elements.iter().fold(0.0f64, |most, e| most.max(e.reach(rates)))
-        };
-        (0..=samples).any(|sample| {
-            let stance = clock.at(sample);
-            self.meetings().any(|(meeting, chain)| {
-                let rates = chain.rates(self.robot.motion, a, b);
-                let tolerance = 0.5 * time * rates.speed_at(reach(meeting.mover, &rates));
-                let way = meeting.nearer(stance, &mut stacks.pairs, None);
-                way.is_some_and(|best| best.clearance.distance <= tolerance + finest + self.slack)
-            }) || self.bounds.meaning == BoundsMeaning::Body
-                && self.links.iter().any(|moving| {
-                    let rates = moving.chain.rates(self.robot.motion, a, b);
-                    let space = &moving.group.tree.nodes[0].space;
-                    let far = space.radius + rates.distance(space.centre);
-                    let between = 0.5 * time * rates.speed_at(far);
-                    let room = rates.bend_at(far) * time * time / 8.0 + between + self.slack;
-                    let Walls { min, max, axes } = self.walls();
-                    let [min, max] = [min.map(|x| x + room), max.map(|x| x - room)];
-                    let narrower = Walls { min, max, axes };
-                    !narrower.hold(&moving.group.tree, &stance.frames[moving.link])
-                })
-        })
-    }
-
-    /// Whether every configuration strictly between the ends is valid, at so many equal steps.
-    pub(super) fn free_at_steps(
-        &self,
-        a: &[f64],
-        b: &[f64],
-        steps: u64,
-        scratch: &mut Scratch,
-    ) -> bool {
-        let mut between = std::mem::take(&mut scratch.between);
-        between.clear();
-        between.resize(a.len(), 0.0);
-        let way = self.space.way(a, b);
-        let mut free = true;
-        // Halving the gaps finds a blocked motion soonest; every step is visited once.
-        let mut stride = steps.next_power_of_two();
-        'steps: while stride > 1 {
-            stride /= 2;
-            for i in (stride..steps).step_by(2 * stride as usize) {
-                way.at(i as f64 / steps as f64, &mut between);
-                if self.look(&between, scratch) != State::Free {
-                    free = false;
-                    break 'steps;
-                }
-            }
-        }
-        scratch.between = between;
-        free
-    }
 }
 
 impl Validity for BodyValidity {
@@ -327,18 +240,7 @@ impl Validity for BodyValidity {
 
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> bool {
         scratch.asked.motions += 1;
-        let steps = self.steps(a, b, refinement);
-        match self.edges {
-            Edges::Swept => {
-                let samples = steps.saturating_mul(FINENESS).min(SAMPLES_MAX);
-                self.is_free(a, b, samples, scratch)
-            }
-            // What is free at all times is so at every step.
-            Edges::Sampled => {
-                self.is_free(a, b, steps.min(SAMPLES_MAX), scratch)
-                    || self.free_at_steps(a, b, steps, scratch)
-            }
-        }
+        self.judge(a, b, refinement, scratch)
     }
 
     fn obstructed(&self) -> bool {

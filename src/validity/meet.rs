@@ -59,7 +59,8 @@ impl Meeting<'_> {
         false
     }
 
-    fn ends_meet(&self, mover: &Node, still: &Node, frame: &Frame, stance: &Stance) -> bool {
+    /// Whether what two leaves, or two primitives, hold meets.
+    pub fn ends_meet(&self, mover: &Node, still: &Node, frame: &Frame, stance: &Stance) -> bool {
         let first = &self.mover.tree.elements[mover.element as usize];
         let second = &self.still.tree.elements[still.element as usize];
         if !first.primitive && !second.primitive {
@@ -95,6 +96,17 @@ impl Group {
             pieces.push(Piece::new(body));
         }
         Tree::new(surface).map(|tree| Group { tree, pieces })
+    }
+
+    /// Whether a solid mesh is among them.
+    pub fn is_hollow(&self) -> bool {
+        self.pieces.iter().any(Piece::is_hollow)
+    }
+
+    /// Whether there are insides that elements do not show: of solid meshes and of boxes.
+    pub fn has_insides(&self) -> bool {
+        let side = |element: &Element| element.primitive && element.normal != Vector::ZERO;
+        self.is_hollow() || self.tree.elements.iter().any(side)
     }
 
     fn piece(&self, element: &Element) -> &Piece {

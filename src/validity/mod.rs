@@ -6,6 +6,7 @@ mod element;
 mod frame;
 mod inside;
 mod meet;
+mod motion;
 mod nearest;
 mod obb;
 mod piece;
@@ -14,8 +15,9 @@ mod swept;
 mod tree;
 mod triangles;
 
-pub use bodies::{BodyValidity, Bounds, BoundsMeaning, Edges, TOLERANCE};
+pub use bodies::{BodyValidity, Bounds, BoundsMeaning, Edges};
 pub use clearance::Clearance;
+pub use motion::TOLERANCE;
 pub use scratch::{Asked, Scratch};
 
 /// What is to be said of a configuration.

@@ -6,7 +6,7 @@ use super::frame::Frame;
 use nalgebra::Matrix3;
 use parry3d_f64::math::Vector;
 
-/// A box with axes of its own: all `p` with `|axis · (p − centre)| ≤ half` for each of its three unit
+/// A box with axes of its own, the shortest first: all `p` with `|axis · (p − centre)| ≤ half` for each of its three unit
 /// axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Obb {
@@ -15,6 +15,8 @@ pub(super) struct Obb {
     pub half: Vector,
     /// Half its diagonal.
     pub radius: f64,
+    /// Much longer along its last axis than along the others.
+    pub rod: bool,
 }
 
 /// Where a box that moves has its centre and its axes.
@@ -26,6 +28,8 @@ pub(super) struct Placed {
 
 /// The axes of the frame itself.
 pub(super) const UPRIGHT: [Vector; 3] = [Vector::X, Vector::Y, Vector::Z];
+/// A box is a rod if it is so many times longer than wide.
+const ROD: f64 = 1.5;
 /// Up to so many elements every triangle offers its own directions.
 const FEW: usize = 16;
 
@@ -65,9 +69,9 @@ impl Obb {
     }
 
     fn along(axes: [Vector; 3], elements: &[&Element]) -> Obb {
-        let mut half = [0.0; 3];
+        let mut sides = axes.map(|axis| (0.0, axis));
         let mut centre = Vector::ZERO;
-        for (axis, half) in axes.iter().zip(&mut half) {
+        for (half, axis) in &mut sides {
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             for element in elements {
                 let (from, to) = element.span(*axis);
@@ -77,10 +81,13 @@ impl Obb {
             centre += *axis * (0.5 * (low + high));
             *half = 0.5 * (high - low);
         }
-        let half = Vector::from_array(half);
+        // Boxes that are apart are most often so across the short side of one.
+        sides.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        let half = Vector::from_array(sides.map(|(half, _)| half));
         // Outweighs the rounding of the axes.
         let half = half + Vector::splat(1e-12 * (half.length() + centre.length()));
-        Obb { centre, axes, half, radius: half.length() }
+        let axes = sides.map(|(_, axis)| axis);
+        Obb { centre, axes, half, radius: half.length(), rod: half.z > ROD * half.y }
     }
 
     fn surface(&self) -> f64 {

@@ -52,7 +52,7 @@ impl Scratch {
         self.stance.poses = vec![nowhere; rubbish as usize % 5];
         self.stance.frames.clear();
         self.timeline.poison(rubbish);
-        self.stacks.pairs = vec![(u32::MAX, 7); rubbish as usize % 3];
+        self.stacks.poison(rubbish);
         self.between = vec![f64::NAN; rubbish as usize % 13];
     }
 }

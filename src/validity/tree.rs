@@ -103,7 +103,7 @@ impl Tree {
     fn part(&self, at: usize, units: &mut [Unit], depth: u32) -> usize {
         let own = self.nodes[at].space.axes;
         let mut frames = vec![own];
-        if units.len() <= LONG && own != UPRIGHT {
+        if units.len() <= LONG && own.iter().any(|axis| !UPRIGHT.contains(axis)) {
             frames.push(UPRIGHT);
         }
         let half = units.len() / 2;

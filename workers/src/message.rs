@@ -16,10 +16,11 @@
 use bincode::{Decode, Encode};
 use roadmill::img::Job;
 use roadmill::problem::Problem;
-use roadmill::roadmap::{Digest, Edge, Increment};
+use roadmill::roadmap::Digest;
+use std::sync::Arc;
 
 /// Version of these messages.
-pub const PROTOCOL: u32 = 1;
+pub const PROTOCOL: u32 = 2;
 
 /// From a worker.
 #[derive(Debug, Clone, PartialEq, Encode, Decode)]
@@ -28,7 +29,7 @@ pub enum FromWorker {
     Hello {
         /// [`PROTOCOL`] of the worker.
         protocol: u32,
-        /// Digest of the executable it runs.
+        /// Which executable it runs: see [`crate::build_id`].
         build: Digest,
     },
     /// The problem is set up.
@@ -56,18 +57,34 @@ pub enum ToWorker {
     Refused(String),
     /// Entries for the replica, then a job.
     Work {
-        /// Bytes of the next [`Entry`]s, in order.
-        entries: Vec<Vec<u8>>,
+        /// The next ones, in order.
+        entries: Vec<Entry>,
         /// The job, unless more entries are to come.
         job: Option<Job>,
     },
 }
 
-/// What changes a replica.
+/// What changes a replica. Its bytes are encoded once.
 #[derive(Debug, Clone, PartialEq, Encode, Decode)]
 pub enum Entry {
-    /// The increment at the next place.
-    Increment(Increment),
-    /// The end of a round: for each of its sets the edges that join it.
-    Fold(Vec<Vec<Edge>>),
+    /// The increment at the next place: the bytes of the [`roadmill::img::Outcome`] that it is.
+    Increment(Bytes),
+    /// The end of a round: the bytes of a `Vec<Vec<Edge>>`, for each of its sets the edges that join it.
+    Fold(Bytes),
+}
+
+/// Bytes for all workers.
+#[derive(Debug, Clone, PartialEq, Encode, Decode)]
+pub enum Bytes {
+    /// In the channel's store, once for all.
+    Stored {
+        /// Where they begin.
+        offset: u64,
+        /// How many.
+        length: u64,
+        /// Their digest.
+        digest: Digest,
+    },
+    /// In the message itself, where shared memory is short.
+    Here(Arc<Vec<u8>>),
 }

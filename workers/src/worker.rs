@@ -1,13 +1,15 @@
-use crate::channel::{ChannelError, Link, WorkerId};
+use crate::channel::{ChannelError, Link, StoreReader, WorkerId};
 use crate::faults::{Faults, Slip};
-use crate::message::{Entry, FromWorker, PROTOCOL, ToWorker};
+use crate::message::{Bytes, Entry, FromWorker, PROTOCOL, ToWorker};
 use roadmill::img::{Outcome, Replica, Setup, Task};
 use roadmill::problem::Problem;
-use roadmill::roadmap::Digest;
+use roadmill::roadmap::{Digest, Edge};
 use roadmill::validity::Scratch;
 use roadmill::wire::{self, WireError};
 use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
+use std::borrow::Cow;
 use std::io::Write;
+use std::os::unix::fs::MetadataExt;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -44,6 +46,9 @@ pub enum WorkerError {
     /// The coordinator said something out of turn.
     #[error("the coordinator sent {0} out of turn")]
     Turn(&'static str),
+    /// What the coordinator has put into shared memory is not what it said.
+    #[error("the store's bytes have another digest")]
+    Store,
     /// The coordinator does not want this worker.
     #[error("refused: {0}")]
     Refused(String),
@@ -64,6 +69,7 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
     beat()?;
     let faults = Faults::read()?;
     let mut link = Link::open(&arguments.directory, arguments.worker)?;
+    let store = StoreReader::open(&arguments.directory);
     // An orphan that its parent's death did not end ends itself here.
     let parent = arguments.coordinator;
     let mut parent_lives = || {
@@ -83,7 +89,7 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
         ToWorker::Work { .. } => return Err(WorkerError::Turn("work")),
     };
     let setup = Setup::new(*problem);
-    let mut replica = Replica::new(&setup);
+    let mut replica = Replica::of_worker(&setup);
     let mut scratch = Scratch::new();
     let mut message = wire::encode(&FromWorker::Ready { canary: canary(&setup) });
     loop {
@@ -93,9 +99,15 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
             ToWorker::Problem(_) => return Err(WorkerError::Turn("a problem")),
         };
         for entry in entries {
-            match wire::decode(&entry)? {
-                Entry::Increment(increment) => replica.publish(&setup, Arc::new(increment)),
-                Entry::Fold(joins) => replica.fold(&setup, joins.iter().map(|edges| &edges[..])),
+            match entry {
+                Entry::Increment(outcome) => match wire::decode(&read(&store, &outcome)?)? {
+                    Outcome::Increment(Ok(made)) => replica.publish(&setup, Arc::new(made)),
+                    _ => return Err(WorkerError::Turn("another outcome as an increment")),
+                },
+                Entry::Fold(joins) => {
+                    let joins: Vec<Vec<Edge>> = wire::decode(&read(&store, &joins)?)?;
+                    replica.fold(&setup, joins.iter().map(|edges| &edges[..]));
+                }
             }
         }
         message = match job {
@@ -120,14 +132,34 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
     }
 }
 
-/// Digest of the running executable.
+/// The bytes of an entry, checked.
+fn read<'a>(store: &StoreReader, bytes: &'a Bytes) -> Result<Cow<'a, [u8]>, WorkerError> {
+    match bytes {
+        Bytes::Here(bytes) => Ok(Cow::Borrowed(bytes)),
+        Bytes::Stored { offset, length, digest } => {
+            let bytes = store
+                .read(*offset, *length)
+                .map_err(|error| WorkerError::System("cannot read the store", error))?;
+            if Digest::of(&bytes) == *digest {
+                Ok(Cow::Owned(bytes))
+            } else {
+                Err(WorkerError::Store)
+            }
+        }
+    }
+}
+
+/// Which file the running executable is: digest of the numbers of its device and of the file, its length
+/// and when it was written. While it runs it cannot be written to, so that within one machine this tells
+/// programs apart as its bytes do, which take 20 ms to read and hash. An upgrade that gives its name to
+/// another file changes none of them.
 ///
 /// # Errors
-/// When it cannot be read.
+/// When it cannot be found.
 pub fn build_id() -> std::io::Result<Digest> {
-    let mut hasher = blake3::Hasher::new();
-    hasher.update_reader(std::fs::File::open("/proc/self/exe")?)?;
-    Ok(Digest(*hasher.finalize().as_bytes()))
+    let file = std::fs::metadata("/proc/self/exe")?;
+    let written = (file.mtime(), file.mtime_nsec());
+    Ok(Digest::of(&wire::encode(&(file.dev(), file.ino(), file.len(), written))))
 }
 
 /// Digest of a small increment that no build contains: processes in which it differs must not

@@ -12,8 +12,9 @@ use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Edge};
 use roadmill::validity::{Asked, Scratch};
 use roadmill::wire;
-use roadmill_workers::message::{Entry, FromWorker, PROTOCOL, ToWorker};
+use roadmill_workers::message::{Bytes, Entry, FromWorker, PROTOCOL, ToWorker};
 use std::path::Path;
+use std::sync::Arc;
 
 /// One message of every kind, as bytes.
 fn messages() -> Vec<Vec<u8>> {
@@ -22,14 +23,17 @@ fn messages() -> Vec<Vec<u8>> {
     let setup = Setup::new(problem.clone());
     let generate = Task::Generate { strategy: 0, ordinal: 0 };
     let increment = generate.run(&setup, &mut Scratch::new());
-    let Outcome::Increment(Ok(set)) = increment.clone() else { panic!("a set") };
+    assert!(matches!(increment, Outcome::Increment(Ok(_))));
     let edge = Edge { low: 0, high: 1, planner: 0, weight: 1.0 };
     let joined = Joined { edges: vec![edge; 3], asked: Asked::default() };
     let verdict =
         |parts: Vec<Verdict>| Verdict { parts, ..Verdict::at_least(1.0, 1.0, Asked::default()) };
     let nested = verdict(vec![verdict(Vec::new()), verdict(vec![verdict(Vec::new())])]);
     let job = Job::Join { place: 3, strategy: 0, ordinal: 3 };
-    let entries = [Entry::Increment(set), Entry::Fold(vec![vec![edge; 2]; 2])];
+    let (set, joins) = (wire::encode(&increment), wire::encode(&vec![vec![edge; 2]; 2]));
+    let stored = Bytes::Stored { offset: 7, length: 9, digest: Digest([3; 32]) };
+    let here = |bytes: &Vec<u8>| Bytes::Here(Arc::new(bytes.clone()));
+    let entries = [Entry::Increment(here(&set)), Entry::Fold(here(&joins)), Entry::Fold(stored)];
     let outcomes = [increment, Outcome::Joined(joined), Outcome::Verdict(Box::new(nested))];
     let mut messages = vec![
         wire::encode(&FromWorker::Hello { protocol: PROTOCOL, build: Digest([1; 32]) }),
@@ -38,12 +42,10 @@ fn messages() -> Vec<Vec<u8>> {
         wire::encode(&FromWorker::Finished { job, outcome: wire::encode(&outcomes[1]) }),
         wire::encode(&ToWorker::Problem(Box::new(problem))),
         wire::encode(&ToWorker::Refused("no".to_owned())),
-        wire::encode(&ToWorker::Work {
-            entries: entries.iter().map(wire::encode).collect(),
-            job: Some(job),
-        }),
+        wire::encode(&ToWorker::Work { entries: entries.to_vec(), job: Some(job) }),
     ];
     messages.extend(entries.iter().map(wire::encode));
+    messages.push(joins);
     messages.extend(outcomes.iter().map(wire::encode));
     messages
 }
@@ -54,6 +56,7 @@ fn decode_as_everything(bytes: &[u8]) {
     let _ = wire::decode::<ToWorker>(bytes);
     let _ = wire::decode::<Entry>(bytes);
     let _ = wire::decode::<Outcome>(bytes);
+    let _ = wire::decode::<Vec<Vec<Edge>>>(bytes);
 }
 
 /// What `wire::decode` promises.

@@ -7,7 +7,9 @@ use crate::exit::{Code, Failure};
 use crate::memory::resident_bytes;
 use crate::pool::{Imported, Pool};
 use crate::progress::{Reporter, print_json};
-use crate::run::{LedgerWriter, Replay, RunFolder, Scan, SetFiles, Stopped, Summary, Times, Told};
+use crate::run::{
+    CoordinatorCpu, LedgerWriter, Replay, RunFolder, Scan, SetFiles, Stopped, Summary, Times, Told,
+};
 use crate::signals::Signals;
 use roadmill::evaluate::Verdict;
 use roadmill::export::path_csv;
@@ -15,9 +17,10 @@ use roadmill::img::{
     Core, Cut, Executor, Judgement, Observer, Past, Progress, Round, Setup, Stop, Threads, drive,
 };
 use roadmill::problem::Problem;
-use roadmill::roadmap::Roadmap;
+use roadmill::roadmap::Tally;
 use std::io::Write;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// The most worker processes or threads.
@@ -59,15 +62,16 @@ impl Growth<'_> {
             seconds: arguments.max_time.or(setup.problem.limits.seconds),
             memory: arguments.max_memory,
             weighed: (past.as_ref().map_or(0, Scan::rounds), None),
+            stored: Arc::default(),
         };
-        let (stop, roadmap) = if arguments.crew.threads.is_some() {
+        let (stop, tally, seconds) = if arguments.crew.threads.is_some() {
             let threads = Threads::new(setup.clone(), workers);
             let mut threads = Imported::new(threads, imports);
             folder.begun()?;
             let stop = watch.drive(past.as_ref(), &mut threads)?;
-            (stop, threads.into_roadmap())
+            (stop, threads.tally().clone(), None)
         } else {
-            let pool = match Pool::start(setup.clone(), workers, signals) {
+            let mut pool = match Pool::start(setup.clone(), workers, signals) {
                 Ok(pool) => pool,
                 Err(error) => {
                     if past.is_none() {
@@ -77,17 +81,19 @@ impl Growth<'_> {
                 }
             };
             folder.begun()?;
+            watch.stored = pool.stored_bytes();
             let mut pool = Imported::new(pool, imports);
             let stop = watch.drive(past.as_ref(), &mut pool);
             // Also where the ledger cannot be written: the workers end before their channel does.
-            let (roadmap, closed) = pool.into_inner().close();
-            if let Err(error) = closed {
+            let (tally, pool) = (pool.tally().clone(), pool.into_inner());
+            let seconds = (pool.message_seconds(), pool.fold_seconds());
+            if let Err(error) = pool.close() {
                 eprintln!("{}: {error}; the next run tries again", watch.setup.problem.name);
             }
-            (stop?, roadmap)
+            (stop?, tally, Some(seconds))
         };
         watch.reporter.finish();
-        watch.end(arguments.json, &folder, &stop, &roadmap)
+        watch.end(arguments.json, &folder, &stop, &tally, seconds)
     }
 }
 
@@ -132,6 +138,8 @@ struct Watch {
     memory: Option<u64>,
     /// After which round the memory was looked at last, and when.
     weighed: (u64, Option<Instant>),
+    /// Bytes of shared memory, which no process counts as its own.
+    stored: Arc<AtomicU64>,
 }
 
 impl Watch {
@@ -157,7 +165,7 @@ impl Watch {
         while let Some(told) = replay.read()? {
             if let Told::Round(round, digest) = told {
                 executor.restore(&round);
-                replay.check(executor.roadmap(), digest)?;
+                replay.check(executor.tally(), digest)?;
                 past.fold(&round);
             }
             if self.signals.came() {
@@ -168,13 +176,14 @@ impl Watch {
         Ok(past)
     }
 
-    /// Writes down and says what the build came to.
+    /// Writes down and says what the build came to; `pool_seconds` are those of messages and of folds.
     fn end(
         mut self,
         json: bool,
         folder: &RunFolder,
         stop: &Stop,
-        roadmap: &Roadmap,
+        tally: &Tally,
+        pool_seconds: Option<(f64, f64)>,
     ) -> Result<Code, Failure> {
         let problem = &self.setup.problem;
         let stopped = Stopped::new(stop, problem);
@@ -183,14 +192,19 @@ impl Watch {
             write_whole(&folder.file("path.csv"), path_csv(&self.setup.cx.space, path))?;
         }
         let coordinator_cpu_seconds = self.cpu.own_seconds();
+        let coordinator_cpu = pool_seconds.map(|(messages, fold)| {
+            let ledger = self.ledger.cpu_seconds();
+            let rest = coordinator_cpu_seconds - messages - fold - ledger;
+            CoordinatorCpu { messages, fold, ledger, rest }
+        });
         let times = Times {
             cpu_seconds: coordinator_cpu_seconds + self.cpu.children_seconds(),
             coordinator_cpu_seconds,
+            coordinator_cpu,
             wall_seconds: self.reporter.seconds(),
             ledger_seconds: self.ledger.seconds(),
         };
-        let summary =
-            Summary::new(problem, folder.path(), roadmap, &self.verdicts, &stopped, times);
+        let summary = Summary::new(problem, folder.path(), tally, &self.verdicts, &stopped, times);
         let text = serde_json::to_string_pretty(&summary).map_err(Failure::system)?;
         write_whole(&folder.file("summary.json"), text + "\n")?;
         // Last: a build that is killed before comes here again when it goes on.
@@ -215,15 +229,15 @@ impl Watch {
             return false;
         }
         self.weighed = (rounds, Some(Instant::now()));
-        resident_bytes() >= limit
+        resident_bytes() + self.stored.load(Ordering::Relaxed) >= limit
     }
 }
 
 impl Observer for Watch {
     type Error = Failure;
 
-    fn folded(&mut self, round: &Round, roadmap: &Roadmap) -> Result<(), Failure> {
-        self.ledger.round(round, &self.setup.problem, roadmap)
+    fn folded(&mut self, round: &Round, tally: &Tally) -> Result<(), Failure> {
+        self.ledger.round(round, &self.setup.problem, tally)
     }
 
     fn judged(&mut self, judgement: &Judgement) -> Result<(), Failure> {
@@ -234,12 +248,12 @@ impl Observer for Watch {
     fn tick(
         &mut self,
         progress: &Progress,
-        roadmap: &Roadmap,
+        tally: &Tally,
         alive: usize,
     ) -> Result<Option<Cut>, Failure> {
         self.ledger.sync_if_due()?;
         let workers = (alive, self.workers);
-        self.reporter.report(&self.setup.problem, progress, roadmap, workers);
+        self.reporter.report(&self.setup.problem, progress, tally, workers);
         Ok(if self.signals.came() {
             Some(Cut::Interrupted)
         } else if self.seconds.is_some_and(|limit| self.reporter.seconds() >= limit) {

@@ -11,7 +11,7 @@ use roadmill::img::{
     Event, Executor, Finished, Job, LOSSES_MAX, Outcome, RoundSet, Setup, TICK, Threads,
 };
 use roadmill::problem::Problem;
-use roadmill::roadmap::Digest;
+use roadmill::roadmap::{Digest, Roadmap};
 use roadmill::validity::Scratch;
 use roadmill::wire;
 use roadmill_workers::channel::private_umask;
@@ -48,8 +48,7 @@ pub fn verify(arguments: &VerifyArguments) -> Result<Code, Failure> {
         let pool = Pool::start(setup.clone(), workers, signals.clone());
         let mut pool = pool.map_err(Failure::system)?;
         let counts = check.run(&mut pool);
-        let (_, closed) = pool.close();
-        closed.map_err(Failure::system)?;
+        pool.close().map_err(Failure::system)?;
         counts?
     };
     let (sets, judgements) = counts;
@@ -111,6 +110,11 @@ impl Choice {
         }
     }
 
+    /// Whether any judgement may be recomputed.
+    fn has_judgements(&self) -> bool {
+        matches!(self, Choice::All | Choice::Share(..))
+    }
+
     fn has_judgement(&self, round: u64) -> bool {
         match self {
             Choice::All => true,
@@ -145,6 +149,9 @@ impl Check<'_> {
     fn run(mut self, executor: &mut impl Executor) -> Result<(u64, u64), Failure> {
         let mut replay = Replay::new(self.scan, &self.setup.problem)?;
         let mut judge: Option<(usize, Setup)> = None;
+        let space = &self.setup.cx.space;
+        // For the judgements; sets are recomputed by those who have a roadmap of their own.
+        let mut roadmap = self.choice.has_judgements().then(|| Roadmap::new(space));
         while let Some(told) = replay.read()? {
             match told {
                 Told::Round(round, digest) => {
@@ -158,7 +165,10 @@ impl Check<'_> {
                         self.take(executor)?;
                     }
                     executor.fold(&round);
-                    replay.check(executor.roadmap(), digest)?;
+                    replay.check(executor.tally(), digest)?;
+                    if let Some(roadmap) = &mut roadmap {
+                        roadmap.fold_round(space, round.parts());
+                    }
                 }
                 Told::Judged(judged) if self.choice.has_judgement(judged.round) => {
                     let chapter = replay.chapter();
@@ -166,8 +176,8 @@ impl Check<'_> {
                         let problem = self.scan.problem_of(chapter)?;
                         judge = Some((chapter, Setup::new(problem)));
                     }
-                    if let Some((_, judge)) = &judge {
-                        self.judge(&judged, judge, chapter, executor)?;
+                    if let (Some((_, judge)), Some(roadmap)) = (&judge, &roadmap) {
+                        self.judge(&judged, judge, chapter, roadmap)?;
                     }
                 }
                 Told::Judged(_) => {}
@@ -283,7 +293,7 @@ impl Check<'_> {
         judged: &Judged,
         judge: &Setup,
         chapter: usize,
-        executor: &impl Executor,
+        roadmap: &Roadmap,
     ) -> Result<(), Failure> {
         let name = format!("the judgement of round {}", judged.round);
         needs_bits(&name, &self.scan.chapters[chapter])?;
@@ -292,7 +302,7 @@ impl Check<'_> {
             .map(|(index, evaluator)| {
                 let method = evaluator.method();
                 let scratch = &mut Scratch::new();
-                method.evaluate(&judge.cx, &index.to_string(), executor.roadmap(), scratch)
+                method.evaluate(&judge.cx, &index.to_string(), roadmap, scratch)
             })
             .collect();
         self.counts.1 += 1;

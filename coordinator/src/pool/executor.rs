@@ -1,8 +1,9 @@
 use super::log::Log;
 use super::process::{Executable, WorkerProcess};
+use crate::cpu::Meter;
 use crate::signals::Signals;
-use roadmill::img::{Cut, Event, Executor, Finished, Job, Outcome, Replica, Round, Setup};
-use roadmill::roadmap::{Digest, Increment, Roadmap};
+use roadmill::img::{Cut, Event, Executor, Finished, Front, Job, Outcome, Round, Setup};
+use roadmill::roadmap::{Digest, Increment, Outline, Tally};
 use roadmill::wire;
 use roadmill_workers::channel::{ChannelError, Delivery, Hub, Received, WorkerId};
 use roadmill_workers::message::{FromWorker, PROTOCOL, ToWorker};
@@ -10,7 +11,11 @@ use roadmill_workers::{build_id, canary};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
+use std::sync::atomic::AtomicU64;
 use std::time::{Duration, Instant};
+
+/// Between two times that all hearts are listened to.
+const LOOK_PAUSE: Duration = Duration::from_secs(1);
 
 /// Why a pool cannot be started.
 #[derive(Debug, thiserror::Error)]
@@ -50,7 +55,9 @@ struct Worker {
 /// replaced.
 pub struct Pool {
     setup: Arc<Setup>,
-    replica: Replica,
+    /// Of the roadmap only what this process needs: the workers have it.
+    outline: Outline,
+    front: Front,
     log: Log,
     /// Dropped before the hub, whose files they use.
     workers: BTreeMap<WorkerId, Worker>,
@@ -67,6 +74,16 @@ pub struct Pool {
     events: VecDeque<Event>,
     signals: Arc<Signals>,
     failed: bool,
+    /// When all hearts were listened to last.
+    looked: Instant,
+    messages: Meter,
+    folds: Meter,
+}
+
+/// What woke the pool.
+struct Woken {
+    by_message: bool,
+    by_hearts: Vec<WorkerId>,
 }
 
 impl Pool {
@@ -85,7 +102,8 @@ impl Pool {
         let build = build_id().map_err(system("cannot read the executable"))?;
         let problem = ToWorker::Problem(Box::new(setup.problem.clone()));
         let mut pool = Pool {
-            replica: Replica::new(&setup),
+            outline: Outline::new(&setup.cx.space),
+            front: Front::default(),
             log: Log::default(),
             // A dead worker may hold its place until it is cleaned up after.
             hub: Hub::create(workers + 2)?,
@@ -102,6 +120,9 @@ impl Pool {
             events: VecDeque::new(),
             signals,
             failed: false,
+            looked: Instant::now(),
+            messages: Meter::default(),
+            folds: Meter::default(),
         };
         for _ in 0..workers {
             pool.hire().map_err(system("cannot start a worker"))?;
@@ -109,12 +130,28 @@ impl Pool {
         Ok(pool)
     }
 
-    /// Ends the workers and removes every trace of the channel. The roadmap, and what could not be
-    /// removed: the next run will try again.
-    pub fn close(self) -> (Roadmap, Result<(), PoolError>) {
+    /// Ends the workers and removes every trace of the channel.
+    ///
+    /// # Errors
+    /// What could not be removed: the next run will try again.
+    pub fn close(self) -> Result<(), PoolError> {
         drop(self.workers);
-        let closed = self.hub.close().map_err(PoolError::from);
-        (self.replica.into_roadmap(), closed)
+        self.hub.close().map_err(PoolError::from)
+    }
+
+    /// How many bytes of shared memory hold what all workers read.
+    pub fn stored_bytes(&mut self) -> Arc<AtomicU64> {
+        self.hub.store().bytes()
+    }
+
+    /// CPU seconds that messages took: waiting for them, reading, checking, decoding and sending them.
+    pub fn message_seconds(&self) -> f64 {
+        self.messages.seconds()
+    }
+
+    /// CPU seconds that publishing and folding took, the roadmap's digest included.
+    pub fn fold_seconds(&self) -> f64 {
+        self.folds.seconds()
     }
 
     fn hire(&mut self) -> std::io::Result<()> {
@@ -183,7 +220,7 @@ impl Pool {
         loop {
             let job = self.waiting.pop_first()?;
             // A job handed out again may have been overtaken.
-            if self.replica.task(&self.setup, job).is_some() {
+            if self.front.has(&self.setup, job) {
                 return Some(job);
             }
         }
@@ -241,6 +278,10 @@ impl Pool {
                         worker.state = State::Idle;
                         self.fruitless_deaths = 0;
                         let digest = Digest::of(&outcome);
+                        if let (Job::Generate { place, .. }, true) = (job, self.front.is_ahead(job))
+                        {
+                            self.log.keep(place, outcome, digest);
+                        }
                         let finished = Finished { outcome: decoded, digest };
                         self.events.push_back(Event::Done(job, finished));
                     }
@@ -257,26 +298,37 @@ impl Pool {
     }
 
     /// Sleeps until a worker says or becomes something, a signal comes or the time is over.
-    fn sleep(&mut self, wait: Duration) {
+    fn sleep(&mut self, wait: Duration) -> Woken {
         let wait = Timespec { tv_sec: wait.as_secs() as i64, tv_nsec: wait.subsec_nanos().into() };
         let hub = self.hub.as_fd();
         let signals = self.signals.as_fd();
-        let mut fds = vec![PollFd::from_borrowed_fd(hub, PollFlags::IN)];
+        let mut fds = Vec::with_capacity(2 + self.workers.len());
+        fds.push(PollFd::from_borrowed_fd(hub, PollFlags::IN));
         fds.push(PollFd::from_borrowed_fd(signals, PollFlags::IN));
         for worker in self.workers.values() {
             fds.push(PollFd::from_borrowed_fd(worker.process.as_fd(), PollFlags::IN));
         }
         // An interrupted sleep is a short one.
         let _ = poll(&mut fds, Some(&wait));
+        let hearts = self.workers.keys().zip(&fds[2..]);
+        let by_hearts = hearts.filter(|(_, heart)| !heart.revents().is_empty());
+        Woken {
+            by_message: !fds[0].revents().is_empty(),
+            by_hearts: by_hearts.map(|(id, _)| *id).collect(),
+        }
     }
 
-    fn look_after_workers(&mut self) {
-        let dead: Vec<WorkerId> = self
-            .workers
-            .iter_mut()
-            .filter_map(|(id, worker)| worker.process.look().then_some(*id))
-            .collect();
-        for id in dead {
+    /// Listens to the hearts that have beaten and, once in a while, to all: one may have fallen silent.
+    fn look_after_workers(&mut self, mut beaten: Vec<WorkerId>) {
+        if self.looked.elapsed() >= LOOK_PAUSE {
+            self.looked = Instant::now();
+            beaten = self.workers.keys().copied().collect();
+        }
+        for id in beaten {
+            let Some(worker) = self.workers.get_mut(&id) else { continue };
+            if !worker.process.look() {
+                continue;
+            }
             // What it still said counts.
             self.hear();
             self.replace(id, "it ended");
@@ -286,14 +338,18 @@ impl Pool {
 
 impl Executor for Pool {
     fn publish(&mut self, increment: &Arc<Increment>) {
-        self.log.publish(increment);
-        self.replica.publish(&self.setup, increment.clone());
+        let begun = Meter::begin();
+        self.log.publish(self.front.next(), increment, self.hub.store());
+        self.front.publish();
+        self.folds.end(begun);
     }
 
     fn fold(&mut self, round: &Round) {
-        self.log.fold(round);
-        let joins = round.sets.iter().map(|set| &set.joined.edges[..]);
-        self.replica.fold(&self.setup, joins);
+        let begun = Meter::begin();
+        self.log.fold(round, self.hub.store());
+        self.front.fold();
+        self.outline.fold_round(round.parts());
+        self.folds.end(begun);
     }
 
     fn submit(&mut self, job: Job) {
@@ -301,6 +357,24 @@ impl Executor for Pool {
     }
 
     fn next(&mut self, wait: Duration) -> Option<Event> {
+        let begun = Meter::begin();
+        let event = self.wait(wait);
+        self.messages.end(begun);
+        event
+    }
+
+    fn alive(&self) -> usize {
+        let ready = |worker: &&Worker| !matches!(worker.state, State::Starting | State::SettingUp);
+        self.workers.values().filter(ready).count()
+    }
+
+    fn tally(&self) -> &Tally {
+        self.outline.tally()
+    }
+}
+
+impl Pool {
+    fn wait(&mut self, wait: Duration) -> Option<Event> {
         let until = Instant::now() + wait;
         loop {
             self.feed();
@@ -311,22 +385,11 @@ impl Executor for Pool {
             if left.is_zero() || self.signals.came() {
                 return None;
             }
-            self.sleep(left);
-            self.hear();
-            self.look_after_workers();
+            let woken = self.sleep(left);
+            if woken.by_message {
+                self.hear();
+            }
+            self.look_after_workers(woken.by_hearts);
         }
-    }
-
-    fn alive(&self) -> usize {
-        let ready = |worker: &&Worker| !matches!(worker.state, State::Starting | State::SettingUp);
-        self.workers.values().filter(ready).count()
-    }
-
-    fn roadmap(&self) -> &Roadmap {
-        self.replica.roadmap()
-    }
-
-    fn into_roadmap(self) -> Roadmap {
-        self.replica.into_roadmap()
     }
 }

@@ -1,7 +1,7 @@
 use crate::exit::Failure;
 use crate::run::SetFiles;
 use roadmill::img::{Cut, Event, Executor, Finished, Job, Round};
-use roadmill::roadmap::{Increment, Roadmap};
+use roadmill::roadmap::{Increment, Tally};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
@@ -77,11 +77,7 @@ impl<E: Executor> Executor for Imported<E> {
         self.inner.alive()
     }
 
-    fn roadmap(&self) -> &Roadmap {
-        self.inner.roadmap()
-    }
-
-    fn into_roadmap(self) -> Roadmap {
-        self.inner.into_roadmap()
+    fn tally(&self) -> &Tally {
+        self.inner.tally()
     }
 }

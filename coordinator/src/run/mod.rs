@@ -20,4 +20,4 @@ pub use folder::RunFolder;
 pub use ledger::{Ledger, LedgerWriter, Replay, Scan, Stopped, Told};
 pub use lock::{Holder, RunLock};
 pub use sets::{SetFiles, SetsWriter};
-pub use summary::{EvaluatorValue, Summary, Times};
+pub use summary::{CoordinatorCpu, EvaluatorValue, Summary, Times};

@@ -1,7 +1,7 @@
 use super::Stopped;
 use roadmill::evaluate::{Bound, CutEdge, EvaluatorKind, Verdict};
 use roadmill::problem::Problem;
-use roadmill::roadmap::Roadmap;
+use roadmill::roadmap::Tally;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -35,6 +35,8 @@ pub struct Summary {
     pub cpu_seconds: f64,
     /// Those of the coordinator alone (with `--threads`: of the one process).
     pub coordinator_cpu_seconds: f64,
+    /// What these went into; with `--threads` it is not told apart from the work itself.
+    pub coordinator_cpu: Option<CoordinatorCpu>,
     /// Seconds from start to end.
     pub wall_seconds: f64,
     /// Of these, those that went into the ledger: encoding, hashing, writing and syncing.
@@ -119,6 +121,19 @@ impl fmt::Display for EvaluatorValue {
     }
 }
 
+/// What the coordinator's CPU seconds went into.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CoordinatorCpu {
+    /// Messages: waiting for them, reading, checking, decoding and sending them.
+    pub messages: f64,
+    /// Publishing and folding sets, the roadmap's digest included.
+    pub fold: f64,
+    /// The ledger: encoding, hashing, writing and syncing.
+    pub ledger: f64,
+    /// Starting and ending, deciding what comes next, telling how far the build is.
+    pub rest: f64,
+}
+
 /// CPU and wall seconds of a build.
 #[derive(Debug, Clone, Copy)]
 pub struct Times {
@@ -126,6 +141,8 @@ pub struct Times {
     pub cpu_seconds: f64,
     /// Those of the coordinator alone.
     pub coordinator_cpu_seconds: f64,
+    /// What these went into.
+    pub coordinator_cpu: Option<CoordinatorCpu>,
     /// Seconds from start to end.
     pub wall_seconds: f64,
     /// Of these, those that went into the ledger.
@@ -137,7 +154,7 @@ impl Summary {
     pub fn new(
         problem: &Problem,
         run: &std::path::Path,
-        roadmap: &Roadmap,
+        tally: &Tally,
         verdicts: &[Verdict],
         stopped: &Stopped,
         times: Times,
@@ -147,18 +164,19 @@ impl Summary {
             problem: problem.name.clone(),
             seed: problem.seed,
             run: run.display().to_string(),
-            sets: roadmap.sets(),
-            nodes: roadmap.configs().len(),
-            edges: roadmap.edges().len(),
-            components: roadmap.components().count(),
+            sets: tally.sets(),
+            nodes: tally.nodes(),
+            edges: tally.edges(),
+            components: tally.components(),
             evaluators: EvaluatorValue::all(problem, verdicts),
             stop: stopped.word.clone(),
             reason: stopped.reason.clone(),
             cpu_seconds: times.cpu_seconds,
             coordinator_cpu_seconds: times.coordinator_cpu_seconds,
+            coordinator_cpu: times.coordinator_cpu,
             wall_seconds: times.wall_seconds,
             ledger_seconds: times.ledger_seconds,
-            digest: roadmap.digest().to_string(),
+            digest: tally.digest().to_string(),
         }
     }
 }
@@ -181,6 +199,10 @@ impl fmt::Display for Summary {
             "cpu         {:.2} s, {coordinator:.2} s of it the coordinator's",
             self.cpu_seconds
         )?;
+        if let Some(CoordinatorCpu { messages, fold, ledger, rest }) = self.coordinator_cpu {
+            write!(f, "coordinator {messages:.2} s for messages, {fold:.2} s for folding, ")?;
+            writeln!(f, "{ledger:.2} s for the ledger, {rest:.2} s for the rest")?;
+        }
         let ledger = self.ledger_seconds;
         writeln!(f, "wall        {:.2} s, {ledger:.2} s of it for the ledger", self.wall_seconds)?;
         write!(f, "digest {}", self.digest)

@@ -25,6 +25,8 @@ pub(super) struct SweptBox {
     pub node: u32,
     pub chord: Span,
     half: Vector,
+    /// See [`Obb::rod`].
+    rod: bool,
     centre: TwoVectors,
     axes: [TwoVectors; 3],
     /// How far its points leave the straight lines.
@@ -36,20 +38,19 @@ pub(super) struct SweptBox {
 }
 
 impl SweptBox {
-    /// `step` is the time from a sample to the next, `slack` a length that outweighs rounding.
+    /// Over a chord of so much time; `spare` is the time in which the tolerance is used up, `slack` a
+    /// length that outweighs rounding.
     pub fn new(
         (node, space): (u32, &Obb),
-        chord: Span,
+        (chord, time): (Span, f64),
         frames: [&Frame; 2],
         rates: &Rates,
-        step: f64,
-        slack: f64,
+        (spare, slack): (f64, f64),
     ) -> SweptBox {
         let reach = space.radius + rates.distance(space.centre);
-        let time = chord.length() as f64 * step;
         let eighth = time * time / 8.0;
         // Half a step away from a sample a point is no farther than this from where it was.
-        let margin = 0.5 * step * rates.speed_at(reach);
+        let margin = spare * rates.speed_at(reach);
         let bend = rates.bend_at(reach) * eighth;
         // What stands still, as seen from the box: near it at one sample, and then carried away.
         let away = reach + margin + rates.speed * time;
@@ -59,6 +60,7 @@ impl SweptBox {
             node,
             chord,
             half: space.half,
+            rod: space.rod,
             centre: TwoVectors::new(first.centre, last.centre),
             axes: [0, 1, 2].map(|k| TwoVectors::new(first.axes[k], last.axes[k])),
             bend,
@@ -78,7 +80,7 @@ impl SweptBox {
     /// `None` if there are none.
     #[inline(always)]
     pub fn meets(&self, still: &Obb, span: Span) -> Option<Span> {
-        let mut clip = Clip { low: 0.0, high: 1.0 };
+        let mut clip = Clip::ALL;
         let apart = self.centre.to(still.centre);
         // Written out, for loops that may end early are not unrolled.
         let [x, y, z] = &still.axes;
@@ -109,16 +111,18 @@ impl SweptBox {
             return None;
         }
         // The product of the two longest axes tells crossing rods apart.
-        let axis = still.axes[0].cross(self.axes[0].sum());
-        let square = axis.length_squared();
-        if square > 1e-6 {
-            let room = still.half.y * axis.dot(still.axes[1]).abs()
-                + still.half.z * axis.dot(still.axes[2]).abs()
-                + self.still_room * square.sqrt();
-            let own = self.across(axis);
-            if !clip.axis(Two::from(room) + weigh(own, self.half), apart.dot(axis)) || clip.empty()
-            {
-                return None;
+        if self.rod && still.rod {
+            let axis = still.axes[2].cross(self.axes[2].sum());
+            let square = axis.length_squared();
+            if square > 1e-6 {
+                let room = still.half.x * axis.dot(still.axes[0]).abs()
+                    + still.half.y * axis.dot(still.axes[1]).abs()
+                    + self.still_room * square.sqrt();
+                let own = self.across(axis);
+                let room = Two::from(room) + weigh(own, self.half);
+                if !clip.axis(room, apart.dot(axis)) || clip.empty() {
+                    return None;
+                }
             }
         }
         clip.samples(self.chord, span)
@@ -130,13 +134,58 @@ fn weigh(across: [Two; 3], half: Vector) -> Two {
     across[0] * Two::from(half.x) + across[1] * Two::from(half.y) + across[2] * Two::from(half.z)
 }
 
+/// The ball around a box during the whole motion.
+pub(super) struct SweptBall {
+    centre: TwoVectors,
+    /// Its radius, and by how much it must be larger for the straight line between to do.
+    room: f64,
+}
+
+impl SweptBall {
+    pub fn new(
+        space: &Obb,
+        [first, last]: &[Frame; 2],
+        rates: &Rates,
+        spare: f64,
+        slack: f64,
+    ) -> SweptBall {
+        let from_origin = rates.distance(space.centre);
+        let margin = spare * rates.speed_at(space.radius + from_origin);
+        let room = space.radius + rates.bend_at(from_origin) / 8.0 + margin + slack;
+        let centre = TwoVectors::new(first.point(space.centre), last.point(space.centre));
+        SweptBall { centre, room }
+    }
+
+    /// When the ball may meet a box that stands still.
+    #[inline]
+    pub fn meets(&self, still: &Obb) -> Option<Clip> {
+        let mut clip = Clip::ALL;
+        let apart = self.centre.to(still.centre);
+        let axis = |clip: &mut Clip, axis: Vector, half: f64| {
+            clip.axis(Two::from(half + self.room), apart.dot(axis))
+        };
+        let [x, y, z] = still.axes;
+        let kept = axis(&mut clip, x, still.half.x)
+            && axis(&mut clip, y, still.half.y)
+            && axis(&mut clip, z, still.half.z);
+        (kept && !clip.empty()).then_some(clip)
+    }
+}
+
+/// Whether a ball of a radius that goes straight misses a box.
+pub(in crate::validity) fn misses(from: Vector, to: Vector, radius: f64, still: &Obb) -> bool {
+    SweptBall { centre: TwoVectors::new(from, to), room: radius }.meets(still).is_none()
+}
+
 /// A share of a chord.
-struct Clip {
+pub(super) struct Clip {
     low: f64,
     high: f64,
 }
 
 impl Clip {
+    const ALL: Clip = Clip { low: 0.0, high: 1.0 };
+
     /// Cuts off where the centres are farther apart than the boxes reach, both linear over the chord;
     /// false if nothing is left.
     #[inline(always)]
@@ -161,7 +210,8 @@ impl Clip {
         self.low > self.high + 1e-9
     }
 
-    fn samples(&self, chord: Span, span: Span) -> Option<Span> {
+    /// The samples of a chord within it that are in the span, too.
+    pub fn samples(&self, chord: Span, span: Span) -> Option<Span> {
         let length = chord.length() as f64;
         let slack = 1e-7 + 1e-9 * length;
         // Samples fit signed integers, to which conversion is one instruction.

@@ -1,7 +1,7 @@
 //! Where the links stand at the samples of a motion.
 
 use crate::robot::Robot;
-use crate::space::Way;
+use crate::space::{Space, Way};
 use crate::validity::frame::Stance;
 
 /// Memory for stances of one motion.
@@ -13,7 +13,6 @@ pub(in crate::validity) struct Timeline {
 
 /// A power of two; a motion is looked at in a handful of samples, but some of them often.
 const SLOTS_LOG: u32 = 6;
-const EMPTY: u64 = u64::MAX;
 
 impl Timeline {
     /// Rubbish, see [`Scratch::poison`](crate::validity::Scratch::poison).
@@ -25,24 +24,28 @@ impl Timeline {
 
 /// A motion cut into `samples` equal steps, sample 0 being its beginning.
 pub(in crate::validity) struct Clock<'a> {
-    way: Way<'a>,
+    space: &'a Space,
     robot: &'a Robot,
+    a: &'a [f64],
+    b: &'a [f64],
+    /// Made when it is first asked for: the ends need none.
+    way: Option<Way<'a>>,
     pub samples: u64,
+    /// A bit for every slot that holds a stance of this motion.
+    held: u64,
     timeline: &'a mut Timeline,
 }
 
 impl<'a> Clock<'a> {
     pub fn new(
-        way: Way<'a>,
-        values: usize,
-        robot: &'a Robot,
+        (space, robot): (&'a Space, &'a Robot),
+        (a, b): (&'a [f64], &'a [f64]),
         samples: u64,
         timeline: &'a mut Timeline,
     ) -> Clock<'a> {
-        timeline.slots.resize(1 << SLOTS_LOG, (EMPTY, Stance::default()));
-        timeline.slots.iter_mut().for_each(|(sample, _)| *sample = EMPTY);
-        timeline.q.resize(values, 0.0);
-        Clock { way, robot, samples, timeline }
+        timeline.slots.resize(1 << SLOTS_LOG, (0, Stance::default()));
+        timeline.q.resize(a.len(), 0.0);
+        Clock { space, robot, a, b, way: None, samples, held: 0, timeline }
     }
 
     /// Where the links stand at a sample.
@@ -51,9 +54,18 @@ impl<'a> Clock<'a> {
         let slot = sample.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (u64::BITS - SLOTS_LOG);
         let Timeline { slots, q } = &mut *self.timeline;
         let (held, stance) = &mut slots[slot as usize];
-        if *held != sample {
+        if *held != sample || self.held & (1 << slot) == 0 {
             *held = sample;
-            self.way.at(sample as f64 / self.samples as f64, q);
+            self.held |= 1 << slot;
+            let q = if sample == 0 {
+                self.a
+            } else if sample == self.samples {
+                self.b
+            } else {
+                let way = self.way.get_or_insert_with(|| self.space.way(self.a, self.b));
+                way.at(sample as f64 / self.samples as f64, q);
+                q
+            };
             self.robot.place(q, &mut stance.poses);
             stance.settle();
         }

@@ -1,7 +1,7 @@
 //! Two elements during a stretch of samples.
 
-use super::Sweep;
 use super::clip::Span;
+use super::{Asks, Sweep};
 use crate::validity::element::Element;
 use crate::validity::tree::Node;
 use crate::validity::triangles::separating_axis;
@@ -19,7 +19,7 @@ impl Sweep<'_, '_> {
     /// Whether two elements come as near, at a sample of the span, as half a step moves the points of
     /// the moving one.
     ///
-    /// The gap at one sample keeps them apart for a while, for its change is bounded; what is left on
+    /// If only samples are asked about: whether they meet at one. The gap at one sample keeps them apart for a while, for its change is bounded; what is left on
     /// either side is looked at in the same way.
     pub(super) fn touches(&mut self, moving: &Node, node: &Node, span: Span) -> bool {
         let meeting = self.meeting;
@@ -27,7 +27,7 @@ impl Sweep<'_, '_> {
         let other = &meeting.still.tree.elements[node.element as usize];
         let reach = element.reach(&self.rates);
         let (speed, bend) = (self.rates.speed_at(reach), self.rates.bend_at(reach));
-        let margin = 0.5 * self.step() * speed;
+        let margin = self.spare * speed;
         // A sample is cut off by far less than rounding could move it.
         let samples = self.clock.samples as f64 * (1.0 - 1e-9);
         let mut open = [span; 64];
@@ -38,18 +38,25 @@ impl Sweep<'_, '_> {
             let middle = from + (to - from) / 2;
             let frame = self.frame(middle);
             let corners = element.corners.map(|corner| frame.point(corner));
-            let Some(apart) = self.apart(element, &corners, other, middle, margin) else {
-                return true;
-            };
+            let apart = self.apart(element, &corners, other, middle, margin);
+            if apart.is_none() {
+                if self.asks == Asks::AllTimes
+                    || meeting.ends_meet(moving, node, &frame, self.clock.at(middle))
+                {
+                    return true;
+                }
+                self.near |= self.asks == Asks::SamplesAndBetween;
+            }
             if from == to {
                 continue;
             }
             let (before, after) = match apart {
-                Apart::By(distance) => {
+                None => (0.0, 0.0),
+                Some(Apart::By(distance)) => {
                     let time = (distance - margin) / speed;
                     (time, time)
                 }
-                Apart::Along(axis, gap) => match &self.rates.steady {
+                Some(Apart::Along(axis, gap)) => match &self.rates.steady {
                     Some(steady) => {
                         let drift = steady.velocity - steady.turning.cross(frame.shift);
                         let rates = corners.map(|p| axis.dot(drift + steady.turning.cross(p)));

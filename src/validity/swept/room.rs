@@ -1,8 +1,8 @@
 //! How much room bodies have inside the bounds, and whether they stay inside during a motion.
 
-use super::BEND;
 use super::clip::Span;
 use super::clock::Clock;
+use super::{BEND, Stacks};
 use crate::robot::Rates;
 use crate::validity::frame::Frame;
 use crate::validity::tree::{Node, Tree};
@@ -59,10 +59,12 @@ pub(in crate::validity) fn stays_inside(
     (tree, link): (&Tree, usize),
     rates: &Rates,
     clock: &mut Clock,
+    Stacks { open, .. }: &mut Stacks,
 ) -> bool {
     let time = 1.0 / clock.samples as f64;
     let least = bend_of(&tree.nodes[0], rates) * time * time / 8.0;
-    let mut open = vec![(0, Span { from: 0, to: clock.samples })];
+    open.clear();
+    open.push((0, Span { from: 0, to: clock.samples }));
     while let Some((at, span)) = open.pop() {
         let node = &tree.nodes[at as usize];
         let mut room = |sample: u64| walls.room(tree, node, &clock.at(sample).frames[link]);

@@ -1,8 +1,10 @@
 //! Whole motions against motions looked at step by step.
 
+use super::super::meet::Group;
 use super::super::tests::{chain, cuboid, cuboid_mesh, solid};
-use super::super::{BodyValidity, Bounds, BoundsMeaning, Edges, Scratch, Validity};
-use crate::robot::{Joint, JointKind, Limits, Link, Robot};
+use super::super::{BodyValidity, Bounds, BoundsMeaning, Edges, Scratch, TOLERANCE, Validity};
+use super::{Clock, Walls};
+use crate::robot::{Joint, JointKind, Limits, Link, Rates, Robot};
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::{Motion, Space};
@@ -133,6 +135,41 @@ fn motions(scene: &Scene, stream: &mut Stream, count: usize) -> Vec<(Vec<f64>, V
         }
     }
     found
+}
+
+impl BodyValidity {
+    /// Whether some two surfaces come, at one of a few samples of a swept motion, so near that they may come
+    /// within the tolerance between two of them, or the robot so near to its bounds.
+    fn comes_near(&self, a: &[f64], b: &[f64], scratch: &mut Scratch) -> bool {
+        let samples = self.steps(a, b, 1) * 64;
+        let time = 1.0 / samples as f64;
+        let finest = self.resolution / TOLERANCE as f64;
+        let Scratch { timeline, stacks, .. } = scratch;
+        let clock = &mut Clock::new((&self.space, &self.robot), (a, b), samples, timeline);
+        let reach = |group: &Group, rates: &Rates| {
+            group.tree.elements.iter().fold(0.0f64, |most, e| most.max(e.reach(rates)))
+        };
+        (0..=samples).any(|sample| {
+            let stance = clock.at(sample);
+            self.meetings().any(|(meeting, chain)| {
+                let rates = chain.rates(self.robot.motion, a, b);
+                let tolerance = 0.5 * time * rates.speed_at(reach(meeting.mover, &rates));
+                let way = meeting.nearer(stance, &mut stacks.pairs, None);
+                way.is_some_and(|best| best.clearance.distance <= tolerance + finest + self.slack)
+            }) || self.bounds.meaning == BoundsMeaning::Body
+                && self.links.iter().any(|moving| {
+                    let rates = moving.chain.rates(self.robot.motion, a, b);
+                    let space = &moving.group.tree.nodes[0].space;
+                    let far = space.radius + rates.distance(space.centre);
+                    let between = 0.5 * time * rates.speed_at(far);
+                    let room = rates.bend_at(far) * time * time / 8.0 + between + self.slack;
+                    let Walls { min, max, axes } = self.walls();
+                    let [min, max] = [min.map(|x| x + room), max.map(|x| x - room)];
+                    let narrower = Walls { min, max, axes };
+                    !narrower.hold(&moving.group.tree, &stance.frames[moving.link])
+                })
+        })
+    }
 }
 
 /// None accepted that is blocked at finer steps; none refused but where something is near.

@@ -15,6 +15,7 @@ use super::header::Fault;
 use super::peer::{Peer, Step};
 use super::run_folder::{RunFolder, hub_socket, worker_socket};
 use super::service::{self, HubPort, Question, RunNode, RunService};
+use super::store::Store;
 use super::{MESSAGE_BYTES_MAX, WorkerId};
 
 /// Keeps one `receive` short when several workers send long messages.
@@ -79,6 +80,7 @@ pub struct Hub {
     service: RunService,
     node: RunNode,
     bell: Bell,
+    pub(super) store: Store,
     folder: RunFolder,
     /// the library's numbers of the workers' ports
     workers_of_ports: BTreeMap<u128, WorkerId>,
@@ -105,12 +107,14 @@ impl Hub {
         let node = service::open_node(folder.path())?;
         let (service, port) = service::create_service(&node, workers_max)?;
         service::protect_shared_memory(folder.path())?;
+        let store = Store::create(folder.path(), workers_max);
         Ok(Hub {
             peers: BTreeMap::new(),
             port,
             service,
             node,
             bell,
+            store,
             folder,
             workers_of_ports: BTreeMap::new(),
             ignored: BTreeSet::new(),
@@ -121,6 +125,11 @@ impl Hub {
     /// The run's folder, which each worker needs for [`Link::open`](super::Link::open).
     pub fn directory(&self) -> &Path {
         self.folder.path()
+    }
+
+    /// What all workers can read; see [`StoreReader`](super::StoreReader).
+    pub fn store(&mut self) -> &mut Store {
+        &mut self.store
     }
 
     /// Readable when [`receive`](Hub::receive) has something to do.

@@ -21,6 +21,9 @@
 //!  ◀──────────────── Data 1 ──       for all of it
 //! ```
 //!
+//! What all workers are to know, the hub writes once into a file in shared memory (the [`Store`]), as long
+//! as there is room; messages only say where it stands.
+//!
 //! Every chunk has a header with a checksum; a chunk that is malformed or out of turn
 //! ends the conversation with that worker, and only with that worker.
 //!
@@ -40,6 +43,7 @@ mod run_folder;
 mod run_lock;
 mod service;
 mod shared_files;
+mod store;
 
 use std::fmt;
 
@@ -49,6 +53,7 @@ pub use error::ChannelError;
 pub use header::Fault;
 pub use hub::{Delivery, Hub, Received};
 pub use link::Link;
+pub use store::{Store, StoreReader};
 
 /// The longest message in bytes, either way.
 pub const MESSAGE_BYTES_MAX: u64 = 1 << 30;

@@ -184,13 +184,9 @@ pub(super) fn protect_shared_memory(folder: &Path) -> Result<(), ChannelError> {
 
 /// Refuses to start where the memory could run out: that would be a SIGBUS in mid-write.
 pub(super) fn check_free_space(workers_max: usize) -> Result<(), ChannelError> {
-    let chunks_per_worker = REQUEST_CHUNKS as u64 + 1;
-    let per_worker = chunks_per_worker * CHUNK_BYTES as u64 + OVERHEAD_BYTES_PER_WORKER;
-    let needed_bytes = OVERHEAD_BYTES + workers_max as u64 * per_worker;
-    let space = rustix::fs::statvfs(SHARED_MEMORY_FOLDER)
-        .map_err(|error| error.into())
-        .map_err(ChannelError::io("could not inspect", SHARED_MEMORY_FOLDER))?;
-    let free_bytes = space.f_bavail.saturating_mul(space.f_frsize);
+    let needed_bytes = needed_bytes(workers_max);
+    let free_bytes =
+        free_bytes().map_err(ChannelError::io("could not inspect", SHARED_MEMORY_FOLDER))?;
     if free_bytes < needed_bytes {
         return Err(ChannelError::NoSpace {
             path: SHARED_MEMORY_FOLDER.into(),
@@ -200,4 +196,17 @@ pub(super) fn check_free_space(workers_max: usize) -> Result<(), ChannelError> {
         });
     }
     Ok(())
+}
+
+/// Shared memory that the channel may come to need.
+pub(super) fn needed_bytes(workers_max: usize) -> u64 {
+    let chunks_per_worker = REQUEST_CHUNKS as u64 + 1;
+    let per_worker = chunks_per_worker * CHUNK_BYTES as u64 + OVERHEAD_BYTES_PER_WORKER;
+    OVERHEAD_BYTES + workers_max as u64 * per_worker
+}
+
+/// Shared memory that nobody has taken.
+pub(super) fn free_bytes() -> std::io::Result<u64> {
+    let space = rustix::fs::statvfs(SHARED_MEMORY_FOLDER)?;
+    Ok(space.f_bavail.saturating_mul(space.f_frsize))
 }

@@ -56,10 +56,8 @@ impl Ledger {
         let mut replay = Replay::new(&scan, &problem)?;
         while let Some(told) = replay.read()? {
             if let Told::Round(round, digest) = told {
-                let sets = round.sets.iter();
-                let sets = sets.map(|set| (&*set.increment, &set.joined.edges[..]));
-                roadmap.fold_round(&space, sets);
-                replay.check(&roadmap, digest)?;
+                roadmap.fold_round(&space, round.parts());
+                replay.check(roadmap.tally(), digest)?;
             }
         }
         let answers = scan.last_verdicts.iter().filter_map(Verdict::answer);

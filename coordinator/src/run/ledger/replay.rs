@@ -4,7 +4,7 @@ use super::scan::Scan;
 use crate::exit::Failure;
 use roadmill::img::{Plan, Round, RoundSet};
 use roadmill::problem::Problem;
-use roadmill::roadmap::{Digest, Roadmap};
+use roadmill::roadmap::{Digest, Tally};
 
 /// What a ledger tells of a build, in order.
 pub enum Told {
@@ -73,12 +73,12 @@ impl<'a> Replay<'a> {
         self.chapters.saturating_sub(1)
     }
 
-    /// Checks that the last round has given this roadmap.
+    /// Checks that the last round has given the roadmap that comes to this.
     ///
     /// # Errors
     /// Exit code 4: it has not.
-    pub fn check(&self, roadmap: &Roadmap, told: Digest) -> Result<(), Failure> {
-        if roadmap.digest() == told {
+    pub fn check(&self, tally: &Tally, told: Digest) -> Result<(), Failure> {
+        if tally.digest() == told {
             Ok(())
         } else {
             Err(self.reader.wrong("the roadmap's digest differs"))

@@ -4,11 +4,12 @@ use super::record::{Chapter, Judged, Record, RoundEnd, Set};
 use super::scan::Scan;
 use super::stopped::Stopped;
 use super::{LEDGER, sync_folder};
+use crate::cpu::Meter;
 use crate::exit::Failure;
 use crate::run::RunLock;
 use roadmill::img::{Judgement, Round};
 use roadmill::problem::Problem;
-use roadmill::roadmap::Roadmap;
+use roadmill::roadmap::Tally;
 use roadmill::wire;
 use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
@@ -36,6 +37,7 @@ pub struct LedgerWriter {
     durable_offset: u64,
     next_sync: Instant,
     spent: Duration,
+    cpu: Meter,
 }
 
 impl LedgerWriter {
@@ -82,8 +84,8 @@ impl LedgerWriter {
 
     fn new(folder: &Path, file: File, durable: DurableFile, lock: RunLock, at: Mark) -> Self {
         let path = folder.join(LEDGER);
-        let (next_sync, spent) = (Instant::now(), Duration::ZERO);
-        LedgerWriter { path, file, durable, lock, at, durable_offset: 0, next_sync, spent }
+        let (next_sync, spent, cpu) = (Instant::now(), Duration::ZERO, Meter::default());
+        LedgerWriter { path, file, durable, lock, at, durable_offset: 0, next_sync, spent, cpu }
     }
 
     /// Appends the beginning of a chapter and makes it durable.
@@ -96,7 +98,7 @@ impl LedgerWriter {
         self.sync_all()
     }
 
-    /// Appends a folded round; `roadmap` includes it.
+    /// Appends a folded round; `tally` includes it.
     ///
     /// # Errors
     /// Exit code 1: the file cannot be written.
@@ -104,15 +106,15 @@ impl LedgerWriter {
         &mut self,
         round: &Round,
         problem: &Problem,
-        roadmap: &Roadmap,
+        tally: &Tally,
     ) -> Result<(), Failure> {
         let end = RoundEnd {
             round: round.index,
-            sets: roadmap.sets(),
-            nodes: roadmap.configs().len() as u64,
-            edges: roadmap.edges().len() as u64,
-            components: roadmap.components().count() as u64,
-            roadmap: roadmap.digest(),
+            sets: tally.sets(),
+            nodes: tally.nodes() as u64,
+            edges: tally.edges() as u64,
+            components: tally.components() as u64,
+            roadmap: tally.digest(),
         };
         let sets = round.sets.iter().map(|set| Record::Set(Set::new(set, problem)));
         self.append(sets.chain([Record::RoundEnd(end)]))?;
@@ -155,9 +157,14 @@ impl LedgerWriter {
         self.spent.as_secs_f64()
     }
 
+    /// CPU seconds of these.
+    pub fn cpu_seconds(&self) -> f64 {
+        self.cpu.seconds()
+    }
+
     /// Writes records, all of them or, where that fails, a part that no reader takes for whole.
     fn append(&mut self, records: impl IntoIterator<Item = Record>) -> Result<(), Failure> {
-        let begun = Instant::now();
+        let (begun, cpu) = (Instant::now(), Meter::begin());
         self.lock.beat()?;
         let mut bytes = Vec::new();
         let mut at = self.at;
@@ -167,6 +174,7 @@ impl LedgerWriter {
         self.file.write_all(&bytes).map_err(|error| cannot_write(&self.path, &error))?;
         self.at = at;
         self.spent += begun.elapsed();
+        self.cpu.end(cpu);
         Ok(())
     }
 
@@ -174,12 +182,13 @@ impl LedgerWriter {
     /// writes the data and what is needed to read them again, the file's length included, and leaves
     /// only times for later.
     fn sync(&mut self) -> Result<(), Failure> {
-        let begun = Instant::now();
+        let (begun, cpu) = (Instant::now(), Meter::begin());
         self.file.sync_data().map_err(|error| cannot_write(&self.path, &error))?;
         self.durable.set(&self.at).map_err(|error| self.cannot_mark(&error))?;
         self.durable_offset = self.at.offset;
         let took = begun.elapsed();
         self.spent += took;
+        self.cpu.end(cpu);
         self.next_sync = Instant::now() + SYNC_PAUSE_MIN.max(took * SYNC_PAUSE_TIMES);
         Ok(())
     }

@@ -1,0 +1,97 @@
+//! What a roadmap comes to, for those who follow a build without searching it.
+
+use super::digest::RoadmapHasher;
+use super::forest::Forest;
+use super::{Digest, Edge, Increment};
+use crate::space::Space;
+
+/// How many sets, nodes, edges and components a roadmap has, and its digest.
+#[derive(Clone, Debug)]
+pub struct Tally {
+    sets: u64,
+    nodes: usize,
+    edges: usize,
+    components: usize,
+    hasher: RoadmapHasher,
+}
+
+impl Tally {
+    pub(super) fn new(space: &Space) -> Tally {
+        let hasher = RoadmapHasher::new(space.len());
+        Tally { sets: 0, nodes: 0, edges: 0, components: 0, hasher }
+    }
+
+    /// Counts and hashes the next set; its components are left to the caller.
+    pub(super) fn add_set(&mut self, increment: &Increment, joins: &[Edge]) {
+        self.hasher.add_set(self.nodes as u32, increment, joins);
+        self.sets += 1;
+        self.nodes += increment.configs.len();
+        self.edges += increment.edges.len() + joins.len();
+    }
+
+    pub(super) fn set_components(&mut self, components: usize) {
+        self.components = components;
+    }
+
+    /// Number of node sets folded.
+    pub fn sets(&self) -> u64 {
+        self.sets
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.nodes
+    }
+
+    /// Number of edges.
+    pub fn edges(&self) -> usize {
+        self.edges
+    }
+
+    /// Number of connected components.
+    pub fn components(&self) -> usize {
+        self.components
+    }
+
+    /// The digest of the roadmap's canonical bytes; `docs/architecture.md` defines them.
+    pub fn digest(&self) -> Digest {
+        self.hasher.digest()
+    }
+}
+
+/// A roadmap of which nothing is kept but its tally and, per node, four bytes that tell the components
+/// apart: what a coordinator whose workers search has to know.
+#[derive(Clone, Debug)]
+pub struct Outline {
+    tally: Tally,
+    forest: Forest,
+}
+
+impl Outline {
+    /// That of the empty roadmap over a space.
+    pub fn new(space: &Space) -> Outline {
+        Outline { tally: Tally::new(space), forest: Forest::default() }
+    }
+
+    /// Folds the next round, as [`super::Roadmap::fold_round`] does.
+    pub fn fold_round<'a>(&mut self, sets: impl IntoIterator<Item = (&'a Increment, &'a [Edge])>) {
+        let mut components = self.tally.components;
+        for (increment, joins) in sets {
+            let first = self.tally.nodes as u32;
+            self.tally.add_set(increment, joins);
+            self.forest.grow(increment.configs.len() as u32);
+            components += increment.configs.len();
+            let inner = increment.edges.iter().map(|edge| edge.shifted(first));
+            for edge in inner.chain(joins.iter().copied()) {
+                let [low, high] = self.forest.unite(edge.low, edge.high);
+                components -= usize::from(low != high);
+            }
+        }
+        self.tally.set_components(components);
+    }
+
+    /// What the roadmap comes to.
+    pub fn tally(&self) -> &Tally {
+        &self.tally
+    }
+}
