@@ -66,6 +66,7 @@ fn nothing_is_allocated_once_the_scratch_is_warm() {
             };
             let cold = verdicts();
             let before = ASKED.get();
+            assert!(before > 0, "what was asked for so far is counted");
             let warm = verdicts();
             let asked = ASKED.get() - before;
             assert_eq!(warm, cold, "{name}");

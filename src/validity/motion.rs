@@ -1,7 +1,7 @@
 //! Whether motions of a robot of rigid links are valid.
 
 use super::bodies::{BodyValidity, Edges};
-use super::swept::{Asks, Clock, Finds, Sweep, misses, stays_inside};
+use super::swept::{Asks, Clock, Sweep, misses, stays_inside};
 use super::{Scratch, State, Validity};
 use crate::space::Motion;
 use parry3d_f64::math::Vector;
@@ -38,20 +38,17 @@ impl BodyValidity {
         match self.edges {
             Edges::Swept => {
                 let samples = steps.saturating_mul(FINENESS).min(SAMPLES_MAX);
-                self.sweep((a, b), samples, bounded, Asks::AllTimes, scratch) == Finds::Free
+                self.sweep((a, b), samples, bounded, Asks::AllTimes, scratch) == Some(true)
             }
+            // Without insides it is enough that no surfaces meet at the steps. What is free at all times
+            // encloses nothing on the way; if that is in doubt the steps are looked at one by one.
             Edges::Sampled => {
-                // What is free at all times encloses nothing on the way.
-                let asks = if self.solid { Asks::SamplesAndBetween } else { Asks::Samples };
-                let found = if within && steps <= SAMPLES_MAX {
-                    self.sweep((a, b), steps, bounded, asks, scratch)
-                } else {
-                    Finds::Near
-                };
-                match found {
-                    Finds::Free => true,
-                    Finds::Blocked => false,
-                    Finds::Near => self.free_at_steps(a, b, steps, scratch),
+                let asks = if self.solid { Asks::AllTimes } else { Asks::Samples };
+                let exact = within && steps <= SAMPLES_MAX;
+                match exact.then(|| self.sweep((a, b), steps, bounded, asks, scratch)).flatten() {
+                    Some(true) => true,
+                    Some(false) if asks == Asks::Samples => false,
+                    _ => self.free_at_steps(a, b, steps, scratch),
                 }
             }
         }
@@ -71,8 +68,8 @@ impl BodyValidity {
         misses(origin(a), origin(b), room, &obstacles.tree.nodes[0].space)
     }
 
-    /// What a motion of valid ends comes to, by looking at so many equal steps: what no surface meets on
-    /// the way cannot come to lie inside anything.
+    /// Whether a motion of valid ends is as asked, by looking at so many equal steps: what no surface meets
+    /// on the way cannot come to lie inside anything. `None` if the body may leave the bounds.
     fn sweep(
         &self,
         (a, b): (&[f64], &[f64]),
@@ -80,7 +77,7 @@ impl BodyValidity {
         bounded: bool,
         asks: Asks,
         scratch: &mut Scratch,
-    ) -> Finds {
+    ) -> Option<bool> {
         let Scratch { timeline, stacks, .. } = scratch;
         let motion = self.robot.motion;
         let clock = &mut Clock::new((&self.space, &self.robot), (a, b), samples, timeline);
@@ -90,20 +87,12 @@ impl BodyValidity {
                 let tree = &moving.group.tree;
                 stays_inside(&self.walls(), (tree, moving.link), &rates, clock, stacks)
             });
-        if !inside {
-            // Refused, or else to be looked at step by step.
-            return Finds::Near;
-        }
-        let mut near = false;
-        for (meeting, chain) in self.meetings() {
-            let rates = chain.rates(motion, a, b);
-            match Sweep::new(meeting, rates, asks, clock, stacks).finds() {
-                Finds::Blocked => return Finds::Blocked,
-                Finds::Near => near = true,
-                Finds::Free => {}
-            }
-        }
-        if near { Finds::Near } else { Finds::Free }
+        inside.then(|| {
+            self.meetings().all(|(meeting, chain)| {
+                let rates = chain.rates(motion, a, b);
+                Sweep::new(meeting, rates, asks, clock, stacks).is_free()
+            })
+        })
     }
 
     /// Whether every configuration strictly between the ends is valid, at so many equal steps.

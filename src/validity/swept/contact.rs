@@ -45,7 +45,6 @@ impl Sweep<'_, '_> {
                 {
                     return true;
                 }
-                self.near |= self.asks == Asks::SamplesAndBetween;
             }
             if from == to {
                 continue;

@@ -64,17 +64,6 @@ pub(super) enum Asks {
     AllTimes,
     /// That no surfaces meet at the samples between the ends.
     Samples,
-    /// The same, and whether it is free at all times.
-    SamplesAndBetween,
-}
-
-/// What is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Finds {
-    Free,
-    Blocked,
-    /// No surfaces meet at the samples, but some come near.
-    Near,
 }
 
 /// Two groups during a motion.
@@ -86,8 +75,6 @@ pub(super) struct Sweep<'a, 'c> {
     stacks: &'c mut Stacks,
     /// The time in which the tolerance is used up: that of half a step, or none.
     spare: f64,
-    /// Some surfaces came nearer than the tolerance, but did not meet.
-    near: bool,
     /// Tests of boxes until a sample is looked at.
     patience: u32,
     /// The samples looked at so far, halving the gaps between them.
@@ -104,38 +91,25 @@ impl<'a, 'c> Sweep<'a, 'c> {
     ) -> Sweep<'a, 'c> {
         let half_step = 0.5 / clock.samples as f64;
         let spare = if asks == Asks::Samples { 0.0 } else { half_step };
-        Sweep {
-            meeting,
-            rates,
-            asks,
-            clock,
-            stacks,
-            spare,
-            near: false,
-            patience: PATIENCE,
-            looks: 0,
-        }
+        Sweep { meeting, rates, asks, clock, stacks, spare, patience: PATIENCE, looks: 0 }
     }
 
-    pub fn finds(&mut self) -> Finds {
+    /// Whether it is as asked.
+    pub fn is_free(&mut self) -> bool {
         let samples = self.clock.samples;
         let asked = match self.asks {
             Asks::AllTimes => Span { from: 0, to: samples },
-            _ if samples < 2 => return Finds::Free,
+            _ if samples < 2 => return true,
             _ => Span { from: 1, to: samples - 1 },
         };
         self.stacks.halves.clear();
         self.stacks.children.clear();
-        let Some(mut chord) = self.near_the_ball(asked) else { return Finds::Free };
+        let Some(mut chord) = self.near_the_ball(asked) else { return true };
         if 2 * chord.length() > samples {
             chord = Span { from: 0, to: samples };
         }
         let swept = self.swept(0, chord);
-        match (self.blocked(&swept, 0), self.near) {
-            (true, _) => Finds::Blocked,
-            (false, true) => Finds::Near,
-            (false, false) => Finds::Free,
-        }
+        !self.blocked(&swept, 0)
     }
 
     /// Opens the nodes, no larger than the ball around what moves, that the ball may meet, and says which
