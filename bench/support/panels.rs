@@ -56,7 +56,7 @@ impl Axes {
             x = [first.0 - 0.5, last.0 + 0.5];
         }
         if panel.log_y {
-            y = [y[0].log10().floor(), y[1].log10().ceil()];
+            y = [libm::log10(y[0]).floor(), libm::log10(y[1]).ceil()];
         } else {
             y = [y[0].min(0.0), y[1] * 1.05];
         }
@@ -73,7 +73,7 @@ impl Axes {
     }
 
     fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let y = if self.log_y { y.log10() } else { y };
+        let y = if self.log_y { libm::log10(y) } else { y };
         let share =
             [(x - self.x[0]) / (self.x[1] - self.x[0]), (y - self.y[0]) / (self.y[1] - self.y[0])];
         [self.left + share[0] * SIZE[0], self.top + (1.0 - share[1]) * SIZE[1]]
@@ -81,7 +81,9 @@ impl Axes {
 
     fn y_ticks(&self) -> Vec<f64> {
         if self.log_y {
-            (self.y[0] as i32..=self.y[1] as i32).map(|power| 10f64.powi(power)).collect()
+            (self.y[0] as i32..=self.y[1] as i32)
+                .map(|power| libm::exp10(f64::from(power)))
+                .collect()
         } else {
             ticks(self.y)
         }
@@ -91,7 +93,7 @@ impl Axes {
 /// Round numbers in a range, about five.
 fn ticks([low, high]: [f64; 2]) -> Vec<f64> {
     let rough = (high - low) / 5.0;
-    let unit = 10f64.powi(rough.log10().floor() as i32);
+    let unit = libm::exp10(libm::log10(rough).floor());
     let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|times| times * unit);
     let step = step.into_iter().find(|step| *step >= rough).unwrap_or(rough);
     let first = (low / step).ceil() as i64;

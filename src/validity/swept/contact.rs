@@ -39,12 +39,11 @@ impl Sweep<'_, '_> {
             let frame = self.frame(middle);
             let corners = element.corners.map(|corner| frame.point(corner));
             let apart = self.apart(element, &corners, other, middle, margin);
-            if apart.is_none() {
-                if self.asks == Asks::AllTimes
-                    || meeting.ends_meet(moving, node, &frame, self.clock.at(middle))
-                {
-                    return true;
-                }
+            if apart.is_none()
+                && (self.asks == Asks::AllTimes
+                    || meeting.ends_meet(moving, node, &frame, self.clock.at(middle)))
+            {
+                return true;
             }
             if from == to {
                 continue;
