@@ -12,7 +12,7 @@ use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
 
-const PROBLEMS: [&str; 5] = ["judged", "settled", "meshes", "slide", "adaptive"];
+const PROBLEMS: [&str; 6] = ["judged", "settled", "meshes", "slide", "adaptive", "axis"];
 
 fn load(name: &str) -> Problem {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems");

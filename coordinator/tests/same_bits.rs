@@ -225,6 +225,7 @@ fn same_bits_for_a_schedule_that_adapts() {
 #[test]
 fn same_bits_for_every_sampler() {
     processes_build_what_threads_build("sampled");
+    processes_build_what_threads_build("axis");
 }
 
 #[test]
