@@ -3,9 +3,12 @@
 
 mod best;
 mod brute;
+mod build;
 mod embedding;
 mod farthest;
 mod index;
+mod layout;
+mod places;
 mod tree;
 
 pub use best::{Best, NearPair, Neighbor, Ranked};
