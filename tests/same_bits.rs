@@ -124,5 +124,5 @@ fn a_longer_build_begins_with_the_shorter() {
     let long = build(&Arc::new(Setup::new(problem))).roadmap;
     assert!(long.configs().len() > short.configs().len());
     assert!(long.configs().iter().zip(short.configs().iter()).all(|(a, b)| a == b));
-    assert!(long.edges().starts_with(short.edges()));
+    assert!(long.edges().iter().take(short.edges().len()).eq(short.edges().iter()));
 }
