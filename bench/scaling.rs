@@ -130,7 +130,9 @@ fn start(problem: &Path, workers: usize, out: &Path) -> Child {
 }
 
 fn finish(mut child: Child, out: &Path) -> Run {
-    assert!(child.wait().expect("it can be waited for").success());
+    let status = child.wait().expect("it can be waited for");
+    // 3: the limit came before what no roadmap satisfies.
+    assert!(matches!(status.code(), Some(0 | 3)), "{status}");
     let text = std::fs::read_to_string(out.join("summary.json")).expect("a summary");
     let summary: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let number = |key: &str| summary[key].as_f64().expect("a number");

@@ -1,13 +1,10 @@
 //! How much memory a program and its children hold.
 
-use std::fs;
+use std::fs::{self, Metadata};
 use std::os::unix::fs::MetadataExt;
 use std::process::Child;
 use std::thread::sleep;
 use std::time::Duration;
-
-/// Where a build's shared memory has its names.
-const SHARED: &str = "/dev/shm/roadmill-";
 
 /// Waits for a build; the most bytes that it and its workers held meanwhile: the files of their shared memory,
 /// and all else by proportional set sizes, in which pages that several share count once.
@@ -17,35 +14,44 @@ pub fn peak_bytes(child: &mut Child) -> u64 {
         let pid = child.id();
         let children = fs::read_to_string(format!("/proc/{pid}/task/{pid}/children"));
         let children = children.unwrap_or_default();
-        let pids = children.split_whitespace().filter_map(|pid| pid.parse().ok()).chain([pid]);
-        peak = peak.max(pids.map(other_bytes).sum::<u64>() + shared_bytes(pid));
+        // A worker that has just been forked still has the memory of its parent.
+        let is_itself = |child: &u32| command(*child) != command(pid);
+        let pids = children.split_whitespace().filter_map(|pid| pid.parse().ok());
+        let pids = pids.filter(is_itself).chain([pid]);
+        let shared = shared_files(pid);
+        let others = pids.map(|pid| other_bytes(pid, &shared)).sum::<u64>();
+        peak = peak.max(others + shared.iter().map(|file| file.blocks() * 512).sum::<u64>());
         sleep(Duration::from_millis(20));
     }
     peak
 }
 
-/// What the files of a coordinator's shared memory take.
-fn shared_bytes(pid: u32) -> u64 {
+fn command(pid: u32) -> Vec<u8> {
+    fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default()
+}
+
+/// The files of a coordinator's shared memory.
+fn shared_files(pid: u32) -> Vec<Metadata> {
     let entries = fs::read_dir("/dev/shm").into_iter().flatten().flatten();
-    let own = entries
-        .filter(|entry| entry.path().to_string_lossy().starts_with(&format!("{SHARED}{pid}-")));
-    own.filter_map(|entry| entry.metadata().ok()).map(|metadata| metadata.blocks() * 512).sum()
+    let prefix = format!("roadmill-{pid}-");
+    let own = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(&prefix));
+    own.filter_map(|entry| entry.metadata().ok()).collect()
 }
 
 /// The proportional set size of a process without those files; 0 where it has ended. Files that have lost
 /// their names count as long as they are mapped.
-fn other_bytes(pid: u32) -> u64 {
+fn other_bytes(pid: u32, shared: &[Metadata]) -> u64 {
     let text = fs::read_to_string(format!("/proc/{pid}/smaps")).unwrap_or_default();
     let (mut kib, mut is_counted) = (0, true);
     for line in text.lines() {
-        match line.strip_prefix("Pss:") {
-            Some(rest) if is_counted => {
-                kib += rest.split_whitespace().next().and_then(|n| n.parse().ok()).unwrap_or(0);
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[..] {
+            ["Pss:", number, _] if is_counted => kib += number.parse().unwrap_or(0),
+            // A mapping's first line: its number, not its name, tells which file it is.
+            [_, _, _, _, number, name, ..] if name.starts_with("/dev/shm") => {
+                is_counted = !shared.iter().any(|file| file.ino().to_string() == number);
             }
-            // A mapping's first line, with addresses and the file's name.
-            None if line.starts_with(|c: char| c.is_ascii_digit() || c.is_ascii_lowercase()) => {
-                is_counted = !line.contains(SHARED) || line.ends_with("(deleted)");
-            }
+            [addresses, ..] if addresses.contains('-') => is_counted = true,
             _ => {}
         }
     }
