@@ -25,11 +25,10 @@ use clip::{Span, SweptBall, SweptBox};
 /// A chord is halved while its points leave it by more than this share of the larger box.
 const BEND: f64 = 0.01;
 /// After so many tests of boxes without an answer the whole robot is looked at where it stands at one sample,
-/// and each time after so many times more: after few where of the last 32 searches at least so many found
-/// something in the way.
-const PATIENCE: [(u32, u32); 2] = [(18, 2), (10, 12)];
-/// So many else.
-const LONG_PATIENCE: u32 = 32;
+/// and each time after so many times more.
+const PATIENCE: u32 = 32;
+/// Where of the last 32 searches so many found something in the way, the first look comes after so many tests.
+const OFTEN: (u32, u32) = (14, 2);
 
 #[cfg(test)]
 mod tests;
@@ -96,9 +95,7 @@ pub(super) struct Sweep<'a, 'c> {
     spare: f64,
     /// Surfaces were found to meet at a sample between the ends.
     meets: bool,
-    /// Tests of boxes until the first look at a sample.
-    few: u32,
-    /// Those until the next.
+    /// Tests of boxes until a sample is looked at.
     patience: u32,
     /// The samples looked at so far, halving the gaps between them.
     looks: u64,
@@ -114,13 +111,9 @@ impl<'a, 'c> Sweep<'a, 'c> {
     ) -> Sweep<'a, 'c> {
         let half_step = 0.5 / clock.samples as f64;
         let spare = if asks == Asks::Samples { 0.0 } else { half_step };
-        let often = stacks.blocked.count_ones();
-        let few = PATIENCE
-            .iter()
-            .find(|(least, _)| often >= *least)
-            .map_or(LONG_PATIENCE, |(_, few)| *few);
-        let (patience, looks) = (few, 0);
-        Sweep { meeting, rates, asks, clock, stacks, spare, meets: false, few, patience, looks }
+        let (often, few) = OFTEN;
+        let patience = if stacks.blocked.count_ones() >= often { few } else { PATIENCE };
+        Sweep { meeting, rates, asks, clock, stacks, spare, meets: false, patience, looks: 0 }
     }
 
     /// Whether it is as asked.
@@ -286,7 +279,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
         // 1/2, 1/4, 3/4, 1/8, …: what is in the way is often so half way.
         let pieces = (self.looks + 1).next_power_of_two();
         let odd = 2 * (self.looks - pieces / 2) + 1;
-        self.patience = self.few << self.looks.min(16);
+        self.patience = PATIENCE << self.looks.min(16);
         if pieces >= self.clock.samples {
             return false;
         }
