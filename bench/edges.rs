@@ -67,7 +67,9 @@ fn main() {
     }
     let head = match mode {
         Mode::Counts => {
-            assert!(cfg!(feature = "counts"), "--counts takes --features counts");
+            if !cfg!(feature = "counts") {
+                panic!("--counts takes --features counts");
+            }
             "| scene | list | settled | motions | balls | placed | boxes | near | looks | pairs | advances | ns |"
         }
         Mode::Swept => "| scene | list | motions | | swept/s |",
