@@ -3,11 +3,14 @@
 //!
 //! ```text
 //! cargo bench -p roadmill --bench edges -- SCENE…
-//! ROADMILL_DATA=FOLDER cargo bench -p roadmill --bench edges
+//! ROADMILL_DATA=FOLDER cargo bench -p roadmill --bench edges -- [--lists uniform,gaussian,dense] [--swept]
+//! cargo bench -p roadmill --features counts --bench edges -- --counts SCENE…
 //! ```
 //!
-//! With `--swept` it measures those alone, for profilers. Without scenes it takes the eight in the folder that `ROADMILL_DATA` names. Motions: pairs of 10 nearest
-//! among 2000 valid uniform configurations. CPU time of one thread, the three in turn, medians of three.
+//! Without scenes it takes the eight in the folder that `ROADMILL_DATA` names. Motions are those of the lists
+//! (`bench/support/lists.rs`), of the first if nothing is said. With `--swept` it measures those alone, for
+//! profilers. With `--counts` it counts the steps that each motion takes ([`Work`]) and times those apart that the
+//! ball around the robot settles, those that are blocked and those that are free. CPU time of one thread, the three in turn, medians of three.
 //! Of the motions that are free at 16 times finer steps `refused` is the share that `swept` does not
 //! accept; `missed` counts those that it accepts although they are not free there.
 
@@ -15,12 +18,23 @@ mod support;
 
 use roadmill::Context;
 use roadmill::problem::Problem;
-use roadmill::validity::{Edges, Scratch, State};
+use roadmill::roadmap::Configs;
+use roadmill::validity::{Edges, Scratch, State, Work};
+use std::hint::black_box;
 use std::path::{Path, PathBuf};
-use support::{cpu_seconds, median, pairs};
+use support::lists::List;
+use support::{cpu_seconds, median};
+
+#[derive(Clone, Copy, PartialEq)]
+enum Mode {
+    All,
+    /// Swept motions alone.
+    Swept,
+    /// What they are made of.
+    Counts,
+}
 
 const ROUNDS: usize = 3;
-const NEIGHBORS: usize = 10;
 const FINER: u32 = 16;
 const SCENES: [&str; 8] = [
     "ompl/cubicles.cfg",
@@ -34,10 +48,16 @@ const SCENES: [&str; 8] = [
 ];
 
 fn main() {
-    let words: Vec<String> = std::env::args().skip(1).collect();
-    let alone = words.iter().any(|word| word == "--swept");
-    let scenes = words.iter().filter(|word| !word.starts_with("--"));
-    let mut scenes: Vec<PathBuf> = scenes.map(PathBuf::from).collect();
+    let (mut mode, mut lists, mut scenes) = (Mode::All, vec![List::Uniform], Vec::new());
+    let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
+    while let Some(word) = words.next() {
+        match word.as_str() {
+            "--swept" => mode = Mode::Swept,
+            "--counts" => mode = Mode::Counts,
+            "--lists" => lists = List::named(&words.next().unwrap_or_default()),
+            _ => scenes.push(PathBuf::from(word)),
+        }
+    }
     if scenes.is_empty() {
         let Some(data) = std::env::var_os("ROADMILL_DATA") else {
             println!("edges: skipped, neither scenes nor ROADMILL_DATA given");
@@ -45,35 +65,48 @@ fn main() {
         };
         scenes = SCENES.map(|scene| Path::new(&data).join("scenes").join(scene)).to_vec();
     }
-    println!(
-        "| scene | motions | free | swept/s | sampled/s | step by step/s | ratio | refused | missed |"
-    );
-    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+    let head = match mode {
+        Mode::Counts => {
+            if !cfg!(feature = "counts") {
+                panic!("--counts takes --features counts");
+            }
+            "| scene | list | settled | motions | balls | placed | boxes | near | looks | pairs | advances | ns |"
+        }
+        Mode::Swept => "| scene | list | motions | | swept/s |",
+        Mode::All => {
+            "| scene | list | motions | free | swept/s | sampled/s | step by step/s | ratio | refused | missed |"
+        }
+    };
+    println!("{head}\n|{}", " --- |".repeat(head.matches('|').count() - 1));
     for scene in scenes {
-        measure(&scene, alone);
+        lists.iter().for_each(|list| measure(&scene, *list, mode));
     }
 }
 
 /// Decides the motion between two configurations.
 type Verdict<'a> = dyn Fn(&[f64], &[f64], &mut Scratch) -> bool + 'a;
 
-fn measure(path: &Path, alone: bool) {
+fn measure(path: &Path, list: List, mode: Mode) {
     let mut problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
     let [swept, sampled] = [Edges::Swept, Edges::Sampled].map(|edges| {
         problem.edges = edges;
         problem.context()
     });
-    let (configs, pairs) = pairs(&swept, NEIGHBORS);
+    let (configs, pairs) = list.draw(&problem, &swept);
     let decide = |verdict: &Verdict| -> (f64, Vec<bool>) {
         let (scratch, begun) = (&mut Scratch::new(), cpu_seconds());
         let each = pairs.iter().map(|(a, b)| verdict(configs.get(*a), configs.get(*b), scratch));
         let verdicts = each.collect();
         (cpu_seconds() - begun, verdicts)
     };
-    if alone {
+    if mode == Mode::Counts {
+        return counted(&swept, &format!("{} | {}", problem.name, list.name()), &configs, &pairs);
+    }
+    if mode == Mode::Swept {
         let count = |_| decide(&|a, b, scratch| swept.validity.motion(a, b, 1, scratch)).0;
         let mut times: Vec<f64> = (0..20).map(count).collect();
-        println!("| {} | {:.0} |", problem.name, pairs.len() as f64 / median(&mut times));
+        let rate = pairs.len() as f64 / median(&mut times);
+        println!("| {} | {} | {} | | {rate:.0} |", problem.name, list.name(), pairs.len());
         return;
     }
     let mut seconds = [const { Vec::new() }; 3];
@@ -99,8 +132,9 @@ fn measure(path: &Path, alone: bool) {
     let rates = seconds.each_mut().map(|seconds| pairs.len() as f64 / median(seconds));
     let share = |count: usize, of: usize| 100.0 * count as f64 / of as f64;
     println!(
-        "| {} | {} | {:.1} % | {:.0} | {:.0} | {:.0} | {:.1} | {:.2} % | {missed} |",
+        "| {} | {} | {} | {:.1} % | {:.0} | {:.0} | {:.0} | {:.1} | {:.2} % | {missed} |",
         problem.name,
+        list.name(),
         pairs.len(),
         share(count(&|swept, _| swept), pairs.len()),
         rates[0],
@@ -109,6 +143,42 @@ fn measure(path: &Path, alone: bool) {
         rates[0] / rates[2],
         share(refused, count(&|_, finer| finer)),
     );
+}
+
+/// What swept motions are made of, apart for those that the ball around the robot settles, those that are
+/// blocked and those that are free.
+fn counted(cx: &Context, name: &str, configs: &Configs, pairs: &[(usize, usize)]) {
+    let scratch = &mut Scratch::new();
+    let motion = |(a, b): &(usize, usize), scratch: &mut Scratch| {
+        cx.validity.motion(configs.get(*a), configs.get(*b), 1, scratch)
+    };
+    let mut classes: [Vec<(usize, usize)>; 3] = [const { Vec::new() }; 3];
+    let mut work = [Work::default(); 3];
+    for pair in pairs {
+        let free = motion(pair, scratch);
+        let steps = scratch.take_work();
+        let class = if steps.placed + steps.looks == 0 { 0 } else { 1 + usize::from(free) };
+        classes[class].push(*pair);
+        work[class] += steps;
+    }
+    for ((class, pairs), work) in ["ball", "blocked", "free"].iter().zip(&classes).zip(work) {
+        let mut times: Vec<f64> = (0..ROUNDS)
+            .map(|_| {
+                let begun = cpu_seconds();
+                pairs.iter().for_each(|pair| _ = black_box(motion(pair, scratch)));
+                (cpu_seconds() - begun) * 1e9
+            })
+            .collect();
+        let each = |count: f64| count / pairs.len().max(1) as f64;
+        let Work { balls, placed, boxes, near, looks, pairs: met, advances } = work;
+        let counts = [balls, placed, boxes, near, looks, met, advances];
+        let counts = counts.map(|count| format!("{:.1}", each(count as f64))).join(" | ");
+        println!(
+            "| {name} | {class} | {} | {counts} | {:.0} |",
+            pairs.len(),
+            each(median(&mut times))
+        );
+    }
 }
 
 /// Every step from its configuration alone, halving the gaps between them.

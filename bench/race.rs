@@ -63,11 +63,7 @@ fn arguments() -> Arguments {
     let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
     while let Some(word) = words.next() {
         match word.as_str() {
-            "--lists" => {
-                let named = words.next().unwrap_or_default();
-                let list = |name| List::ALL.into_iter().find(|list| list.name() == name);
-                lists = named.split(',').map(|name| list(name).expect("a list")).collect();
-            }
+            "--lists" => lists = List::named(&words.next().unwrap_or_default()),
             "--steps" => {
                 let named = words.next().unwrap_or_default();
                 let one = |name| match name {

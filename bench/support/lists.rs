@@ -37,6 +37,12 @@ impl List {
         }
     }
 
+    /// Those that a word of the command line names, with commas between.
+    pub fn named(names: &str) -> Vec<List> {
+        let list = |name| List::ALL.into_iter().find(|list| list.name() == name);
+        names.split(',').map(|name| list(name).expect("a list")).collect()
+    }
+
     /// The milestones, and the pairs of them.
     pub fn draw(self, problem: &Problem, cx: &Context) -> (Configs, Vec<(usize, usize)>) {
         match self {

@@ -2,6 +2,7 @@
 
 use super::clearance::Clearance;
 use super::frame::Stance;
+use super::light::grain;
 use super::meet::{Group, Meeting};
 use super::piece::Piece;
 use super::swept::Walls;
@@ -70,6 +71,8 @@ pub struct BodyValidity {
     pub(super) solid: bool,
     /// Outweighs the rounding of every length.
     pub(super) slack: f64,
+    /// The same in single precision.
+    pub(super) grain: f32,
 }
 
 /// A link that has bodies.
@@ -133,16 +136,17 @@ impl BodyValidity {
             self_pairs,
             solid,
             slack: 1e-12 * scale,
+            grain: grain(scale),
         }
     }
 
     /// What moves in what: every link among the obstacles, then the pairs of links.
     pub(super) fn meetings(&self) -> impl Iterator<Item = (Meeting<'_>, &Chain)> {
-        let slack = self.slack;
+        let (slack, grain) = (self.slack, self.grain);
         let among = self.links.iter().filter_map(move |Moving { link, group, chain }| {
             let still = self.obstacles.as_ref()?;
             let (mover, mover_link) = (group, *link);
-            Some((Meeting { mover, mover_link, still, still_link: None, slack }, chain))
+            Some((Meeting { mover, mover_link, still, still_link: None, slack, grain }, chain))
         });
         let own = self.self_pairs.iter().map(move |SelfPair { first, second, chain }| {
             let (still, mover) = (&self.links[*first], &self.links[*second]);
@@ -152,6 +156,7 @@ impl BodyValidity {
                 still: &still.group,
                 still_link: Some(still.link),
                 slack,
+                grain,
             };
             (meeting, chain)
         });

@@ -2,7 +2,7 @@
 
 use super::element::{Element, elements};
 use super::frame::{Frame, Stance};
-use super::obb::{Obb, Placed};
+use super::light::{Stand, above};
 use super::piece::Piece;
 use super::tree::{Node, Tree};
 use super::triangles::triangles_meet;
@@ -27,6 +27,8 @@ pub(super) struct Meeting<'a> {
     pub still_link: Option<usize>,
     /// Outweighs the rounding of every length.
     pub slack: f64,
+    /// The same in single precision, see [`light`](super::light).
+    pub grain: f32,
 }
 
 impl Meeting<'_> {
@@ -37,13 +39,16 @@ impl Meeting<'_> {
         let frame = stance.seen(self.mover_link, self.still_link);
         stack.clear();
         stack.push((0, 0));
-        let mut held = (0, movers[0].space.placed(&frame));
+        let room = above(self.slack) + self.grain;
+        let mut held = (0, Stand::new(&movers[0].space.placed(&frame)));
         while let Some((i, j)) = stack.pop() {
             let (mover, still) = (&movers[i as usize], &stills[j as usize]);
             if held.0 != i {
-                held = (i, mover.space.placed(&frame));
+                held = (i, Stand::new(&mover.space.placed(&frame)));
             }
-            if !boxes_meet(&held.1, mover.space.half, &still.space, self.slack) {
+            let (own, other) =
+                (&self.mover.tree.boxes[i as usize], &self.still.tree.boxes[j as usize]);
+            if !held.1.may_meet(own, other, room) {
                 continue;
             }
             if !mover.ends && (still.ends || mover.space.radius > still.space.radius) {
@@ -142,24 +147,4 @@ fn part<'a>(piece: &'a Piece, triangle: &'a Triangle, at: &Pose) -> (&'a dyn Sha
         Some(shape) => (shape, piece.place(at)),
         None => (triangle, *at),
     }
-}
-
-/// Whether two boxes may meet, by the axes of both.
-#[inline]
-fn boxes_meet(Placed { centre, axes }: &Placed, own: Vector, still: &Obb, slack: f64) -> bool {
-    let apart = still.centre - *centre;
-    let mut across = [[0.0; 3]; 3];
-    for (k, axis) in still.axes.iter().enumerate() {
-        across[k] = axes.map(|other| axis.dot(other).abs());
-        let [x, y, z] = across[k];
-        let reach = own.x * x + own.y * y + own.z * z;
-        if axis.dot(apart).abs() > still.half[k] + reach + slack {
-            return false;
-        }
-    }
-    axes.iter().enumerate().all(|(j, axis)| {
-        let [x, y, z] = [across[0][j], across[1][j], across[2][j]];
-        let reach = still.half.x * x + still.half.y * y + still.half.z * z;
-        axis.dot(apart).abs() <= own[j] + reach + slack
-    })
 }

@@ -5,6 +5,7 @@ mod clearance;
 mod element;
 mod frame;
 mod inside;
+mod light;
 mod meet;
 mod motion;
 mod nearest;
@@ -14,11 +15,13 @@ mod scratch;
 mod swept;
 mod tree;
 mod triangles;
+mod work;
 
 pub use bodies::{BodyValidity, Bounds, BoundsMeaning, Edges};
 pub use clearance::Clearance;
 pub use motion::TOLERANCE;
 pub use scratch::{Asked, Scratch};
+pub use work::Work;
 
 /// What is to be said of a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Whether motions of a robot of rigid links are valid.
 
 use super::bodies::{BodyValidity, Edges};
-use super::swept::{Asks, Clock, Sweep, misses, stays_inside};
+use super::swept::{Asks, Clock, Finds, Sweep, misses, stays_inside};
 use super::{Scratch, State, Validity};
 use crate::space::Motion;
 use parry3d_f64::math::Vector;
@@ -38,7 +38,7 @@ impl BodyValidity {
         match self.edges {
             Edges::Swept => {
                 let samples = steps.saturating_mul(FINENESS).min(SAMPLES_MAX);
-                self.sweep((a, b), samples, bounded, Asks::AllTimes, scratch) == Some(true)
+                self.sweep((a, b), samples, bounded, Asks::AllTimes, scratch) == Some(Finds::Free)
             }
             // Without insides it is enough that no surfaces meet at the steps. What is free at all times
             // encloses nothing on the way; if that is in doubt the steps are looked at one by one.
@@ -46,8 +46,8 @@ impl BodyValidity {
                 let asks = if self.solid { Asks::AllTimes } else { Asks::Samples };
                 let exact = within && steps <= SAMPLES_MAX;
                 match exact.then(|| self.sweep((a, b), steps, bounded, asks, scratch)).flatten() {
-                    Some(true) => true,
-                    Some(false) if asks == Asks::Samples => false,
+                    Some(Finds::Free) => true,
+                    Some(Finds::Meets) => false,
                     _ => self.free_at_steps(a, b, steps, scratch),
                 }
             }
@@ -65,10 +65,10 @@ impl BodyValidity {
         let planar = self.robot.motion.translations() == 2;
         let origin = |q: &[f64]| Vector::new(q[0], q[1], if planar { 0.0 } else { q[2] });
         let room = self.reach + room + self.slack;
-        misses(origin(a), origin(b), room, &obstacles.tree.nodes[0].space)
+        misses((origin(a), origin(b)), (room, self.grain), &obstacles.tree.boxes[0])
     }
 
-    /// Whether a motion of valid ends is as asked, by looking at so many equal steps: what no surface meets
+    /// What is found of a motion of valid ends, by looking at so many equal steps: what no surface meets
     /// on the way cannot come to lie inside anything. `None` if the body may leave the bounds.
     fn sweep(
         &self,
@@ -77,7 +77,7 @@ impl BodyValidity {
         bounded: bool,
         asks: Asks,
         scratch: &mut Scratch,
-    ) -> Option<bool> {
+    ) -> Option<Finds> {
         let Scratch { timeline, stacks, .. } = scratch;
         let motion = self.robot.motion;
         let clock = &mut Clock::new((&self.space, &self.robot), (a, b), samples, timeline);
@@ -87,12 +87,23 @@ impl BodyValidity {
                 let tree = &moving.group.tree;
                 stays_inside(&self.walls(), (tree, moving.link), &rates, clock, stacks)
             });
-        inside.then(|| {
-            self.meetings().all(|(meeting, chain)| {
-                let rates = chain.rates(motion, a, b);
-                Sweep::new(meeting, rates, asks, clock, stacks).is_free()
-            })
-        })
+        if !inside {
+            return None;
+        }
+        // With many pairs of links half of the motions are blocked, most often half way.
+        if self.meetings().nth(1).is_some() && samples > 1 {
+            stacks.work.count(|work| work.looks += 1);
+            let stance = clock.at(samples / 2);
+            if self.meetings().any(|(meeting, _)| meeting.surfaces_meet(stance, &mut stacks.pairs))
+            {
+                return Some(Finds::Meets);
+            }
+        }
+        let mut found = self.meetings().map(|(meeting, chain)| {
+            let rates = chain.rates(motion, a, b);
+            Sweep::new(meeting, rates, asks, clock, stacks).finds()
+        });
+        Some(found.find(|finds| *finds != Finds::Free).unwrap_or(Finds::Free))
     }
 
     /// Whether every configuration strictly between the ends is valid, at so many equal steps.

@@ -15,8 +15,6 @@ pub(super) struct Obb {
     pub half: Vector,
     /// Half its diagonal.
     pub radius: f64,
-    /// Much longer along its last axis than along the others.
-    pub rod: bool,
 }
 
 /// Where a box that moves has its centre and its axes.
@@ -28,8 +26,6 @@ pub(super) struct Placed {
 
 /// The axes of the frame itself.
 pub(super) const UPRIGHT: [Vector; 3] = [Vector::X, Vector::Y, Vector::Z];
-/// A box is a rod if it is so many times longer than wide.
-const ROD: f64 = 1.5;
 /// Up to so many elements every triangle offers its own directions.
 const FEW: usize = 16;
 
@@ -87,7 +83,7 @@ impl Obb {
         // Outweighs the rounding of the axes.
         let half = half + Vector::splat(1e-12 * (half.length() + centre.length()));
         let axes = sides.map(|(_, axis)| axis);
-        Obb { centre, axes, half, radius: half.length(), rod: half.z > ROD * half.y }
+        Obb { centre, axes, half, radius: half.length() }
     }
 
     fn surface(&self) -> f64 {

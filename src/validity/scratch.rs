@@ -1,5 +1,6 @@
 use super::frame::Stance;
 use super::swept::{Stacks, Timeline};
+use super::work::Work;
 use crate::scene::Pose;
 use bincode::{Decode, Encode};
 
@@ -43,6 +44,11 @@ impl Scratch {
     /// The counters since the last call.
     pub fn take_asked(&mut self) -> Asked {
         std::mem::take(&mut self.asked)
+    }
+
+    /// The steps since the last call; see [`Work`].
+    pub fn take_work(&mut self) -> Work {
+        std::mem::take(&mut self.stacks.work)
     }
 
     /// Fills the memory with rubbish that could mislead: for tests of the law that it never does.

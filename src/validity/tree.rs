@@ -1,6 +1,7 @@
 //! Trees of oriented boxes over the elements of several pieces.
 
 use super::element::Element;
+use super::light::LightBox;
 use super::obb::{Obb, UPRIGHT};
 use parry3d_f64::math::Vector;
 
@@ -29,6 +30,8 @@ impl Node {
 #[derive(Debug)]
 pub(super) struct Tree {
     pub nodes: Vec<Node>,
+    /// Those of the nodes, in single precision.
+    pub boxes: Vec<LightBox>,
     pub elements: Vec<Element>,
 }
 
@@ -59,10 +62,12 @@ impl Tree {
         if units.is_empty() {
             return None;
         }
-        let mut tree = Tree { nodes: Vec::with_capacity(2 * elements.len()), elements };
+        let nodes = Vec::with_capacity(2 * elements.len());
+        let mut tree = Tree { nodes, boxes: Vec::new(), elements };
         let root = tree.node(&units);
         tree.nodes.push(root);
         tree.grow(0, &mut units, 0);
+        tree.boxes = tree.nodes.iter().map(|node| LightBox::new(&node.space)).collect();
         Some(tree)
     }
 

@@ -30,20 +30,23 @@ impl Sweep<'_, '_> {
         let margin = self.spare * speed;
         // A sample is cut off by far less than rounding could move it.
         let samples = self.clock.samples as f64 * (1.0 - 1e-9);
+        self.stacks.work.count(|work| work.pairs += 1);
         let mut open = [span; 64];
         let mut count = 1;
         while count > 0 {
             count -= 1;
             let Span { from, to } = open[count];
             let middle = from + (to - from) / 2;
+            self.stacks.work.count(|work| work.advances += 1);
             let frame = self.frame(middle);
             let corners = element.corners.map(|corner| frame.point(corner));
             let apart = self.apart(element, &corners, other, middle, margin);
-            if apart.is_none()
-                && (self.asks == Asks::AllTimes
-                    || meeting.ends_meet(moving, node, &frame, self.clock.at(middle)))
-            {
-                return true;
+            if apart.is_none() {
+                self.meets = meeting.ends_meet(moving, node, &frame, self.clock.at(middle))
+                    && (1..self.clock.samples).contains(&middle);
+                if self.meets || self.asks == Asks::AllTimes {
+                    return true;
+                }
             }
             if from == to {
                 continue;

@@ -10,7 +10,6 @@ mod clip;
 mod clock;
 mod contact;
 mod room;
-mod two;
 
 pub(super) use clip::misses;
 pub(super) use clock::{Clock, Timeline};
@@ -18,14 +17,18 @@ pub(super) use room::{Walls, stays_inside};
 
 use super::frame::Frame;
 use super::meet::Meeting;
+use super::tree::Tree;
+use super::work::Work;
 use crate::robot::Rates;
 use clip::{Span, SweptBall, SweptBox};
 
 /// A chord is halved while its points leave it by more than this share of the larger box.
-const BEND: f64 = 0.02;
+const BEND: f64 = 0.01;
 /// After so many tests of boxes without an answer the whole robot is looked at where it stands at one sample,
 /// and each time after so many times more.
 const PATIENCE: u32 = 32;
+/// Where of the last 32 searches so many found something in the way, the first look comes after so many tests.
+const OFTEN: (u32, u32) = (14, 2);
 
 #[cfg(test)]
 mod tests;
@@ -43,6 +46,9 @@ pub(super) struct Stacks {
     /// To be tested against the children of the box.
     children: Open,
     pub pairs: Vec<(u32, u32)>,
+    /// A bit for each of the last searches, set where something was in the way.
+    blocked: u32,
+    pub work: Work,
 }
 
 impl Stacks {
@@ -53,6 +59,7 @@ impl Stacks {
         self.halves = vec![entry; rubbish as usize % 5];
         self.children = vec![entry; rubbish as usize % 2];
         self.pairs = vec![(u32::MAX, 7); rubbish as usize % 3];
+        self.blocked = rubbish as u32;
     }
 }
 
@@ -66,6 +73,17 @@ pub(super) enum Asks {
     Samples,
 }
 
+/// What is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Finds {
+    /// It is as asked.
+    Free,
+    /// Some surfaces come too near.
+    Near,
+    /// Surfaces meet at a sample between the ends.
+    Meets,
+}
+
 /// Two groups during a motion.
 pub(super) struct Sweep<'a, 'c> {
     meeting: Meeting<'a>,
@@ -75,6 +93,8 @@ pub(super) struct Sweep<'a, 'c> {
     stacks: &'c mut Stacks,
     /// The time in which the tolerance is used up: that of half a step, or none.
     spare: f64,
+    /// Surfaces were found to meet at a sample between the ends.
+    meets: bool,
     /// Tests of boxes until a sample is looked at.
     patience: u32,
     /// The samples looked at so far, halving the gaps between them.
@@ -91,43 +111,52 @@ impl<'a, 'c> Sweep<'a, 'c> {
     ) -> Sweep<'a, 'c> {
         let half_step = 0.5 / clock.samples as f64;
         let spare = if asks == Asks::Samples { 0.0 } else { half_step };
-        Sweep { meeting, rates, asks, clock, stacks, spare, patience: PATIENCE, looks: 0 }
+        let (often, few) = OFTEN;
+        let patience = if stacks.blocked.count_ones() >= often { few } else { PATIENCE };
+        Sweep { meeting, rates, asks, clock, stacks, spare, meets: false, patience, looks: 0 }
     }
 
     /// Whether it is as asked.
-    pub fn is_free(&mut self) -> bool {
+    pub fn finds(&mut self) -> Finds {
         let samples = self.clock.samples;
         let asked = match self.asks {
             Asks::AllTimes => Span { from: 0, to: samples },
-            _ if samples < 2 => return true,
+            _ if samples < 2 => return Finds::Free,
             _ => Span { from: 1, to: samples - 1 },
         };
         self.stacks.halves.clear();
         self.stacks.children.clear();
-        let Some(mut chord) = self.near_the_ball(asked) else { return true };
+        let Some(mut chord) = self.near_the_ball(asked) else { return Finds::Free };
         if 2 * chord.length() > samples {
             chord = Span { from: 0, to: samples };
         }
         let swept = self.swept(0, chord);
-        !self.blocked(&swept, 0)
+        let blocked = self.blocked(&swept, 0);
+        self.stacks.blocked = self.stacks.blocked << 1 | u32::from(blocked);
+        match (blocked, self.meets) {
+            (false, _) => Finds::Free,
+            (true, false) => Finds::Near,
+            (true, true) => Finds::Meets,
+        }
     }
 
     /// Opens the nodes, no larger than the ball around what moves, that the ball may meet, and says which
     /// samples they span.
     fn near_the_ball(&mut self, asked: Span) -> Option<Span> {
-        let Meeting { mover, still, slack, .. } = self.meeting;
+        let Meeting { mover, still, slack, grain, .. } = self.meeting;
         let frames = [self.frame(0), self.frame(self.clock.samples)];
         let space = &mover.tree.nodes[0].space;
-        let ball = SweptBall::new(space, &frames, &self.rates, self.spare, slack);
-        let nodes = &still.tree.nodes;
-        let (open, todo) = (&mut self.stacks.open, &mut self.stacks.pairs);
+        let ball = SweptBall::new(space, &frames, &self.rates, (self.spare, slack, grain));
+        let Tree { nodes, boxes, .. } = &still.tree;
+        let Stacks { open, pairs: todo, work, .. } = &mut *self.stacks;
         open.clear();
         todo.clear();
         todo.push((0, 0));
         let mut whole: Option<Span> = None;
         while let Some((at, _)) = todo.pop() {
             let node = &nodes[at as usize];
-            let Some(clip) = ball.meets(&node.space) else { continue };
+            work.count(|work| work.balls += 1);
+            let Some(clip) = ball.meets(&boxes[at as usize]) else { continue };
             if node.space.radius > space.radius && !node.is_leaf() {
                 todo.push((node.left, 0));
                 todo.push((node.left + 1, 0));
@@ -151,17 +180,13 @@ impl<'a, 'c> Sweep<'a, 'c> {
     }
 
     fn swept(&mut self, node: u32, chord: Span) -> SweptBox {
+        self.stacks.work.count(|work| work.placed += 1);
         let frames = [self.frame(chord.from), self.frame(chord.to)];
-        let space = &self.meeting.mover.tree.nodes[node as usize].space;
+        let Tree { nodes, boxes, .. } = &self.meeting.mover.tree;
+        let of = (node, &nodes[node as usize].space, &boxes[node as usize]);
         let time = chord.length() as f64 * self.step();
-        let tolerances = (self.spare, self.meeting.slack);
-        SweptBox::new(
-            (node, space),
-            (chord, time),
-            [&frames[0], &frames[1]],
-            &self.rates,
-            tolerances,
-        )
+        let tolerances = (self.spare, self.meeting.slack, self.meeting.grain);
+        SweptBox::new(of, (chord, time), [&frames[0], &frames[1]], &self.rates, tolerances)
     }
 
     /// Whether anything in the swept box comes near anything below the nodes that are open from `base`
@@ -172,12 +197,14 @@ impl<'a, 'c> Sweep<'a, 'c> {
         let (halves, children) = (self.stacks.halves.len(), self.stacks.children.len());
         while self.stacks.open.len() > base {
             let (still, span) = self.stacks.open.pop().expect("more than the base");
-            let node = &other.tree.nodes[still as usize];
             self.patience -= 1;
             if self.patience == 0 && self.meets_at_a_sample() {
                 return true;
             }
-            let Some(span) = swept.meets(&node.space, span) else { continue };
+            self.stacks.work.count(|work| work.boxes += 1);
+            let Some(span) = swept.meets(&other.tree.boxes[still as usize], span) else { continue };
+            self.stacks.work.count(|work| work.near += 1);
+            let node = &other.tree.nodes[still as usize];
             if moving.is_leaf() && node.is_leaf() {
                 if self.touches(moving, node, span) {
                     return true;
@@ -257,6 +284,8 @@ impl<'a, 'c> Sweep<'a, 'c> {
             return false;
         }
         let sample = self.clock.samples / pieces * odd;
-        self.meeting.surfaces_meet(self.clock.at(sample), &mut self.stacks.pairs)
+        self.stacks.work.count(|work| work.looks += 1);
+        self.meets = self.meeting.surfaces_meet(self.clock.at(sample), &mut self.stacks.pairs);
+        self.meets
     }
 }
