@@ -34,6 +34,11 @@ pub struct Link {
 type Answer = iceoryx2::response::Response<iceoryx2::service::ipc::Service, [u8], Words>;
 
 impl Link {
+    /// How many workers the hub was made for.
+    pub fn workers_max(&self) -> usize {
+        service::workers_max(&self.service)
+    }
+
     /// Joins the run in `directory` (see [`Hub::directory`](super::Hub::directory)) as `worker`.
     ///
     /// # Errors
@@ -56,11 +61,6 @@ impl Link {
             sequence: 0,
             is_spoiled: false,
         })
-    }
-
-    /// How many workers the hub was made for.
-    pub fn workers_max(&self) -> usize {
-        service::workers_max(&self.service)
     }
 
     /// Sends `message` and sleeps until the whole reply is there. Wakes about once a second to ask
