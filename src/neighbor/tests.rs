@@ -207,6 +207,28 @@ proptest! {
     }
 }
 
+/// What was united by the time of its maker keeps no label apart for who is not as far.
+#[test]
+fn labels_of_a_later_state_are_not_believed() {
+    let space = rigid_space(Motion::Rigid2d, [0.0; 3], [3.0; 3], 0.5);
+    let mut stream = Seed::of_set(1, "labels", 0).stream(Purpose::Sampling);
+    let configs = configs(&space, &mut stream, 96);
+    let shelf = Arc::new(Flaky::new(0.0, 0));
+    let [mut late, mut early] = [0; 2].map(|_| Index::with_shelf(&space, Some(shelf.clone())));
+    let config_of = |id: u32| configs.get(id as usize);
+    late.extend(96, config_of, |_| 0);
+    let made = shelf.made();
+    let label_of: Vec<u32> = (0..64).map(|id| id % 2).collect();
+    early.extend(64, config_of, |id| label_of[id as usize]);
+    assert_eq!((shelf.made(), early.segment_lengths()), (made, vec![64]), "it is the other's");
+    let candidates = Labelled { configs: &configs, label_of: &label_of, wanted: Some(1) };
+    let odd = || (0..64).filter(|id| id % 2 == 1);
+    for q in configs.iter() {
+        let expected = k_nearest(&space, &configs, odd(), q, 5);
+        assert_eq!(early.k_nearest(&space, &candidates, 64, q, 5), expected);
+    }
+}
+
 #[test]
 fn what_one_index_has_made_others_find_and_what_is_superseded_goes() {
     let space = rigid_space(Motion::Rigid3d, [0.0; 3], [3.0; 3], 0.5);
