@@ -27,7 +27,7 @@ type Pending = iceoryx2::pending_response::PendingResponse<
 
 impl Raw {
     fn open(hub: &Hub, worker: WorkerId) -> Raw {
-        let node = open_node(hub.directory()).expect("the node opens");
+        let node = open_node(hub.directory(), 0).expect("the node opens");
         let (service, port) = open_service(&node, worker).expect("the port opens");
         Raw { port, _service: service, _node: node }
     }

@@ -104,7 +104,7 @@ impl Hub {
         service::check_free_space(workers_max)?;
         raise_descriptor_limit(workers_max);
         let bell = Bell::bind(&hub_socket(folder.path()))?;
-        let node = service::open_node(folder.path())?;
+        let node = service::open_node(folder.path(), workers_max)?;
         let (service, port) = service::create_service(&node, workers_max)?;
         service::protect_shared_memory(folder.path())?;
         let store = Store::create(folder.path(), workers_max);
