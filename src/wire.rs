@@ -26,6 +26,14 @@ pub fn encode<T: Encode>(value: &T) -> Vec<u8> {
     }
 }
 
+/// Appends the bytes of a value to others.
+pub fn encode_to<T: Encode>(bytes: &mut Vec<u8>, value: &T) {
+    match bincode::encode_into_std_write(value, bytes, format()) {
+        Ok(_) => {}
+        Err(error) => unreachable!("encoding to memory cannot fail: {error}"),
+    }
+}
+
 /// The value that all of `bytes` stand for.
 ///
 /// # Errors

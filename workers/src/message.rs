@@ -12,7 +12,7 @@
 //! ```
 //!
 //! `Work` brings the worker's replica up to date and adds jobs to those that the worker holds; it does the
-//! most urgent first. It tells what it has done when only one is left to begin, so that the reply comes
+//! most urgent first. It tells what it has done when few are left to begin, so that the reply comes
 //! while it works, and when its last urgent one is done, since others may wait for that. Where the entries
 //! are too many for one message they come without jobs; a worker that has neither job nor outcome says
 //! `Done` of nothing to get the rest.

@@ -18,6 +18,9 @@ use std::time::{Duration, Instant};
 /// How often a worker shows that it lives.
 pub const HEARTBEAT: Duration = Duration::from_secs(1);
 
+/// A worker that has so many jobs left to begin tells what it has done, so that it need not wait for more.
+const HELD_WHEN_TELLING: usize = 2;
+
 /// What a worker is started with.
 #[derive(Debug, Clone)]
 pub struct WorkerArguments {
@@ -111,6 +114,10 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
         }
         let job = held.pop_first();
         if let Some(job) = job {
+            if held.is_empty() {
+                // The next jobs are to be there when this one is done.
+                link.nudge();
+            }
             let begun = Instant::now();
             let task = replica.task(&setup, job).ok_or(WorkerError::Turn("a job"))?;
             slip = faults.at(job, &setup).or(slip);
@@ -120,8 +127,10 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
             let micros = begun.elapsed().as_micros() as u64;
             done.push((job, micros, outcome));
         }
-        let bytes = done.iter().map(|(.., outcome)| outcome.len()).sum();
-        if !link.is_awaiting() && is_to_be_told(job, &held, bytes) {
+        let is_urgent = job.is_some_and(|job| is_last_urgent(job, &held));
+        let bytes: usize = done.iter().map(|(.., outcome)| outcome.len()).sum();
+        let is_much = held.len() <= HELD_WHEN_TELLING || bytes > CHUNK_BYTES;
+        if !link.is_awaiting() && (is_urgent || is_much) {
             let told = done.iter().map(|(job, micros, outcome)| Done {
                 job: *job,
                 micros: *micros,
@@ -137,17 +146,18 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
                     link.send(&message, &mut parent_lives)?;
                 }
             }
+            // With nothing left to do it rings by itself.
+            if is_urgent && !held.is_empty() {
+                link.nudge();
+            }
         }
     }
 }
 
-/// Whether the coordinator is to hear now of what is done, `bytes` in all, after `job`: so that the next jobs come before
-/// the last one held is done, or since others may wait for it. Everybody waits for what is urgent, and
-/// nobody for sets generated ahead.
-fn is_to_be_told(job: Option<Job>, held: &BTreeSet<Job>, bytes: usize) -> bool {
+/// Whether `job` was the last urgent one: everybody waits for these, and nobody for sets generated ahead.
+fn is_last_urgent(job: Job, held: &BTreeSet<Job>) -> bool {
     let is_urgent = |job: &Job| !matches!(job, Job::Generate { .. });
-    let is_last_urgent = job.as_ref().is_some_and(is_urgent) && !held.first().is_some_and(is_urgent);
-    held.len() < 2 || is_last_urgent || bytes > CHUNK_BYTES
+    is_urgent(&job) && !held.first().is_some_and(is_urgent)
 }
 
 /// Brings a replica up to date.

@@ -149,7 +149,7 @@ impl Pool {
         self.messages.seconds()
     }
 
-    /// CPU seconds that publishing and folding took, the roadmap's digest included.
+    /// CPU seconds that folding took, the roadmap's digest included.
     pub fn fold_seconds(&self) -> f64 {
         self.folds.seconds()
     }
@@ -353,10 +353,8 @@ impl Pool {
 
 impl Executor for Pool {
     fn publish(&mut self, increment: &Arc<Increment>) {
-        let begun = Meter::begin();
         self.log.publish(self.front.next(), increment, self.hub.store());
         self.front.publish();
-        self.folds.end(begun);
     }
 
     fn fold(&mut self, round: &Round) {
@@ -372,6 +370,9 @@ impl Executor for Pool {
     }
 
     fn next(&mut self, wait: Duration) -> Option<Event> {
+        if let Some(event) = self.events.pop_front() {
+            return Some(event);
+        }
         let begun = Meter::begin();
         let event = self.wait(wait);
         self.messages.end(begun);
@@ -379,8 +380,7 @@ impl Executor for Pool {
     }
 
     fn alive(&self) -> usize {
-        let ready = |worker: &&Worker| !matches!(worker.state, State::Starting | State::SettingUp);
-        self.workers.values().filter(ready).count()
+        self.roster.workers()
     }
 
     fn tally(&self) -> &Tally {
@@ -392,11 +392,10 @@ impl Pool {
     fn wait(&mut self, wait: Duration) -> Option<Event> {
         let until = Instant::now() + wait;
         loop {
-            self.feed(false);
+            self.feed(true);
             if let Some(event) = self.events.pop_front() {
                 return Some(event);
             }
-            self.feed(true);
             let left = until.saturating_duration_since(Instant::now());
             if left.is_zero() || self.signals.came() {
                 return None;
@@ -406,6 +405,11 @@ impl Pool {
                 self.hear();
             }
             self.look_after_workers(woken.by_hearts);
+            if !self.events.is_empty() {
+                // Who holds nothing need not wait until it is known what follows from what was heard.
+                self.feed(false);
+                return self.events.pop_front();
+            }
         }
     }
 }

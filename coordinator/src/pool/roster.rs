@@ -52,6 +52,11 @@ impl Roster {
         self.held.insert(worker, BTreeSet::new());
     }
 
+    /// How many workers are ready.
+    pub fn workers(&self) -> usize {
+        self.held.len()
+    }
+
     /// Whether a worker holds nothing.
     pub fn is_free(&self, worker: WorkerId) -> bool {
         self.held.get(&worker).is_none_or(BTreeSet::is_empty)

@@ -73,7 +73,7 @@ fn each_kind_of_nonsense_is_named() {
     let message = vec![1; CHUNK_BYTES + 1];
     let (good, chunk) = Header::data(HOSTILE, 1, &message, 0);
     let mut flipped = good.encode(chunk);
-    flipped[9] ^= 1;
+    flipped[7] ^= 1;
     let other_worker = Header { worker: WorkerId(1), ..good };
     let second = Header { sequence: 2, ..good };
     let go_on = Header::go_on(Kind::Continue, HOSTILE, 1, 9, 4).encode(&[]);

@@ -10,7 +10,7 @@ use iceoryx2::service::ipc;
 
 use super::WorkerId;
 use super::assembly::Assembly;
-use super::bell::{Bell, Rung};
+use super::bell::{Bell, Note, Rung};
 use super::error::ChannelError;
 use super::header::{Fault, Header, Kind, Words};
 use super::hub::check_length;
@@ -19,6 +19,8 @@ use super::service::{self, RunNode, RunService, WorkerPort};
 
 /// How long a worker sleeps at most before it asks `keep_waiting`.
 const NAP: Duration = Duration::from_secs(1);
+/// The same where the hub does not yet know that it sleeps.
+const SHORT_NAP: Duration = Duration::from_millis(2);
 
 /// A worker's end of the channel. It belongs to one thread.
 pub struct Link {
@@ -39,7 +41,10 @@ pub struct Link {
 /// The last chunk of a message, while its answer is awaited.
 struct Sent {
     pending: PendingResponse<ipc::Service, [u8], Words, [u8], Words>,
+    /// whether the hub knows that this end sleeps until the answer comes
     rung: Rung,
+    /// whether the hub was told to look
+    is_nudged: bool,
 }
 
 /// A chunk of the hub, copied out of shared memory only once it is put into its place.
@@ -85,8 +90,9 @@ impl Link {
         self.receive(keep_waiting)
     }
 
-    /// Sends `message`, whose reply is to be received before the next is sent. Sleeps only between the
-    /// chunks of a long one, and wakes about once a second to ask `keep_waiting`.
+    /// Sends `message`, whose reply is to be received before the next is sent. The hub finds it when it next
+    /// looks: when anybody rings, this end by [`nudge`](Link::nudge) or [`receive`](Link::receive).
+    /// Sleeps only between the chunks of a long message, and wakes about once a second to ask `keep_waiting`.
     ///
     /// # Errors
     ///
@@ -123,6 +129,15 @@ impl Link {
         }
     }
 
+    /// Wakes the hub for the message sent last, if that was not done.
+    pub fn nudge(&mut self) {
+        if let Some(sent) = self.sent.as_mut().filter(|sent| !sent.is_nudged) {
+            sent.is_nudged = true;
+            // what could not be rung is when this end sleeps
+            let _ = self.bell.ring(&self.hub_socket, Note::Look);
+        }
+    }
+
     /// Whether a message was sent whose reply has not been received.
     pub fn is_awaiting(&self) -> bool {
         self.sent.is_some()
@@ -139,7 +154,10 @@ impl Link {
         keep_waiting: &mut dyn FnMut() -> bool,
     ) -> Result<Vec<u8>, ChannelError> {
         let mut sent = self.take_sent()?;
-        let first = self.answer(&mut sent, keep_waiting)?;
+        let first = match self.look(&sent)? {
+            (Some(first), _) => first,
+            (None, _) => self.answer(&mut sent, keep_waiting)?,
+        };
         let reply = self.pull(first, keep_waiting)?;
         self.is_spoiled = false;
         Ok(reply)
@@ -155,7 +173,13 @@ impl Link {
         keep_waiting: &mut dyn FnMut() -> bool,
     ) -> Result<Option<Vec<u8>>, ChannelError> {
         let mut sent = self.take_sent()?;
-        let reply = match self.look(&mut sent)? {
+        let first = match self.look(&sent)? {
+            (Some(first), _) => Some(first),
+            (None, true) => None,
+            // nothing will come any more: this finds out why
+            (None, false) => Some(self.answer(&mut sent, keep_waiting)?),
+        };
+        let reply = match first {
             Some(first) => Some(self.pull(first, keep_waiting)?),
             None => {
                 self.sent = Some(sent);
@@ -225,7 +249,7 @@ impl Link {
         if pending.number_of_server_connections() == 0 {
             return Err(ChannelError::HubGone);
         }
-        Ok(Sent { pending, rung: self.bell.ring(&self.hub_socket) })
+        Ok(Sent { pending, rung: Rung::Later, is_nudged: false })
     }
 
     /// Waits for the chunk that answers another.
@@ -235,31 +259,31 @@ impl Link {
         keep_waiting: &mut dyn FnMut() -> bool,
     ) -> Result<Answer, ChannelError> {
         loop {
-            if let Some(answer) = self.look(sent)? {
-                return Ok(answer);
+            if sent.rung == Rung::Later {
+                sent.rung =
+                    self.bell.ring(&self.hub_socket, Note::Asleep(self.worker, self.sequence));
+            }
+            match self.look(sent)? {
+                (Some(answer), _) => return Ok(answer),
+                (None, _) if sent.rung == Rung::Gone => return Err(ChannelError::HubGone),
+                (None, false) => return Err(ChannelError::Refused),
+                (None, true) => {}
             }
             if !keep_waiting() {
                 return Err(ChannelError::Abandoned);
             }
-            self.bell.wait(NAP).map_err(ChannelError::io("could not wait at", &self.hub_socket))?;
+            let nap = if sent.rung == Rung::Later { SHORT_NAP } else { NAP };
+            self.bell.wait(nap).map_err(ChannelError::io("could not wait at", &self.hub_socket))?;
         }
     }
 
-    /// The chunk that answers another, if it is there.
-    fn look(&self, sent: &mut Sent) -> Result<Option<Answer>, ChannelError> {
-        if sent.rung == Rung::Later {
-            sent.rung = self.bell.ring(&self.hub_socket);
-        }
+    /// The chunk that answers another, if it is there, and whether one may still come.
+    fn look(&self, sent: &Sent) -> Result<(Option<Answer>, bool), ChannelError> {
         // asked before the answer is looked for, which may come in between
         let is_connected = sent.pending.is_connected();
         let answer =
             sent.pending.receive().map_err(ChannelError::shared("could not receive a chunk"))?;
-        match answer {
-            Some(answer) => Ok(Some(answer)),
-            None if sent.rung == Rung::Gone => Err(ChannelError::HubGone),
-            None if !is_connected => Err(ChannelError::Refused),
-            None => Ok(None),
-        }
+        Ok((answer, is_connected))
     }
 
     fn read(&self, words: &Words, kind: Kind) -> Result<Header, ChannelError> {
