@@ -113,8 +113,8 @@ fn decode_within<'a, T: BorrowDecode<'a, ()>, const MEMORY_BYTES_MAX: usize>(
 ) -> Result<T, WireError> {
     let limited: Configuration<LittleEndian, Fixint, Limit<MEMORY_BYTES_MAX>> =
         format().with_limit::<MEMORY_BYTES_MAX>();
-    let (value, used) =
-        bincode::borrow_decode_from_slice(bytes, limited).map_err(|error| WireError(error.to_string()))?;
+    let (value, used) = bincode::borrow_decode_from_slice(bytes, limited)
+        .map_err(|error| WireError(error.to_string()))?;
     if used != bytes.len() {
         return Err(WireError(format!("{} bytes too many", bytes.len() - used)));
     }

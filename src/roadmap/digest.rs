@@ -23,7 +23,9 @@ impl RoadmapHasher {
     pub(super) fn add_set(&mut self, first: u32, increment: &Increment, joins: &[Edge]) {
         let bytes = &mut self.bytes;
         let edges = increment.edges.len() + joins.len();
-        bytes.reserve(24 + 8 * increment.configs.len() * increment.configs.dofs() + EDGE_BYTES * edges);
+        bytes.reserve(
+            24 + 8 * increment.configs.len() * increment.configs.dofs() + EDGE_BYTES * edges,
+        );
         bytes.extend((increment.configs.len() as u64).to_le_bytes());
         for value in increment.configs.iter().flatten() {
             bytes.extend((value + 0.0).to_bits().to_le_bytes()); // −0 becomes 0

@@ -95,6 +95,7 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
     let mut held = BTreeSet::new();
     let mut done: Vec<(Job, u64, Vec<u8>)> = Vec::new();
     let mut slip = None;
+    let mut is_urgent = false;
     loop {
         let reply = match (link.is_awaiting(), held.is_empty()) {
             (false, _) => None,
@@ -112,25 +113,12 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
             }
             held.extend(jobs);
         }
-        let job = held.pop_first();
-        if let Some(job) = job {
-            if held.is_empty() {
-                // The next jobs are to be there when this one is done.
-                link.nudge();
-            }
-            let begun = Instant::now();
-            let task = replica.task(&setup, job).ok_or(WorkerError::Turn("a job"))?;
-            slip = faults.at(job, &setup).or(slip);
-            let outcome = wire::encode(&task.run(&setup, &mut scratch));
-            // Its inputs are freed here, before the next fold, which would copy a shared roadmap.
-            drop(task);
-            let micros = begun.elapsed().as_micros() as u64;
-            done.push((job, micros, outcome));
-        }
-        let is_urgent = job.is_some_and(|job| is_last_urgent(job, &held));
         let bytes: usize = done.iter().map(|(.., outcome)| outcome.len()).sum();
-        let is_much = held.len() <= HELD_WHEN_TELLING || bytes > CHUNK_BYTES;
-        if !link.is_awaiting() && (is_urgent || is_much) {
+        let is_to_tell = match done.is_empty() {
+            true => held.is_empty(),
+            false => is_urgent || held.len() <= HELD_WHEN_TELLING || bytes > CHUNK_BYTES,
+        };
+        if is_to_tell && !link.is_awaiting() {
             let told = done.iter().map(|(job, micros, outcome)| Done {
                 job: *job,
                 micros: *micros,
@@ -146,10 +134,29 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
                     link.send(&message, &mut parent_lives)?;
                 }
             }
-            // With nothing left to do it rings by itself.
-            if is_urgent && !held.is_empty() {
+        }
+        if is_urgent {
+            // With nothing left to do it rings when it waits.
+            if !held.is_empty() {
                 link.nudge();
             }
+            // Still to be told, where an earlier message has not been answered.
+            is_urgent = !done.is_empty();
+        }
+        if let Some(job) = held.pop_first() {
+            if held.is_empty() {
+                // The next jobs are to be there when this one is done.
+                link.nudge();
+            }
+            let begun = Instant::now();
+            let task = replica.task(&setup, job).ok_or(WorkerError::Turn("a job"))?;
+            slip = faults.at(job, &setup).or(slip);
+            let outcome = wire::encode(&task.run(&setup, &mut scratch));
+            // Its inputs are freed here, before the next fold, which would copy a shared roadmap.
+            drop(task);
+            let micros = begun.elapsed().as_micros() as u64;
+            done.push((job, micros, outcome));
+            is_urgent |= is_last_urgent(job, &held);
         }
     }
 }

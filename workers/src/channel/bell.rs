@@ -62,10 +62,9 @@ impl Note {
 
     fn decode(bytes: &[u8]) -> Note {
         match bytes.as_chunks().0 {
-            [worker, sequence] if *sequence != [0; 8] => Note::Asleep(
-                WorkerId(u64::from_le_bytes(*worker)),
-                u64::from_le_bytes(*sequence),
-            ),
+            [worker, sequence] if *sequence != [0; 8] => {
+                Note::Asleep(WorkerId(u64::from_le_bytes(*worker)), u64::from_le_bytes(*sequence))
+            }
             _ => Note::Look,
         }
     }
