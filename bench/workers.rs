@@ -42,7 +42,7 @@ use virtual_pool::{Costs, Machine, Spent, VirtualPool};
 const WORKERS: [usize; 7] = [1, 4, 16, 64, 256, 1024, 4096];
 const SETS_PER_ROUND: [u32; 5] = [5, 50, 500, 5000, 20_000];
 /// As `coordinator` has it.
-const LOOKAHEAD_PER_WORKER: u64 = 4;
+const LOOKAHEAD_PER_WORKER: u64 = 8;
 /// A coordinator that is at work for a larger share of the time is what workers wait for.
 const BUSY: f64 = 0.7;
 /// Sets joined as one round.

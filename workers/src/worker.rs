@@ -114,9 +114,11 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
             held.extend(jobs);
         }
         let bytes: usize = done.iter().map(|(.., outcome)| outcome.len()).sum();
+        // Where few jobs come at once, not after each of them.
+        let few = HELD_WHEN_TELLING;
         let is_to_tell = match done.is_empty() {
             true => held.is_empty(),
-            false => is_urgent || held.len() <= HELD_WHEN_TELLING || bytes > CHUNK_BYTES,
+            false => is_urgent || held.len() <= few.min(done.len()) || bytes > CHUNK_BYTES,
         };
         if is_to_tell && !link.is_awaiting() {
             let told = done.iter().map(|(job, micros, outcome)| Done {
