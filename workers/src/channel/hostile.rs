@@ -78,7 +78,7 @@ fn each_kind_of_nonsense_is_named() {
     let second = Header { sequence: 2, ..good };
     let go_on = Header::go_on(Kind::Continue, HOSTILE, 1, 9, 4).encode(&[]);
     let ack = Header::go_on(Kind::Ack, HOSTILE, 1, 9, 4).encode(&[]);
-    assert_eq!(said_to([0; 10], &[]), broken(Fault::Magic));
+    assert_eq!(said_to([0; 8], &[]), broken(Fault::Magic));
     assert_eq!(said_to(flipped, chunk), broken(Fault::Checksum));
     assert_eq!(said_to(good.encode(chunk), &[1]), broken(Fault::Bounds));
     assert_eq!(said_to(other_worker.encode(chunk), chunk), broken(Fault::Worker));
@@ -112,7 +112,7 @@ fn many_broken_workers_leave_no_connection_behind() {
     let mut hub = Hub::create(1).expect("the hub opens");
     for id in 0..40 {
         let raw = Raw::open(&hub, WorkerId(id));
-        let _pending = raw.send([id; 10], &[1, 2, 3]);
+        let _pending = raw.send([id; 8], &[1, 2, 3]);
         if id % 2 == 0 {
             assert!(matches!(receive(&mut hub), Some(Received::Broken { .. })));
         }
