@@ -5,7 +5,6 @@ use roadmill::img::{Cut, Event, Executor, Finished, Job, Joined, Outcome, Round,
 use roadmill::roadmap::{Configs, Increment, Roadmap, Tally};
 use roadmill::validity::Asked;
 use std::cmp::Reverse;
-use std::collections::binary_heap::PeekMut;
 use std::collections::{BTreeSet, BinaryHeap, VecDeque};
 use std::sync::Arc;
 use std::time::Duration;
@@ -231,10 +230,12 @@ impl Executor for VirtualPool<'_> {
             }
             let Reverse((arrival, ..)) = self.answers.peek()?;
             self.spent.now = self.spent.now.max(*arrival as f64 * 1e-9);
-            while let Some(answer) = self.answers.peek_mut()
-                && answer.0.0 as f64 * 1e-9 <= self.spent.now
+            while self
+                .answers
+                .peek()
+                .is_some_and(|Reverse((arrival, ..))| *arrival as f64 * 1e-9 <= self.spent.now)
             {
-                let Reverse((_, worker, jobs)) = PeekMut::pop(answer);
+                let Some(Reverse((_, worker, jobs))) = self.answers.pop() else { break };
                 let sets = jobs.len() as f64 / 2.0;
                 self.coordinate(self.machine.message_seconds + sets * self.machine.set_seconds);
                 self.idle.insert(worker);
