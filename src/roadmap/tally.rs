@@ -29,7 +29,9 @@ impl Tally {
         self.edges += increment.edges.len() + joins.len();
     }
 
+    /// Ends a fold.
     pub(super) fn set_components(&mut self, components: usize) {
+        self.hasher.take_in();
         self.components = components;
     }
 
