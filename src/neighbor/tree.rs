@@ -1,39 +1,13 @@
 //! One segment: a balanced box tree over points that never change.
 
-use super::embedding::{Embedding, FAN};
+use super::embedding::FAN;
 
 /// Stands where a leaf has no point.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 /// How many points of a part are looked at to see along which axis it is longest.
 const LOOKED_AT: usize = 32;
-/// Squares of distances below this are not told apart: single precision ends near 10⁻³⁸.
-const TINY: f64 = 1e-36;
 
-/// Whoever looks for points near a place.
-pub(super) trait Seeker {
-    /// Nothing farther than this matters any more.
-    fn bound(&self) -> f64;
-    /// Looks at a point that may be near enough. `counts` says that it is known to matter.
-    fn meet(&mut self, id: u32, counts: bool);
-    /// Whether all that has the label of `id` matters, or none. `None` where labels do not decide.
-    fn label_counts(&self, id: u32) -> Option<bool>;
-}
-
-/// The place around which points are sought, and how long it is as a vector.
-pub(super) struct Place {
-    point: Vec<f32>,
-    length: f64,
-}
-
-impl Place {
-    pub(super) fn new(embedding: &Embedding, q: &[f64]) -> Place {
-        let mut point = Vec::with_capacity(embedding.axes());
-        embedding.embed(q, &mut point);
-        Place { length: length(&point), point }
-    }
-}
-
-fn length(point: &[f32]) -> f64 {
+pub(super) fn length(point: &[f32]) -> f64 {
     point.iter().map(|value| f64::from(*value) * f64::from(*value)).sum::<f64>().sqrt()
 }
 
@@ -171,18 +145,41 @@ impl Tree {
     }
 
     /// The first id in a box.
-    fn an_id(&self, level: usize, index: usize) -> u32 {
+    pub(super) fn an_id(&self, level: usize, index: usize) -> u32 {
         self.ids[index << (FAN.ilog2() as usize * (level + 1))]
     }
 
-    /// Shows the seeker every point whose configuration may be within its bound.
-    pub(super) fn seek(&self, embedding: &Embedding, place: &Place, seeker: &mut impl Seeker) {
-        if self.len == 0 {
-            return;
-        }
-        let margin = embedding.margin(place.length + self.longest);
-        let search = Search { tree: self, embedding, place, margin, slack: embedding.slack() };
-        search.visit(self.levels.len() - 1, 0, false, seeker);
+    /// Length of the longest point.
+    pub(super) fn longest(&self) -> f64 {
+        self.longest
+    }
+
+    /// Number of levels of boxes.
+    pub(super) fn height(&self) -> usize {
+        self.levels.len()
+    }
+
+    /// Number of boxes of a level.
+    pub(super) fn boxes(&self, level: usize) -> usize {
+        self.levels[level].count
+    }
+
+    /// Per axis the least, then the largest coordinates of boxes `FAN * block` and following of a level.
+    pub(super) fn sides(&self, level: usize, block: usize) -> &[f32] {
+        let values = 2 * FAN * self.axes;
+        &self.levels[level].sides[block * values..(block + 1) * values]
+    }
+
+    /// Whether all points of a box had one label when the tree was built.
+    pub(super) fn is_uniform(&self, level: usize, index: usize) -> bool {
+        self.levels[level].uniform[index]
+    }
+
+    /// The ids of a leaf, [`NONE`] where it has no point, and per axis the coordinates of its points.
+    pub(super) fn leaf_at(&self, leaf: usize) -> (&[u32], &[f32]) {
+        let values = FAN * self.axes;
+        let points = &self.points[leaf * values..(leaf + 1) * values];
+        (&self.ids[leaf * FAN..(leaf + 1) * FAN], points)
     }
 }
 
@@ -237,102 +234,4 @@ impl Build {
             *row = *key as u32;
         }
     }
-}
-
-struct Search<'a> {
-    tree: &'a Tree,
-    embedding: &'a Embedding,
-    place: &'a Place,
-    margin: f64,
-    slack: f64,
-}
-
-impl Search<'_> {
-    /// Squares beyond this belong to configurations beyond the bound.
-    fn limit(&self, bound: f64) -> f32 {
-        let reach = bound + self.margin;
-        // Rounded up; squares beyond single precision are infinite and say nothing.
-        ((reach * reach * self.slack + TINY) as f32).next_up()
-    }
-
-    /// Visits boxes `FAN * block` and following of a level, nearest first. `counts` says that all
-    /// their points are known to matter: looking a label up is what costs most.
-    fn visit(&self, level: usize, block: usize, counts: bool, seeker: &mut impl Seeker) {
-        let Level { count, sides, uniform } = &self.tree.levels[level];
-        let values = 2 * FAN * self.tree.axes;
-        let squares = self
-            .embedding
-            .box_squares(&self.place.point, &sides[block * values..(block + 1) * values]);
-        let first = block * FAN;
-        let mut within = within(&squares, self.limit(seeker.bound()));
-        if count - first < FAN {
-            within &= (1 << (count - first)) - 1;
-        }
-        // Squares of boxes are numbers and not negative, so their bits order as they do.
-        let (mut near, mut found) = ([0u64; FAN], 0);
-        for child in ones(within) {
-            let key = u64::from(squares[child].to_bits()) << 32 | child as u64;
-            // Few are within, and mostly in no order: insertion beats what sorts many.
-            let mut at = found;
-            while at > 0 && near[at - 1] > key {
-                near[at] = near[at - 1];
-                at -= 1;
-            }
-            near[at] = key;
-            found += 1;
-        }
-        for key in &near[..found] {
-            if f32::from_bits((key >> 32) as u32) > self.limit(seeker.bound()) {
-                return;
-            }
-            let index = first + (key & u64::from(u32::MAX)) as usize;
-            let mut counts = counts;
-            if !counts && uniform[index] {
-                match seeker.label_counts(self.tree.an_id(level, index)) {
-                    Some(false) => continue,
-                    Some(true) => counts = true,
-                    None => {}
-                }
-            }
-            match level {
-                0 => self.look(index, counts, seeker),
-                _ => self.visit(level - 1, index, counts, seeker),
-            }
-        }
-    }
-
-    fn look(&self, leaf: usize, counts: bool, seeker: &mut impl Seeker) {
-        let values = FAN * self.tree.axes;
-        let points = &self.tree.points[leaf * values..(leaf + 1) * values];
-        let squares = self.embedding.squares(&self.place.point, points);
-        let mut limit = self.limit(seeker.bound());
-        let ids = &self.tree.ids[leaf * FAN..(leaf + 1) * FAN];
-        for at in ones(within(&squares, limit)) {
-            if squares[at] > limit || ids[at] == NONE {
-                continue;
-            }
-            seeker.meet(ids[at], counts);
-            limit = self.limit(seeker.bound());
-        }
-    }
-}
-
-/// A bit for every square that is not beyond the limit; what is not a number is looked at.
-#[inline]
-fn within(squares: &[f32; FAN], limit: f32) -> u32 {
-    let mut bits = 0;
-    for (at, square) in squares.iter().enumerate() {
-        let beyond = *square > limit;
-        bits |= u32::from(!beyond) << at;
-    }
-    bits
-}
-
-/// The places of the bits that are set, lowest first.
-fn ones(mut bits: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let at = bits.trailing_zeros();
-        bits &= bits.wrapping_sub(1);
-        (at < u32::BITS).then_some(at as usize)
-    })
 }

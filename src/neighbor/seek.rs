@@ -1,0 +1,121 @@
+//! The search of a tree for what is near a place.
+
+use super::embedding::{Embedding, FAN};
+use super::tree::{NONE, Tree};
+
+/// Whoever looks for points near a place.
+pub(super) trait Seeker {
+    /// Points farther from the place, their distance squared, do not matter any more.
+    fn limit(&self) -> f32;
+    /// Takes in a point, given the square of its distance. `counts` says that it is known to matter.
+    fn meet(&mut self, id: u32, square: f32, counts: bool);
+    /// Whether all that has the label of `id` matters, or none. `None` where labels do not decide.
+    fn label_counts(&self, id: u32) -> Option<bool>;
+}
+
+/// The search of one tree around one point.
+pub(super) struct Search<'a, S> {
+    pub tree: &'a Tree,
+    pub embedding: &'a Embedding,
+    pub point: &'a [f32],
+    pub seeker: &'a mut S,
+}
+
+impl<S: Seeker> Search<'_, S> {
+    /// Shows the seeker every point whose configuration may be within its bound.
+    pub(super) fn everywhere(mut self) {
+        if self.tree.len() > 0 {
+            self.visit(self.tree.height() - 1, 0, None, false);
+        }
+    }
+
+    /// The same, but from a leaf outwards: for a point that lies there.
+    pub(super) fn outwards(mut self, leaf: usize) {
+        self.look(leaf, false);
+        let mut index = leaf;
+        for level in 0..self.tree.height() {
+            self.visit(level, index / FAN, Some(index % FAN), false);
+            index /= FAN;
+        }
+    }
+
+    /// Visits boxes `FAN * block` and following of a level but for one, nearest first. `counts` says that
+    /// all their points are known to matter: looking a label up is what costs most.
+    fn visit(&mut self, level: usize, block: usize, but: Option<usize>, counts: bool) {
+        let tree = self.tree;
+        let sides = tree.sides(level, block);
+        let limit = self.seeker.limit();
+        let (squares, mut within) = self.embedding.near_boxes(self.point, sides, limit);
+        let first = block * FAN;
+        let count = tree.boxes(level) - first;
+        if count < FAN {
+            within &= (1 << count) - 1;
+        }
+        if let Some(but) = but {
+            within &= !(1 << but);
+        }
+        if level == 0 && but.is_none() && limit.is_finite() {
+            // Of the last boxes the order hardly matters once there is a limit, and finding it costs.
+            for child in ones(within) {
+                if squares[child] <= self.seeker.limit() {
+                    self.enter(level, first + child, counts);
+                }
+            }
+            return;
+        }
+        // Squares of boxes are numbers and not negative, so their bits order as they do.
+        let (mut near, mut found) = ([0u64; FAN], 0);
+        for child in ones(within) {
+            let key = u64::from(squares[child].to_bits()) << 32 | child as u64;
+            // Few are within, and mostly in no order: insertion beats what sorts many.
+            let mut at = found;
+            while at > 0 && near[at - 1] > key {
+                near[at] = near[at - 1];
+                at -= 1;
+            }
+            near[at] = key;
+            found += 1;
+        }
+        for key in &near[..found] {
+            if f32::from_bits((key >> 32) as u32) > self.seeker.limit() {
+                return;
+            }
+            self.enter(level, first + (key & u64::from(u32::MAX)) as usize, counts);
+        }
+    }
+
+    fn enter(&mut self, level: usize, index: usize, mut counts: bool) {
+        if !counts && self.tree.is_uniform(level, index) {
+            match self.seeker.label_counts(self.tree.an_id(level, index)) {
+                Some(false) => return,
+                Some(true) => counts = true,
+                None => {}
+            }
+        }
+        match level {
+            0 => self.look(index, counts),
+            _ => self.visit(level - 1, index, None, counts),
+        }
+    }
+
+    fn look(&mut self, leaf: usize, counts: bool) {
+        let (ids, points) = self.tree.leaf_at(leaf);
+        let limit = self.seeker.limit();
+        let (squares, within) = self.embedding.near_points(self.point, points, limit);
+        for at in ones(within) {
+            if squares[at] > self.seeker.limit() || ids[at] == NONE {
+                continue;
+            }
+            self.seeker.meet(ids[at], squares[at], counts);
+        }
+    }
+}
+
+/// The places of the bits that are set, lowest first.
+fn ones(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let at = bits.trailing_zeros();
+        bits &= bits.wrapping_sub(1);
+        (at < u32::BITS).then_some(at as usize)
+    })
+}
