@@ -1,8 +1,10 @@
 use super::best::Neighbor;
+use super::build::Source;
 use super::embedding::{Embedding, FAN};
 use super::seek::{Search, Seeker};
 use super::shortlist::{Met, Shortlist};
 use super::tree::{NONE, Tree};
+use crate::shelf;
 use crate::space::{Configs, Space};
 
 /// The edges of the k-nearest-neighbour graph: each configuration with the `k` nearest of the others, ties
@@ -14,25 +16,25 @@ pub fn k_nearest_graph(space: &Space, configs: &Configs, k: usize) -> Vec<(u32, 
         return Vec::new();
     }
     let embedding = Embedding::new(space);
-    let mut rows = Vec::with_capacity(count * embedding.axes());
-    configs.iter().for_each(|q| embedding.embed(q, &mut rows));
-    let tree = Tree::new(embedding.axes(), (0..count as u32).collect(), rows, &|_| 0);
+    let config_of = |id: u32| configs.get(id as usize);
+    let end = count as u32;
+    let source =
+        Source { embedding: &embedding, config_of: &config_of, label_of: &|_| 0, time: end };
+    let tree = Tree::new(&source, (0, end), shelf::private);
     let bounds = embedding.bounds(2.0 * tree.longest());
     let mut others = Others { space, configs, id: NONE, near: Shortlist::new(k, bounds) };
     let mut pairs = Pairs::new(count, k);
-    let mut point = vec![0.0; embedding.axes()];
-    for leaf in 0..count.div_ceil(FAN) {
-        let (ids, points) = tree.leaf_at(leaf);
-        for (at, id) in ids.iter().enumerate().filter(|(_, id)| **id != NONE) {
-            for (value, axis) in point.iter_mut().zip(points.chunks_exact(FAN)) {
-                *value = axis[at];
-            }
-            others.id = *id;
-            others.near.clear();
-            let seeker = &mut others;
-            Search { tree: &tree, embedding: &embedding, point: &point, seeker }.outwards(leaf);
-            others.give(&mut pairs, k);
+    let axes = embedding.axes();
+    let mut point = vec![0.0; axes];
+    for (place, id) in tree.ids().iter().enumerate().filter(|(_, id)| **id != NONE) {
+        let leaf = place / FAN;
+        for (axis, value) in point.iter_mut().enumerate() {
+            *value = tree.points()[(leaf * axes + axis) * FAN + place % FAN];
         }
+        others.id = *id;
+        others.near.clear();
+        Search::new(&tree, &embedding, &point, end, &mut others).outwards(leaf);
+        others.give(&mut pairs, k);
     }
     pairs.ascending()
 }

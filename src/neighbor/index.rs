@@ -1,10 +1,13 @@
 //! Nearest neighbours among configurations that only become more.
 
 use super::best::{NearPair, Neighbor, Ranked};
+use super::build::Source;
 use super::embedding::Embedding;
+use super::places;
 use super::seek::{Search, Seeker};
 use super::shortlist::{Met, Shortlist};
 use super::tree::{Tree, length};
+use crate::shelf::{self, Shelf};
 use crate::space::{Configs, Space};
 use std::sync::Arc;
 
@@ -15,11 +18,16 @@ use std::sync::Arc;
 /// segment is at least twice as long as the next: when configurations are added, shorter segments are
 /// built anew together with them, which costs each configuration O(log n) buildings (J. L. Bentley,
 /// J. B. Saxe, *Decomposable searching problems*, 1980).
+///
+/// Of an index with a shelf the first segments lie at fixed places, so that they are the same for all who
+/// share it; only the last few configurations lie in segments of its own.
 #[derive(Clone, Debug)]
 pub struct Index {
     embedding: Arc<Embedding>,
     segments: Vec<Arc<Tree>>,
-    len: u32,
+    /// So many of them lie at fixed places.
+    settled: usize,
+    shelf: Option<Arc<dyn Shelf>>,
 }
 
 /// What an index is searched for.
@@ -46,59 +54,71 @@ pub trait Candidates {
 impl Index {
     /// The index of nothing.
     pub fn new(space: &Space) -> Index {
-        Index { embedding: Arc::new(Embedding::new(space)), segments: Vec::new(), len: 0 }
+        Index::with_shelf(space, None)
+    }
+
+    /// The index of nothing, with a place for what it will have in common with others.
+    pub fn with_shelf(space: &Space, shelf: Option<Arc<dyn Shelf>>) -> Index {
+        let embedding = Arc::new(Embedding::new(space));
+        Index { embedding, segments: Vec::new(), settled: 0, shelf }
     }
 
     /// Number of configurations.
     pub fn len(&self) -> u32 {
-        self.len
+        self.segments.last().map_or(0, |last| last.end())
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.len == 0
+        self.segments.is_empty()
     }
 
     /// Forgets all configurations.
     pub fn clear(&mut self) {
         self.segments.clear();
-        self.len = 0;
+        self.settled = 0;
     }
 
     #[cfg(test)]
-    pub(super) fn segment_lengths(&self) -> Vec<usize> {
+    pub(super) fn segment_lengths(&self) -> Vec<u32> {
         self.segments.iter().map(|segment| segment.len()).collect()
     }
 
     /// Adds the configurations from [`Index::len`] up to `end`. Configurations with one label keep one
-    /// label for ever.
+    /// label for ever; among those who share a shelf, who has as many configurations has the same labels.
     pub fn extend<'a>(
         &mut self,
         end: u32,
         config_of: impl Fn(u32) -> &'a [f64],
         label_of: impl Fn(u32) -> u32,
     ) {
-        if end <= self.len {
+        if end <= self.len() {
             return;
         }
-        let axes = self.embedding.axes();
-        let mut count = (end - self.len) as usize;
-        let kept = self.segments.iter().rposition(|segment| {
+        let embedding = self.embedding.clone();
+        let source =
+            Source { embedding: &embedding, config_of: &config_of, label_of: &label_of, time: end };
+        if let Some(shelf) = &self.shelf {
+            let settled = places::settled(&self.segments[..self.settled], &**shelf, &source);
+            let loose = self.segments.split_off(self.settled);
+            self.settled = settled.len();
+            self.segments = settled;
+            // Those that do not go on where the others end cover what these do now.
+            let next = self.len();
+            self.segments.extend(loose.into_iter().skip_while(|tree| tree.first() != next));
+        }
+        let mut count = end - self.len();
+        let loose = &self.segments[self.settled..];
+        let kept = loose.iter().rposition(|segment| {
             let keep = segment.len() >= 2 * count;
             count += if keep { 0 } else { segment.len() };
             keep
         });
-        let mut ids = Vec::with_capacity(count);
-        let mut rows = Vec::with_capacity(count * axes);
-        for segment in self.segments.drain(kept.map_or(0, |last| last + 1)..) {
-            segment.unpack(&mut ids, &mut rows);
+        self.segments.truncate(self.settled + kept.map_or(0, |last| last + 1));
+        if count > 0 {
+            let own = Tree::new(&source, (end - count, count), shelf::private);
+            self.segments.push(Arc::new(own));
         }
-        for id in self.len..end {
-            ids.push(id);
-            self.embedding.embed(config_of(id), &mut rows);
-        }
-        self.segments.push(Arc::new(Tree::new(axes, ids, rows, &label_of)));
-        self.len = end;
     }
 
     /// The at most `k` candidates nearest to `q`, nearest first, ties by id. Ids from [`Index::len`] up
@@ -158,7 +178,7 @@ impl Index {
         let mut visitor =
             Visitor { candidates, query: 0, near: Shortlist::new(most, bounds), item };
         for (query, q) in (0..).zip(queries) {
-            for id in (self.len..end).filter(|id| candidates.counts(*id)) {
+            for id in (self.len()..end).filter(|id| candidates.counts(*id)) {
                 let bound = visitor.near.bound();
                 if let Some(distance) = space.distance_unless_above(q, candidates.config(id), bound)
                 {
@@ -172,7 +192,7 @@ impl Index {
                 visitor.query = query as u32;
                 let point = &points[query * axes..(query + 1) * axes];
                 let (embedding, seeker) = (&*self.embedding, &mut visitor);
-                Search { tree, embedding, point, seeker }.everywhere();
+                Search::new(tree, embedding, point, end, seeker).everywhere();
             }
         }
         let Visitor { mut near, item, .. } = visitor;

@@ -3,11 +3,14 @@
 
 mod best;
 mod brute;
+mod build;
 mod embedding;
 mod farthest;
 mod graph;
 mod index;
 mod lanes;
+mod layout;
+mod places;
 mod seek;
 mod shortlist;
 mod tree;

@@ -1,5 +1,6 @@
 //! The search of a tree for what is near a place.
 
+use super::build::an_id;
 use super::embedding::{Embedding, FAN};
 use super::tree::{NONE, Tree};
 
@@ -15,14 +16,31 @@ pub(super) trait Seeker {
 
 /// The search of one tree around one point.
 pub(super) struct Search<'a, S> {
-    pub tree: &'a Tree,
-    pub embedding: &'a Embedding,
-    pub point: &'a [f32],
-    pub seeker: &'a mut S,
+    tree: &'a Tree,
+    ids: &'a [u32],
+    points: &'a [f32],
+    embedding: &'a Embedding,
+    point: &'a [f32],
+    knows_labels: bool,
+    seeker: &'a mut S,
 }
 
-impl<S: Seeker> Search<'_, S> {
-    /// Shows the seeker every point whose configuration may be within its bound.
+impl<'a, S: Seeker> Search<'a, S> {
+    /// A search when there are `now` configurations.
+    pub(super) fn new(
+        tree: &'a Tree,
+        embedding: &'a Embedding,
+        point: &'a [f32],
+        now: u32,
+        seeker: &'a mut S,
+    ) -> Search<'a, S> {
+        // Whoever built it may have been further: what was united there may not be so yet.
+        let knows_labels = tree.time() <= now;
+        let (ids, points) = (tree.ids(), tree.points());
+        Search { tree, ids, points, embedding, point, knows_labels, seeker }
+    }
+
+    /// Shows the seeker every point that may matter.
     pub(super) fn everywhere(mut self) {
         if self.tree.len() > 0 {
             self.visit(self.tree.height() - 1, 0, None, false);
@@ -42,12 +60,10 @@ impl<S: Seeker> Search<'_, S> {
     /// Visits boxes `FAN * block` and following of a level but for one, nearest first. `counts` says that
     /// all their points are known to matter: looking a label up is what costs most.
     fn visit(&mut self, level: usize, block: usize, but: Option<usize>, counts: bool) {
-        let tree = self.tree;
-        let sides = tree.sides(level, block);
+        let (count, sides) = self.tree.boxes(level, block);
         let limit = self.seeker.limit();
         let (squares, mut within) = self.embedding.near_boxes(self.point, sides, limit);
         let first = block * FAN;
-        let count = tree.boxes(level) - first;
         if count < FAN {
             within &= (1 << count) - 1;
         }
@@ -85,8 +101,8 @@ impl<S: Seeker> Search<'_, S> {
     }
 
     fn enter(&mut self, level: usize, index: usize, mut counts: bool) {
-        if !counts && self.tree.is_uniform(level, index) {
-            match self.seeker.label_counts(self.tree.an_id(level, index)) {
+        if !counts && self.knows_labels && self.tree.is_uniform(level, index) {
+            match self.seeker.label_counts(self.ids[an_id(level, index)]) {
                 Some(false) => return,
                 Some(true) => counts = true,
                 None => {}
@@ -99,7 +115,9 @@ impl<S: Seeker> Search<'_, S> {
     }
 
     fn look(&mut self, leaf: usize, counts: bool) {
-        let (ids, points) = self.tree.leaf_at(leaf);
+        let values = FAN * self.point.len();
+        let points = &self.points[leaf * values..(leaf + 1) * values];
+        let ids = &self.ids[leaf * FAN..(leaf + 1) * FAN];
         let limit = self.seeker.limit();
         let (squares, within) = self.embedding.near_points(self.point, points, limit);
         for at in ones(within) {

@@ -3,9 +3,12 @@ use super::lanes::Lanes;
 use super::tree::length;
 use super::*;
 use crate::seed::{Purpose, Seed, Stream};
+use crate::shelf::tests::Flaky;
+use crate::shelf::{BlockName, Shelf};
 use crate::space::{Configs, Dof, Motion, Part, PartKind, Space, rigid_space};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// Every kind of motion, and a linkage: a free base with sliding, limited and turning joints.
 fn spaces() -> Vec<Space> {
@@ -125,8 +128,51 @@ fn index(
     (index, steps)
 }
 
+/// How many configurations there are, and their labels, from one state to the next.
+fn history(stream: &mut Stream, count: usize) -> Vec<(u32, Vec<u32>)> {
+    let mut label_of: Vec<u32> = (0..count).map(|_| (stream.unit() * 5.0) as u32).collect();
+    let mut states = vec![(0, label_of.clone())];
+    let mut end = 0;
+    while end < count {
+        end = count.min(end + 1 + (stream.unit() * 50.0) as usize);
+        if stream.unit() < 0.3 {
+            let [from, to] = [0, 1].map(|_| (stream.unit() * 5.0) as u32);
+            label_of.iter_mut().filter(|label| **label == from).for_each(|label| *label = to);
+        }
+        states.push((end as u32, label_of.clone()));
+    }
+    states
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn indices_that_share_a_shelf_find_what_brute_force_finds(
+        ordinal in any::<u64>(),
+        often in 0.0f64..0.5,
+    ) {
+        let mut stream = Seed::of_set(1, "shelf", ordinal).stream(Purpose::Sampling);
+        let space = rigid_space(Motion::Rigid2d, [0.0; 3], [3.0; 3], 0.5);
+        let configs = configs(&space, &mut stream, 600);
+        let states = history(&mut stream, configs.len());
+        let shelf: Arc<dyn Shelf> = Arc::new(Flaky::new(often, ordinal));
+        let mut indices = [0; 3].map(|state| (state, Index::with_shelf(&space, Some(shelf.clone()))));
+        // Each is at a state of its own: what it finds on the shelf may be of a later one.
+        while let Some(at) = [0, 1, 2].into_iter().find(|at| indices[*at].0 + 1 < states.len()) {
+            let at = if stream.unit() < 0.3 { at } else { (stream.unit() * 3.0) as usize };
+            let (state, index) = &mut indices[at];
+            *state = (*state + (stream.unit() * 5.0) as usize).min(states.len() - 1);
+            let (end, label_of) = &states[*state];
+            index.extend(*end, |id| configs.get(id as usize), |id| label_of[id as usize]);
+            let wanted = Some((stream.unit() * 5.0) as u32);
+            let candidates = Labelled { configs: &configs, label_of, wanted };
+            let ids = (0..*end).filter(|id| candidates.counts(*id));
+            let q = configs.get((stream.unit() * configs.len() as f64) as usize);
+            let expected = k_nearest(&space, &configs, ids, q, 7);
+            prop_assert_eq!(index.k_nearest(&space, &candidates, *end, q, 7), expected);
+        }
+    }
+
     #[test]
     fn the_index_finds_what_brute_force_finds(
         ordinal in any::<u64>(),
@@ -292,6 +338,29 @@ fn equals_are_told_apart_by_their_ids() {
 }
 
 #[test]
+fn what_one_index_has_made_others_find_and_what_is_superseded_goes() {
+    let space = rigid_space(Motion::Rigid3d, [0.0; 3], [3.0; 3], 0.5);
+    let mut stream = Seed::of_set(1, "shelf", 0).stream(Purpose::Sampling);
+    let configs = configs(&space, &mut stream, 1000);
+    let shelf = Arc::new(Flaky::new(0.0, 0));
+    let mut indices = [0; 2].map(|_| Index::with_shelf(&space, Some(shelf.clone())));
+    for end in (50..=1000).step_by(50) {
+        let made = indices.each_mut().map(|index| {
+            index.extend(end, |id| configs.get(id as usize), |_| 0);
+            shelf.made()
+        });
+        assert_eq!(made[0], made[1], "only the first makes any");
+        let [own, others] = indices.each_ref().map(Index::segment_lengths);
+        assert_eq!(own, others);
+    }
+    // 1000 = 31 times 32 and 8.
+    assert_eq!(indices[0].segment_lengths(), [512, 256, 128, 64, 32, 8]);
+    let left = [(0, 30), (1, 14), (2, 6), (3, 2), (4, 0)]
+        .map(|(level, number)| BlockName::Segment { level, number });
+    assert_eq!(shelf.names(), left);
+}
+
+#[test]
 fn lengths_of_any_size_keep_their_neighbours() {
     for scale in [1e-30, 1e-20, 1e-3, 1e6, 1e18, 1e30, 1e60, 1e150] {
         let space = rigid_space(Motion::Translation3d, [0.0; 3], [scale; 3], 1.0);
@@ -319,7 +388,7 @@ fn segments_are_few_and_configurations_rarely_built_in_anew() {
         index.extend(end, |id| configs.get(id as usize), |_| 0);
         let lengths = index.segment_lengths();
         assert!(lengths.windows(2).all(|pair| pair[0] >= 2 * pair[1]), "{lengths:?}");
-        assert_eq!(lengths.iter().sum::<usize>(), end as usize);
+        assert_eq!(lengths.iter().sum::<u32>(), end);
         built += lengths[lengths.len() - 1];
     }
     assert!(built < 20_000 * 10, "{built}");

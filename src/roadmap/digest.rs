@@ -16,7 +16,7 @@ impl RoadmapHasher {
     pub(super) fn add_set(&mut self, first: u32, increment: &Increment, joins: &[Edge]) {
         let mut bytes = Vec::new();
         bytes.extend((increment.configs.len() as u64).to_le_bytes());
-        for value in increment.configs.values() {
+        for value in increment.configs.iter().flatten() {
             bytes.extend((value + 0.0).to_bits().to_le_bytes()); // −0 becomes 0
         }
         bytes.extend((increment.edges.len() as u64).to_le_bytes());
