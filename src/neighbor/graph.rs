@@ -75,13 +75,10 @@ impl Seeker for Others<'_> {
     }
 
     fn meet(&mut self, id: u32, square: f32, _: bool) {
-        if id == self.id {
-            return;
-        }
-        self.near.offer(0, id, square);
-        if self.near.crowded() {
+        if id != self.id {
             let neighbor = self.neighbor();
-            self.near.settle(neighbor);
+            self.near.offer(0, id, square);
+            self.near.clear_up(neighbor);
         }
     }
 

@@ -4,7 +4,7 @@ use super::best::{NearPair, Neighbor, Ranked};
 use super::build::Source;
 use super::embedding::Embedding;
 use super::places;
-use super::seek::{Search, Seeker};
+use super::seek::{Leaves, Search, Seeker};
 use super::shortlist::{Met, Shortlist};
 use super::tree::{Tree, length};
 use crate::shelf::{self, Shelf};
@@ -168,32 +168,28 @@ impl Index {
         let axes = self.embedding.axes();
         let mut points = Vec::with_capacity(queries.len() * axes);
         queries.iter().for_each(|q| self.embedding.embed(q, &mut points));
+        let rest = (self.len()..end).filter(|id| candidates.counts(*id));
+        let rest = Leaves::new(&self.embedding, rest, |id| candidates.config(id));
         let longest = points.chunks_exact(axes.max(1)).map(length).fold(0.0, f64::max);
         let of_segments = self.segments.iter().map(|segment| segment.longest());
-        let bounds = self.embedding.bounds(longest + of_segments.fold(0.0, f64::max));
+        let bounds = self.embedding.bounds(longest + of_segments.fold(rest.longest, f64::max));
         let item = |met: &Met| {
             let distance = space.distance(queries[met.query as usize], candidates.config(met.id));
             item(met.query, Neighbor { distance, id: candidates.name(met.id) })
         };
-        let mut visitor =
-            Visitor { candidates, query: 0, near: Shortlist::new(most, bounds), item };
-        for (query, q) in (0..).zip(queries) {
-            for id in (self.len()..end).filter(|id| candidates.counts(*id)) {
-                let bound = visitor.near.bound();
-                if let Some(distance) = space.distance_unless_above(q, candidates.config(id), bound)
-                {
-                    visitor.near.offer_at(query, id, distance);
-                    visitor.clear_up();
-                }
-            }
-        }
-        for tree in self.segments.iter().rev() {
+        let near = Shortlist::new(most, bounds);
+        let mut visitor = Visitor { candidates, query: 0, near, item };
+        let mut each = |visit: &mut dyn FnMut(&[f32], &mut Visitor<_, _>)| {
             for query in 0..queries.len() {
                 visitor.query = query as u32;
-                let point = &points[query * axes..(query + 1) * axes];
-                let (embedding, seeker) = (&*self.embedding, &mut visitor);
-                Search::new(tree, embedding, point, end, seeker).everywhere();
+                visit(&points[query * axes..(query + 1) * axes], &mut visitor);
             }
+        };
+        each(&mut |point, visitor| rest.look(&self.embedding, point, visitor));
+        for tree in self.segments.iter().rev() {
+            each(&mut |point, visitor| {
+                Search::new(tree, &self.embedding, point, end, visitor).everywhere();
+            });
         }
         let Visitor { mut near, item, .. } = visitor;
         near.nearest(item).into_iter().map(|(_, item)| item).collect()
@@ -207,14 +203,6 @@ struct Visitor<'a, C, I> {
     item: I,
 }
 
-impl<C, T: Ranked, I: Fn(&Met) -> T> Visitor<'_, C, I> {
-    fn clear_up(&mut self) {
-        if self.near.crowded() {
-            self.near.settle(&self.item);
-        }
-    }
-}
-
 impl<C: Candidates, T: Ranked, I: Fn(&Met) -> T> Seeker for Visitor<'_, C, I> {
     fn limit(&self) -> f32 {
         self.near.limit()
@@ -223,7 +211,7 @@ impl<C: Candidates, T: Ranked, I: Fn(&Met) -> T> Seeker for Visitor<'_, C, I> {
     fn meet(&mut self, id: u32, square: f32, counts: bool) {
         if counts || self.candidates.counts(id) {
             self.near.offer(self.query, id, square);
-            self.clear_up();
+            self.near.clear_up(&self.item);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::build::an_id;
 use super::embedding::{Embedding, FAN};
-use super::tree::{NONE, Tree};
+use super::tree::{NONE, Tree, length};
 
 /// Whoever looks for points near a place.
 pub(super) trait Seeker {
@@ -118,13 +118,64 @@ impl<'a, S: Seeker> Search<'a, S> {
         let values = FAN * self.point.len();
         let points = &self.points[leaf * values..(leaf + 1) * values];
         let ids = &self.ids[leaf * FAN..(leaf + 1) * FAN];
-        let limit = self.seeker.limit();
-        let (squares, within) = self.embedding.near_points(self.point, points, limit);
-        for at in ones(within) {
-            if squares[at] > self.seeker.limit() || ids[at] == NONE {
-                continue;
+        look(self.embedding, self.point, (ids, points), counts, self.seeker);
+    }
+}
+
+/// Shows a seeker the points of a leaf that may matter.
+fn look(
+    embedding: &Embedding,
+    point: &[f32],
+    (ids, points): (&[u32], &[f32]),
+    counts: bool,
+    seeker: &mut impl Seeker,
+) {
+    let (squares, within) = embedding.near_points(point, points, seeker.limit());
+    for at in ones(within) {
+        if squares[at] > seeker.limit() || ids[at] == NONE {
+            continue;
+        }
+        seeker.meet(ids[at], squares[at], counts);
+    }
+}
+
+/// Points without boxes, [`FAN`] to a leaf: too few to be put in order.
+pub(super) struct Leaves {
+    ids: Vec<u32>,
+    points: Vec<f32>,
+    /// Length of the longest point.
+    pub longest: f64,
+}
+
+impl Leaves {
+    /// Those of some ids that are known to matter.
+    pub(super) fn new<'a>(
+        embedding: &Embedding,
+        ids: impl Iterator<Item = u32>,
+        config_of: impl Fn(u32) -> &'a [f64],
+    ) -> Leaves {
+        let (mut ids, axes) = (Vec::from_iter(ids), embedding.axes());
+        let leaves = ids.len().div_ceil(FAN);
+        let mut points = vec![f32::INFINITY; leaves * FAN * axes];
+        let (mut point, mut longest) = (Vec::with_capacity(axes), 0.0);
+        for (place, id) in ids.iter().enumerate() {
+            point.clear();
+            embedding.embed(config_of(*id), &mut point);
+            longest = length(&point).max(longest);
+            for (axis, value) in point.iter().enumerate() {
+                points[(place / FAN * axes + axis) * FAN + place % FAN] = *value;
             }
-            self.seeker.meet(ids[at], squares[at], counts);
+        }
+        ids.resize(leaves * FAN, NONE);
+        Leaves { ids, points, longest }
+    }
+
+    /// Shows the seeker every point that may matter.
+    pub(super) fn look(&self, embedding: &Embedding, point: &[f32], seeker: &mut impl Seeker) {
+        let values = FAN * point.len();
+        for (leaf, ids) in self.ids.chunks_exact(FAN).enumerate() {
+            let points = &self.points[leaf * values..(leaf + 1) * values];
+            look(embedding, point, (ids, points), true, seeker);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::best::Ranked;
 use super::embedding::Bounds;
 
-/// So many more than are wanted may be in question before they are told apart.
+/// About so many may be in question before they are looked through.
 const CROWD: usize = 256;
 
 /// Something that was met on a search.
@@ -23,7 +23,7 @@ pub(super) struct Shortlist {
     most: usize,
     bounds: Bounds,
     met: Vec<Met>,
-    /// The least squares that the distances of some can have at most, in ascending order.
+    /// The least of the squares that were offered, in ascending order.
     squares: Vec<f32>,
     limit: f32,
 }
@@ -47,26 +47,9 @@ impl Shortlist {
         self.limit
     }
 
-    /// No distance beyond this is of any use any more.
-    pub fn bound(&self) -> f64 {
-        self.bounds.most(self.squares[self.most - 1]).sqrt().next_up()
-    }
-
     /// Takes in what was met, given the square of the distance of the points.
     pub fn offer(&mut self, query: u32, id: u32, square: f32) {
         self.met.push(Met { square, query, id });
-        self.within(square);
-    }
-
-    /// Takes in what was met at a distance that is known.
-    pub fn offer_at(&mut self, query: u32, id: u32, distance: f64) {
-        let square = distance * distance;
-        self.met.push(Met { square: (square as f32).next_down(), query, id });
-        self.within((square as f32).next_up());
-    }
-
-    /// Something has at most this as the square of its distance.
-    fn within(&mut self, square: f32) {
         let Some(last) = self.squares.last_mut().filter(|last| square < **last) else { return };
         *last = square;
         // Without branches that nobody can foresee.
@@ -85,14 +68,10 @@ impl Shortlist {
         self.limit = self.bounds.limit(self.bounds.most(self.squares[self.most - 1]));
     }
 
-    /// Whether so much is in question that [`Shortlist::settle`] has to be called.
-    pub fn crowded(&self) -> bool {
-        self.met.len() >= 4 * self.most + CROWD
-    }
-
-    /// Leaves what can still be among the nearest, and where that is too much, the nearest.
-    pub fn settle<T: Ranked>(&mut self, item: impl Fn(&Met) -> T) {
-        if self.left().len() > 2 * self.most {
+    /// To be called after offers: drops what cannot be among the nearest, where there is much of it.
+    pub fn clear_up<T: Ranked>(&mut self, item: impl Fn(&Met) -> T) {
+        let crowd = 4 * self.most + CROWD;
+        if self.met.len() > crowd && self.left().len() > crowd / 2 {
             self.met = self.nearest(item).into_iter().map(|(met, _)| met).collect();
         }
     }
