@@ -6,7 +6,7 @@ use crate::shelf::{self, BlockName, Claim, Shelf};
 use std::sync::Arc;
 
 /// Length of the shortest of these segments.
-const SHORTEST: u32 = if cfg!(test) { 1 << 5 } else { 1 << 11 };
+const SHORTEST: u32 = if cfg!(test) { 1 << 5 } else { 1 << 10 };
 
 /// A place: so many segments of its length are before it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@ use crate::shelf::{self, Block, BlockName, Shelf};
 use bytemuck::{cast_slice, cast_slice_mut};
 
 /// Number of edges in a block that is kept on a shelf.
-const BLOCK: usize = if cfg!(test) { 1 << 5 } else { 1 << 13 };
+const BLOCK: usize = if cfg!(test) { 1 << 5 } else { 1 << 12 };
 /// Bytes of an edge in a block.
 const BYTES: usize = size_of::<f64>() + 2 * size_of::<u32>() + 1;
 

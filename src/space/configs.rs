@@ -4,7 +4,7 @@ use bincode::enc::{Encode, Encoder};
 use bincode::error::{DecodeError, EncodeError};
 
 /// Number of configurations in a block that is kept on a shelf; a power of two.
-const BLOCK: usize = if cfg!(test) { 1 << 5 } else { 1 << 12 };
+const BLOCK: usize = if cfg!(test) { 1 << 5 } else { 1 << 10 };
 
 /// Configurations in a row, `dofs` values each.
 #[derive(Clone, Debug)]

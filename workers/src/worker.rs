@@ -1,4 +1,4 @@
-use crate::channel::{ChannelError, Link, StoreReader, WorkerId};
+use crate::channel::{ChannelError, Link, SharedShelf, StoreReader, WorkerId};
 use crate::faults::{Faults, Slip};
 use crate::message::{Bytes, Entry, FromWorker, PROTOCOL, ToWorker};
 use roadmill::img::{Outcome, Replica, Setup, Task};
@@ -70,6 +70,7 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
     let faults = Faults::read()?;
     let mut link = Link::open(&arguments.directory, arguments.worker)?;
     let store = StoreReader::open(&arguments.directory);
+    let workers_max = link.workers_max();
     // An orphan that its parent's death did not end ends itself here.
     let parent = arguments.coordinator;
     let mut parent_lives = || {
@@ -89,7 +90,8 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
         ToWorker::Work { .. } => return Err(WorkerError::Turn("work")),
     };
     let setup = Setup::new(*problem);
-    let mut replica = Replica::of_worker(&setup);
+    let shelf = SharedShelf::open(&arguments.directory, workers_max);
+    let mut replica = Replica::of_worker(&setup, Arc::new(shelf));
     let mut scratch = Scratch::new();
     let mut message = wire::encode(&FromWorker::Ready { canary: canary(&setup) });
     loop {

@@ -20,7 +20,7 @@ const NAP: Duration = Duration::from_secs(1);
 pub struct Link {
     // dropped in this order: the port before its node, the right to be there last
     port: WorkerPort,
-    _service: RunService,
+    service: RunService,
     _node: RunNode,
     bell: Bell,
     hub_socket: PathBuf,
@@ -47,7 +47,7 @@ impl Link {
         let (service, port) = service::open_service(&node, worker)?;
         Ok(Link {
             port,
-            _service: service,
+            service,
             _node: node,
             bell,
             hub_socket: hub_socket(directory),
@@ -56,6 +56,11 @@ impl Link {
             sequence: 0,
             is_spoiled: false,
         })
+    }
+
+    /// How many workers the hub was made for.
+    pub fn workers_max(&self) -> usize {
+        service::workers_max(&self.service)
     }
 
     /// Sends `message` and sleeps until the whole reply is there. Wakes about once a second to ask
