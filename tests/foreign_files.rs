@@ -2,8 +2,10 @@
 
 use proptest::prelude::*;
 use roadmill::foreign::{
-    DhOrder, ForeignError, ForeignJointKind, ForeignScene, SceneOptions, read_ompl, read_parasol,
+    DhOrder, ForeignError, ForeignJointKind, ForeignScene, SceneOptions, Unit, read_ompl,
+    read_parasol,
 };
+use roadmill::scene::{Shape, Up};
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -138,6 +140,35 @@ fn an_ompl_scene_turns_by_radians_about_its_axis() {
         "{:?}",
         scene.notes
     );
+}
+
+/// A triangle in half metres, z up.
+const TRIANGLE: &str = "<COLLADA version=\"1.4.1\"><asset><unit meter=\"0.5\"/><up_axis>Z_UP</up_axis></asset>\n\
+    <library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array id=\"a\" count=\"9\">0 0 0 4 0 0 0 2 6</float_array>\n\
+    <technique_common><accessor source=\"#a\" count=\"3\" stride=\"3\"/></technique_common></source>\n\
+    <vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>\n\
+    <triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>\n\
+    <library_visual_scenes><visual_scene id=\"s\"><node><instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes>\n\
+    <scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
+
+#[test]
+fn unit_and_upward_axis_of_a_mesh_are_taken_or_left_as_asked() {
+    let folder = folder();
+    std::fs::write(folder.path().join("triangle.dae"), TRIANGLE).unwrap();
+    let cfg = CFG.replace("world = cube.g", "world = triangle.dae");
+    std::fs::write(folder.path().join("room.cfg"), cfg).unwrap();
+    let last_corner = |options: SceneOptions| {
+        let scene = read_ompl(&folder.path().join("room.cfg"), &options).unwrap();
+        let Shape::Mesh(mesh) = &scene.obstacles[0].body.shape else { panic!("a mesh") };
+        let said = ["--unit", "--up"].map(|word| scene.notes.iter().any(|n| n.contains(word)));
+        (mesh.vertices[2], said)
+    };
+    let guessed = SceneOptions::default();
+    let stored = SceneOptions { unit: Some(Unit::AsStored), ..guessed };
+    assert_eq!(last_corner(guessed), ([0.0, 3.0, -1.0], [true, true]));
+    assert_eq!(last_corner(stored), ([0.0, 6.0, -2.0], [false, true]));
+    let stored = SceneOptions { up: Some(Up::AsStored), ..guessed };
+    assert_eq!(last_corner(stored), ([0.0, 1.0, 3.0], [true, false]));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::view::{View, cross, dot};
 use crate::math;
-use crate::scene::{Body, Mesh, Pose, Shape};
+use crate::scene::{Body, Mesh, Pose, Shape, box_surface};
 use std::collections::BTreeMap;
 
 /// Meshes of more triangles are drawn as their convex outline.
@@ -70,20 +70,8 @@ pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
     };
     match &body.shape {
         Shape::Box { size } => {
-            let corner = |i: usize| {
-                [0, 1, 2].map(|axis| size[axis] * if i >> axis & 1 == 1 { 0.5 } else { -0.5 })
-            };
-            let quads = [
-                [0, 2, 3, 1],
-                [4, 5, 7, 6],
-                [0, 1, 5, 4],
-                [2, 6, 7, 3],
-                [0, 4, 6, 2],
-                [1, 3, 7, 5],
-            ];
-            let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-            let triangles: Vec<[u32; 3]> = quads.into_iter().flat_map(halves).collect();
-            vec![polyhedron(&(0..8).map(corner).collect::<Vec<_>>(), &triangles, place, turn, view)]
+            let (corners, triangles) = box_surface(*size);
+            vec![polyhedron(&corners, &triangles, place, turn, view)]
         }
         Shape::Mesh(mesh) if mesh.triangles.len() <= TRIANGLES_MAX => pieces(mesh)
             .iter()

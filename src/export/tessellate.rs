@@ -1,7 +1,7 @@
 //! Shapes as triangles, for drawing.
 
 use crate::math;
-use crate::scene::Shape;
+use crate::scene::{Shape, box_surface};
 use std::f64::consts::PI;
 
 /// Corners of a drawn circle; even, so that a half ball has whole rings.
@@ -18,7 +18,10 @@ pub(super) struct Surface {
 pub(super) fn tessellate(shape: &Shape, dot: f64) -> Surface {
     match shape {
         Shape::Point => capsule(dot, 0.0),
-        Shape::Box { size } => cuboid(*size),
+        Shape::Box { size } => {
+            let (corners, triangles) = box_surface(*size);
+            Surface { vertices: corners.to_vec(), triangles }
+        }
         Shape::Sphere { radius } => capsule(*radius, 0.0),
         Shape::Cylinder { radius, height } => {
             let half = height / 2.0;
@@ -28,18 +31,6 @@ pub(super) fn tessellate(shape: &Shape, dot: f64) -> Surface {
         Shape::Mesh(mesh) => {
             Surface { vertices: mesh.vertices.clone(), triangles: mesh.faces().collect() }
         }
-    }
-}
-
-fn cuboid(size: [f64; 3]) -> Surface {
-    let corner =
-        |i: usize| [0, 1, 2].map(|axis| size[axis] * if i >> axis & 1 == 1 { 0.5 } else { -0.5 });
-    let quads =
-        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-    Surface {
-        vertices: (0..8).map(corner).collect(),
-        triangles: quads.into_iter().flat_map(halves).collect(),
     }
 }
 

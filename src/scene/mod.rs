@@ -21,6 +21,7 @@ pub use pose::Pose;
 pub use raw::{MESH_ITEMS_MAX, MeshError, UpAxis};
 pub use read::{Centre, MeshOptions, ReadMesh, Up, read_mesh, read_mesh_with};
 pub use shape::Shape;
+pub(crate) use shape::box_surface;
 
 use bincode::{Decode, Encode};
 

@@ -90,11 +90,8 @@ impl Shape {
         match self {
             Shape::Point => farthest(&[[0.0; 3]]),
             Shape::Box { size } => {
-                let half = size.map(|edge| edge / 2.0);
-                let corner = |i: usize| {
-                    [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { half[axis] } else { -half[axis] })
-                };
-                farthest(&[0, 1, 2, 3, 4, 5, 6, 7].map(corner))
+                let (corners, _) = box_surface(*size);
+                farthest(&corners)
             }
             Shape::Sphere { radius } => farthest(&[[0.0; 3]]) + radius,
             Shape::Cylinder { radius, height } => {
@@ -126,6 +123,17 @@ impl Shape {
             Shape::Mesh(_) => "mesh",
         }
     }
+}
+
+/// The corners of a box centred on the origin, and the triangles of its sides, seen from outside
+/// counter-clockwise.
+pub(crate) fn box_surface(size: [f64; 3]) -> ([[f64; 3]; 8], Vec<[u32; 3]>) {
+    let corner =
+        |i: usize| [0, 1, 2].map(|axis| size[axis] * if i >> axis & 1 == 1 { 0.5 } else { -0.5 });
+    let sides =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+    (std::array::from_fn(corner), sides.into_iter().flat_map(halves).collect())
 }
 
 fn length([x, y, z]: [f64; 3]) -> f64 {

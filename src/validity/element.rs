@@ -1,7 +1,7 @@
 //! The pieces of surface that trees hold: triangles, and the primitives as what they are made of.
 
 use crate::robot::Rates;
-use crate::scene::{Body, Shape};
+use crate::scene::{Body, Shape, box_surface};
 use parry3d_f64::math::Vector;
 
 /// All points within `radius` of the hull of three corners. With equal corners it is a ball, a capsule,
@@ -74,19 +74,8 @@ pub(super) fn elements(body: &Body, piece: u32) -> Vec<Element> {
             vec![Element { flat: true, ..rod(*radius, *height) }]
         }
         Shape::Box { size } => {
-            let sign = |i: usize, axis: usize| if i >> axis & 1 == 1 { 0.5 } else { -0.5 };
-            let corner = |i: usize| [0, 1, 2].map(|axis| size[axis] * sign(i, axis));
-            let corners: Vec<_> = (0..8).map(corner).collect();
-            let faces = [
-                [0, 2, 3, 1],
-                [4, 5, 7, 6],
-                [0, 1, 5, 4],
-                [2, 6, 7, 3],
-                [0, 4, 6, 2],
-                [1, 3, 7, 5],
-            ];
-            let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-            surface(&corners, faces.map(halves).concat())
+            let (corners, triangles) = box_surface(*size);
+            surface(&corners, triangles)
         }
         Shape::Mesh(mesh) => surface(&mesh.vertices, mesh.faces().collect()),
     };
