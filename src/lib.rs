@@ -49,6 +49,7 @@ pub mod sampler;
 pub mod scene;
 pub mod schedule;
 pub mod seed;
+pub mod shelf;
 pub mod space;
 mod strategy;
 pub mod validity;

@@ -1,41 +1,59 @@
 //! How much memory a program and its children hold.
 
-use std::fs;
+use std::fs::{self, Metadata};
+use std::os::unix::fs::MetadataExt;
 use std::process::Child;
 use std::thread::sleep;
 use std::time::Duration;
 
-/// Waits for a build; the most bytes that it and its workers held meanwhile, pages that several of them
-/// share counted once (the sum of their proportional set sizes), and what they read from shared memory
-/// without mapping it.
+/// Waits for a build; the most bytes that it and its workers held meanwhile: the files of their shared memory,
+/// and all else by proportional set sizes, in which pages that several share count once.
 pub fn peak_bytes(child: &mut Child) -> u64 {
     let mut peak = 0;
     while child.try_wait().expect("it can be waited for").is_none() {
         let pid = child.id();
         let children = fs::read_to_string(format!("/proc/{pid}/task/{pid}/children"));
         let children = children.unwrap_or_default();
-        let pids = children.split_whitespace().filter_map(|pid| pid.parse().ok()).chain([pid]);
-        peak = peak.max(pids.map(proportional_bytes).sum::<u64>() + stored_bytes(pid));
+        // A worker that has just been forked still has the memory of its parent.
+        let is_itself = |child: &u32| command(*child) != command(pid);
+        let pids = children.split_whitespace().filter_map(|pid| pid.parse().ok());
+        let pids = pids.filter(is_itself).chain([pid]);
+        let shared = shared_files(pid);
+        let others = pids.map(|pid| other_bytes(pid, &shared)).sum::<u64>();
+        peak = peak.max(others + shared.iter().map(|file| file.blocks() * 512).sum::<u64>());
         sleep(Duration::from_millis(20));
     }
     peak
 }
 
-/// What a coordinator has written for its workers.
-fn stored_bytes(pid: u32) -> u64 {
-    let entries = fs::read_dir("/dev/shm").into_iter().flatten().flatten();
-    let stores = entries.filter(|entry| {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        name.starts_with(&format!("roadmill-{pid}-")) && name.ends_with("_store")
-    });
-    stores.filter_map(|entry| entry.metadata().ok()).map(|metadata| metadata.len()).sum()
+fn command(pid: u32) -> Vec<u8> {
+    fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default()
 }
 
-/// 0 where the process has ended.
-fn proportional_bytes(pid: u32) -> u64 {
-    let text = fs::read_to_string(format!("/proc/{pid}/smaps_rollup")).unwrap_or_default();
-    let line = text.lines().find_map(|line| line.strip_prefix("Pss:"));
-    let kib = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
-    kib.unwrap_or(0) << 10
+/// The files of a coordinator's shared memory.
+fn shared_files(pid: u32) -> Vec<Metadata> {
+    let entries = fs::read_dir("/dev/shm").into_iter().flatten().flatten();
+    let prefix = format!("roadmill-{pid}-");
+    let own = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(&prefix));
+    own.filter_map(|entry| entry.metadata().ok()).collect()
+}
+
+/// The proportional set size of a process without those files; 0 where it has ended. Files that have lost
+/// their names count as long as they are mapped.
+fn other_bytes(pid: u32, shared: &[Metadata]) -> u64 {
+    let text = fs::read_to_string(format!("/proc/{pid}/smaps")).unwrap_or_default();
+    let (mut kib, mut is_counted) = (0, true);
+    for line in text.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[..] {
+            ["Pss:", number, _] if is_counted => kib += number.parse().unwrap_or(0),
+            // A mapping's first line: its number, not its name, tells which file it is.
+            [_, _, _, _, number, name, ..] if name.starts_with("/dev/shm") => {
+                is_counted = !shared.iter().any(|file| file.ino().to_string() == number);
+            }
+            [addresses, ..] if addresses.contains('-') => is_counted = true,
+            _ => {}
+        }
+    }
+    kib << 10
 }

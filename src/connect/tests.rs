@@ -32,7 +32,7 @@ fn joined(setup: &Setup, input: &JoinInput, way: &dyn Among) -> (Vec<Edge>, Aske
 /// Everything before the round and in it, with the round's inner edges.
 fn whole(input: &JoinInput) -> (Configs, Vec<Edge>) {
     let mut configs = input.roadmap.configs().clone();
-    let mut edges = input.roadmap.edges().to_vec();
+    let mut edges: Vec<Edge> = input.roadmap.edges().iter().collect();
     for built in &input.increments {
         let first = configs.len() as u32;
         configs.extend(&built.increment.configs);

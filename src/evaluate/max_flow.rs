@@ -77,7 +77,7 @@ impl Evaluator for MaxFlow {
                 });
 
         let nodes = roadmap.configs().len();
-        let mut edges: Vec<Edge> = roadmap.edges().to_vec();
+        let mut edges: Vec<Edge> = roadmap.edges().iter().collect();
         for (index, q) in from.iter().chain(to).enumerate() {
             let id = (nodes + index) as u32;
             edges.extend(attach(cx, roadmap, q, id, &self.how(), scratch));

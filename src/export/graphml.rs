@@ -60,7 +60,7 @@ pub fn graphml(problem: &Problem, roadmap: &Roadmap) -> String {
             "<node id=\"{node}\">{values}<data key=\"component\">{component}</data></node>"
         ));
     }
-    for edge in roadmap.edges() {
+    for edge in roadmap.edges().iter() {
         put(format_args!(
             "<edge source=\"{}\" target=\"{}\"><data key=\"weight\">{}</data>\
              <data key=\"planner\">{}</data><data key=\"planner_tag\">{}</data></edge>",

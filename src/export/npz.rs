@@ -26,7 +26,7 @@ pub fn npz(problem: &Problem, roadmap: &Roadmap) -> io::Result<Vec<u8>> {
     let units = space.dofs().iter().map(|dof| dof.unit).collect::<Vec<_>>();
     let mut archive = Archive(ZipWriter::new(Cursor::new(Vec::new())));
     let shape = format!("({}, {})", nodes.len(), nodes.dofs());
-    let bytes = nodes.values().iter().flat_map(|value| value.to_le_bytes());
+    let bytes = nodes.values().flat_map(|value| value.to_le_bytes());
     archive.add("nodes", "<f8", &shape, bytes)?;
     let components = ids.map(|node| roadmap.components().of_node(node).name);
     let shape = format!("({},)", nodes.len());

@@ -34,7 +34,7 @@ pub fn parasol_map(problem: &Problem, cx: &Context, roadmap: &Roadmap) -> String
     for (node, q) in nodes.iter().enumerate() {
         put(&mut map, format_args!("\n{node} {} {} ", line(space, q), adjacent[node].len()));
         for index in &adjacent[node] {
-            let edge = &roadmap.edges()[*index];
+            let edge = roadmap.edges().get(*index);
             let forwards = edge.low as usize == node;
             let target = if forwards { edge.high } else { edge.low };
             let planner = Planner::from_tag(edge.planner).expect("edges carry known planners");

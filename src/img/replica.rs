@@ -1,6 +1,7 @@
 use super::{Job, Setup, Task};
 use crate::connect::{Built, JoinInput};
 use crate::roadmap::{Edge, Increment, Roadmap};
+use crate::shelf::Shelf;
 use std::sync::Arc;
 
 /// Where a build stands: which jobs have what they read.
@@ -60,13 +61,12 @@ impl Replica {
         Replica { roadmap, increments: Vec::new(), front: Front::default() }
     }
 
-    /// The same for a worker, that has no more than its jobs read: without evaluators no edges.
-    pub fn of_worker(setup: &Setup) -> Replica {
-        let mut replica = Replica::new(setup);
-        if setup.problem.evaluators.is_empty() {
-            replica.roadmap = Arc::new(Roadmap::for_joins(&setup.cx.space));
-        }
-        replica
+    /// The same for one of several workers, that has no more than its jobs read (without evaluators no edges),
+    /// and on a shelf what all of them have.
+    pub fn of_worker(setup: &Setup, shelf: Arc<dyn Shelf>) -> Replica {
+        let keeps_edges = !setup.problem.evaluators.is_empty();
+        let roadmap = Roadmap::of_worker(&setup.cx.space, shelf, keeps_edges);
+        Replica { roadmap: Arc::new(roadmap), ..Replica::new(setup) }
     }
 
     /// Takes in the increment at the next place.

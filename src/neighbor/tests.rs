@@ -1,7 +1,14 @@
+use super::embedding::{Embedding, FAN};
+use super::lanes::Lanes;
+use super::tree::length;
 use super::*;
 use crate::seed::{Purpose, Seed, Stream};
+use crate::shelf::tests::Flaky;
+use crate::shelf::{BlockName, Shelf};
 use crate::space::{Configs, Dof, Motion, Part, PartKind, Space, rigid_space};
 use proptest::prelude::*;
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// Every kind of motion, and a linkage: a free base with sliding, limited and turning joints.
 fn spaces() -> Vec<Space> {
@@ -121,8 +128,51 @@ fn index(
     (index, steps)
 }
 
+/// How many configurations there are, and their labels, from one state to the next.
+fn history(stream: &mut Stream, count: usize) -> Vec<(u32, Vec<u32>)> {
+    let mut label_of: Vec<u32> = (0..count).map(|_| (stream.unit() * 5.0) as u32).collect();
+    let mut states = vec![(0, label_of.clone())];
+    let mut end = 0;
+    while end < count {
+        end = count.min(end + 1 + (stream.unit() * 50.0) as usize);
+        if stream.unit() < 0.3 {
+            let [from, to] = [0, 1].map(|_| (stream.unit() * 5.0) as u32);
+            label_of.iter_mut().filter(|label| **label == from).for_each(|label| *label = to);
+        }
+        states.push((end as u32, label_of.clone()));
+    }
+    states
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn indices_that_share_a_shelf_find_what_brute_force_finds(
+        ordinal in any::<u64>(),
+        often in 0.0f64..0.5,
+    ) {
+        let mut stream = Seed::of_set(1, "shelf", ordinal).stream(Purpose::Sampling);
+        let space = rigid_space(Motion::Rigid2d, [0.0; 3], [3.0; 3], 0.5);
+        let configs = configs(&space, &mut stream, 600);
+        let states = history(&mut stream, configs.len());
+        let shelf: Arc<dyn Shelf> = Arc::new(Flaky::new(often, ordinal));
+        let mut indices = [0; 3].map(|state| (state, Index::with_shelf(&space, Some(shelf.clone()))));
+        // Each is at a state of its own: what it finds on the shelf may be of a later one.
+        while let Some(at) = [0, 1, 2].into_iter().find(|at| indices[*at].0 + 1 < states.len()) {
+            let at = if stream.unit() < 0.3 { at } else { (stream.unit() * 3.0) as usize };
+            let (state, index) = &mut indices[at];
+            *state = (*state + (stream.unit() * 5.0) as usize).min(states.len() - 1);
+            let (end, label_of) = &states[*state];
+            index.extend(*end, |id| configs.get(id as usize), |id| label_of[id as usize]);
+            let wanted = Some((stream.unit() * 5.0) as u32);
+            let candidates = Labelled { configs: &configs, label_of, wanted };
+            let ids = (0..*end).filter(|id| candidates.counts(*id));
+            let q = configs.get((stream.unit() * configs.len() as f64) as usize);
+            let expected = k_nearest(&space, &configs, ids, q, 7);
+            prop_assert_eq!(index.k_nearest(&space, &candidates, *end, q, 7), expected);
+        }
+    }
+
     #[test]
     fn the_index_finds_what_brute_force_finds(
         ordinal in any::<u64>(),
@@ -161,6 +211,155 @@ proptest! {
     }
 }
 
+/// The edges of the graph by definition.
+fn graph(space: &Space, configs: &Configs, k: usize) -> Vec<(u32, u32)> {
+    let count = configs.len() as u32;
+    let mut pairs = BTreeSet::new();
+    for id in 0..count {
+        let others = (0..count).filter(|other| *other != id);
+        for near in k_nearest(space, configs, others, configs.get(id as usize), k) {
+            pairs.insert((id.min(near.id), id.max(near.id)));
+        }
+    }
+    Vec::from_iter(pairs)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+    #[test]
+    fn the_graph_is_the_union_of_the_directed_neighbours(
+        ordinal in any::<u64>(),
+        count in 0usize..400,
+        k in 0usize..25,
+    ) {
+        let mut stream = Seed::of_set(1, "graph", ordinal).stream(Purpose::Sampling);
+        for space in spaces() {
+            let configs = configs(&space, &mut stream, count);
+            prop_assert_eq!(k_nearest_graph(&space, &configs, k), graph(&space, &configs, k));
+        }
+    }
+
+    #[test]
+    fn points_bound_configurations(ordinal in any::<u64>()) {
+        let mut stream = Seed::of_set(1, "points", ordinal).stream(Purpose::Sampling);
+        for space in spaces() {
+            let configs = configs(&space, &mut stream, 2 * FAN);
+            let embedding = Embedding::new(&space);
+            let (leaf, points) = leaf(&embedding, &configs);
+            let longest = points.iter().map(|point| length(point)).fold(0.0, f64::max);
+            let bounds = embedding.bounds(2.0 * longest);
+            for (q, point) in configs.iter().zip(&points) {
+                let squares = embedding.squares(point, &leaf);
+                for (square, other) in squares.into_iter().zip(configs.iter()) {
+                    let distance = space.distance(q, other);
+                    prop_assert!(distance * distance <= bounds.most(square));
+                    prop_assert!(square <= bounds.limit(distance * distance));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn all_lanes_measure_the_same_bits(ordinal in any::<u64>()) {
+        let mut stream = Seed::of_set(1, "lanes", ordinal).stream(Purpose::Sampling);
+        for space in spaces().into_iter().filter(|space| !space.is_empty()) {
+            let configs = configs(&space, &mut stream, 3 * FAN);
+            let embedding = Embedding::new(&space);
+            let (leaf, points) = leaf(&embedding, &configs);
+            // Any two points are the corners of a box.
+            let ends = |index: usize| [points[index].as_slice(), points[index + FAN].as_slice()];
+            let side = |index: usize, axis: usize, pick: fn(f32, f32) -> f32| {
+                let [a, b] = ends(index);
+                pick(a[axis], b[axis])
+            };
+            let mut sides = Vec::new();
+            for axis in 0..embedding.axes() {
+                sides.extend((0..FAN).map(|index| side(index, axis, f32::min)));
+                sides.extend((0..FAN).map(|index| side(index, axis, f32::max)));
+            }
+            for point in &points[2 * FAN..] {
+                let expected = [embedding.squares(point, &leaf), embedding.box_squares(point, &sides)];
+                for limit in expected[0].into_iter().chain([0.0, f32::INFINITY]) {
+                    let bits = |squares: &[f32; FAN]| {
+                        (0..FAN).filter(|at| squares[*at] <= limit).fold(0, |bits, at| bits | 1 << at)
+                    };
+                    for lanes in Lanes::all() {
+                        let found = [
+                            lanes.points(&embedding, point, &leaf, limit),
+                            lanes.boxes(&embedding, point, &sides, limit),
+                        ];
+                        for ((squares, within), expected) in found.iter().zip(&expected) {
+                            prop_assert_eq!(squares.map(f32::to_bits), expected.map(f32::to_bits));
+                            prop_assert_eq!(*within, bits(expected), "{:?}", lanes);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// All points, and the first of them as a leaf.
+fn leaf(embedding: &Embedding, configs: &Configs) -> (Vec<f32>, Vec<Vec<f32>>) {
+    let point = |q: &[f64]| {
+        let mut point = Vec::new();
+        embedding.embed(q, &mut point);
+        point
+    };
+    let points: Vec<_> = configs.iter().map(point).collect();
+    let axes = (0..embedding.axes()).flat_map(|axis| points[..FAN].iter().map(move |at| at[axis]));
+    (axes.collect(), points)
+}
+
+/// More than can be told apart by squares: a crowd of equals, and some that nearly are.
+#[test]
+fn equals_are_told_apart_by_their_ids() {
+    for space in spaces() {
+        let mut stream = Seed::of_set(1, "equals", 0).stream(Purpose::Sampling);
+        let mut q = vec![0.0; space.len()];
+        space.sample_uniform(&mut stream, &mut q);
+        let mut configs = Configs::new(space.len());
+        for i in 0..900 {
+            let mut near = q.clone();
+            if let Some(value) = near.first_mut().filter(|_| i % 3 == 0) {
+                *value += 1e-12 * stream.unit();
+            }
+            configs.push(&near);
+        }
+        assert_eq!(k_nearest_graph(&space, &configs, 3), graph(&space, &configs, 3));
+        let mut index = Index::new(&space);
+        for end in [500, 800] {
+            index.extend(end, |id| configs.get(id as usize), |_| 0);
+        }
+        let candidates = Labelled { configs: &configs, label_of: &[], wanted: None };
+        let expected = k_nearest(&space, &configs, 0..900, &q, 9);
+        assert_eq!(index.k_nearest(&space, &candidates, 900, &q, 9), expected);
+    }
+}
+
+#[test]
+fn what_one_index_has_made_others_find_and_what_is_superseded_goes() {
+    let space = rigid_space(Motion::Rigid3d, [0.0; 3], [3.0; 3], 0.5);
+    let mut stream = Seed::of_set(1, "shelf", 0).stream(Purpose::Sampling);
+    let configs = configs(&space, &mut stream, 1000);
+    let shelf = Arc::new(Flaky::new(0.0, 0));
+    let mut indices = [0; 2].map(|_| Index::with_shelf(&space, Some(shelf.clone())));
+    for end in (50..=1000).step_by(50) {
+        let made = indices.each_mut().map(|index| {
+            index.extend(end, |id| configs.get(id as usize), |_| 0);
+            shelf.made()
+        });
+        assert_eq!(made[0], made[1], "only the first makes any");
+        let [own, others] = indices.each_ref().map(Index::segment_lengths);
+        assert_eq!(own, others);
+    }
+    // 1000 = 31 times 32 and 8.
+    assert_eq!(indices[0].segment_lengths(), [512, 256, 128, 64, 32, 8]);
+    let left = [(0, 30), (1, 14), (2, 6), (3, 2), (4, 0)]
+        .map(|(level, number)| BlockName::Segment { level, number });
+    assert_eq!(shelf.names(), left);
+}
+
 #[test]
 fn lengths_of_any_size_keep_their_neighbours() {
     for scale in [1e-30, 1e-20, 1e-3, 1e6, 1e18, 1e30, 1e60, 1e150] {
@@ -169,6 +368,7 @@ fn lengths_of_any_size_keep_their_neighbours() {
         let configs = configs(&space, &mut stream, 300);
         let mut index = Index::new(&space);
         index.extend(300, |id| configs.get(id as usize), |_| 0);
+        assert_eq!(k_nearest_graph(&space, &configs, 5), graph(&space, &configs, 5), "{scale}");
         let candidates = Labelled { configs: &configs, label_of: &[], wanted: None };
         for q in configs.iter().step_by(7) {
             let expected = k_nearest(&space, &configs, 0..300, q, 10);
@@ -188,7 +388,7 @@ fn segments_are_few_and_configurations_rarely_built_in_anew() {
         index.extend(end, |id| configs.get(id as usize), |_| 0);
         let lengths = index.segment_lengths();
         assert!(lengths.windows(2).all(|pair| pair[0] >= 2 * pair[1]), "{lengths:?}");
-        assert_eq!(lengths.iter().sum::<usize>(), end as usize);
+        assert_eq!(lengths.iter().sum::<u32>(), end);
         built += lengths[lengths.len() - 1];
     }
     assert!(built < 20_000 * 10, "{built}");

@@ -82,7 +82,7 @@ pub fn solve(
         return answer;
     }
 
-    let mut edges = roadmap.edges().to_vec();
+    let mut edges: Vec<Edge> = roadmap.edges().iter().collect();
     edges.extend(from_start);
     edges.extend(from_goal);
     let config = |node: u32| match node.checked_sub(nodes) {

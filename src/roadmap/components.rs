@@ -1,7 +1,9 @@
 use super::Configs;
 use super::centre::CentreSum;
 use super::finder::Finder;
+use crate::shelf::Shelf;
 use crate::space::Space;
+use std::sync::Arc;
 
 /// A connected component.
 #[derive(Clone, Debug)]
@@ -32,9 +34,14 @@ pub struct Components {
 }
 
 impl Components {
+    /// Those of no graph yet, with a place for what its index will have in common with others.
+    pub(super) fn with_shelf(shelf: Arc<dyn Shelf>) -> Components {
+        Components { finder: Finder::with_shelf(shelf), ..Components::default() }
+    }
+
     /// The components of a graph given whole.
     pub fn of(space: &Space, configs: &Configs, edges: &[super::Edge]) -> Components {
-        Components::built(space, configs, configs.iter(), edges)
+        Components::built(space, configs, configs.iter(), edges.iter().copied())
     }
 
     /// The components of a graph over the first of `configs`, `nodes`.
@@ -42,7 +49,7 @@ impl Components {
         space: &Space,
         configs: &Configs,
         nodes: impl Iterator<Item = &'a [f64]>,
-        edges: &[super::Edge],
+        edges: impl Iterator<Item = super::Edge>,
     ) -> Components {
         let mut components = Components::default();
         for (node, q) in nodes.enumerate() {

@@ -5,9 +5,10 @@
 
 use super::components::{Component, Components};
 use crate::neighbor::{self, Best, Candidates, Index, NearPair, Neighbor};
+use crate::shelf::Shelf;
 use crate::space::{Configs, Space};
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{RwLock, RwLockReadGuard};
+use std::sync::{Arc, RwLock, RwLockReadGuard};
 
 /// Fewer new nodes than this are searched one by one.
 const TAIL: u32 = 128;
@@ -25,6 +26,7 @@ const NONE: u32 = u32::MAX;
 #[derive(Debug, Default)]
 pub(super) struct Finder {
     nodes: RwLock<Option<Index>>,
+    shelf: Option<Arc<dyn Shelf>>,
     /// How often nodes were searched since the index last grew.
     searches: AtomicU32,
     centres: RwLock<Option<Centres>>,
@@ -34,6 +36,7 @@ impl Clone for Finder {
     fn clone(&self) -> Finder {
         Finder {
             nodes: RwLock::new(read(&self.nodes).clone()),
+            shelf: self.shelf.clone(),
             searches: AtomicU32::new(self.searches.load(Ordering::Relaxed)),
             centres: RwLock::new(read(&self.centres).clone()),
         }
@@ -45,6 +48,11 @@ fn read<T>(lock: &RwLock<T>) -> RwLockReadGuard<'_, T> {
 }
 
 impl Finder {
+    /// For nodes whose index is kept on a shelf.
+    pub(super) fn with_shelf(shelf: Arc<dyn Shelf>) -> Finder {
+        Finder { shelf: Some(shelf), ..Finder::default() }
+    }
+
     /// Takes in that the components in some slots, ascending, are new, gone or have new centres.
     pub(super) fn centres_changed(&mut self, slots: &[Option<Component>], changed: &[u32]) {
         if let Some(centres) = self.centres.get_mut().expect("no search panics") {
@@ -143,7 +151,7 @@ impl Components {
         }
         drop(index);
         let mut index = finder.nodes.write().expect("no search panics");
-        let made = index.get_or_insert_with(|| Index::new(space));
+        let made = index.get_or_insert_with(|| Index::with_shelf(space, finder.shelf.clone()));
         if wanted {
             made.extend(self.nodes(), |node| configs.get(node as usize), |node| self.slot_of(node));
             finder.searches.store(0, Ordering::Relaxed);

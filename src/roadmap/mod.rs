@@ -3,6 +3,7 @@
 mod centre;
 mod components;
 mod digest;
+mod edges;
 mod finder;
 mod forest;
 mod increment;
@@ -12,13 +13,16 @@ mod tally;
 pub use crate::digest::Digest;
 pub use crate::space::Configs;
 pub use components::{Component, Components};
+pub use edges::Edges;
 pub(crate) use forest::Forest;
 pub use increment::{Edge, Increment};
 pub use search::{Graph, Route};
 pub use tally::{Outline, Tally};
 
 use crate::neighbor::Neighbor;
+use crate::shelf::Shelf;
 use crate::space::Space;
+use std::sync::Arc;
 
 /// A roadmap: the milestones and edges of the node sets folded so far, in their order.
 ///
@@ -27,11 +31,13 @@ use crate::space::Space;
 #[derive(Clone, Debug)]
 pub struct Roadmap {
     configs: Configs,
-    edges: Vec<Edge>,
+    edges: Edges,
     components: Components,
     rounds: Vec<Extent>,
     tally: Tally,
     keeps_edges: bool,
+    /// Where what never changes any more goes; with none it stays.
+    shelf: Option<Arc<dyn Shelf>>,
 }
 
 /// How far a roadmap went at the end of a round: everything before is what it then was, since nodes
@@ -51,18 +57,22 @@ impl Roadmap {
     pub fn new(space: &Space) -> Roadmap {
         Roadmap {
             configs: Configs::new(space.len()),
-            edges: Vec::new(),
+            edges: Edges::default(),
             components: Components::default(),
             rounds: Vec::new(),
             tally: Tally::new(space),
             keeps_edges: true,
+            shelf: None,
         }
     }
 
-    /// The same without edges, which take most of a roadmap's memory: for those who join sets to it and
-    /// judge nothing. [`Roadmap::edges`] and [`Roadmap::rounds`] stay empty.
-    pub fn for_joins(space: &Space) -> Roadmap {
-        Roadmap { keeps_edges: false, ..Roadmap::new(space) }
+    /// The same for one of several replicas, which has in common with the others what stands on a shelf, and is
+    /// not hashed. Where nothing is judged it can do without edges: [`Roadmap::edges`] and
+    /// [`Roadmap::rounds`] stay empty.
+    pub fn of_worker(space: &Space, shelf: Arc<dyn Shelf>, keeps_edges: bool) -> Roadmap {
+        let components = Components::with_shelf(shelf.clone());
+        let tally = Tally::unhashed();
+        Roadmap { components, keeps_edges, tally, shelf: Some(shelf), ..Roadmap::new(space) }
     }
 
     /// Folds the next round: its increments in set order, and for each the edges that join it to
@@ -99,8 +109,12 @@ impl Roadmap {
         for edge in joins.into_iter().flatten() {
             self.components.unite(edge.low, edge.high);
             if self.keeps_edges {
-                self.edges.push(*edge);
+                self.edges.extend([*edge]);
             }
+        }
+        if let Some(shelf) = &self.shelf {
+            self.configs.settle(&**shelf);
+            self.edges.settle(&**shelf);
         }
         if self.keeps_edges {
             self.rounds.push(Extent {
@@ -125,7 +139,7 @@ impl Roadmap {
 
     /// The edges: of each round first those inside its increments, then the joining ones, in set
     /// order.
-    pub fn edges(&self) -> &[Edge] {
+    pub fn edges(&self) -> &Edges {
         &self.edges
     }
 
@@ -147,7 +161,7 @@ impl Roadmap {
     /// The connected components as they were when the roadmap went as far as `extent`.
     pub fn components_at(&self, space: &Space, extent: Extent) -> Components {
         let nodes = self.configs.iter().take(extent.nodes);
-        Components::built(space, &self.configs, nodes, &self.edges[..extent.edges])
+        Components::built(space, &self.configs, nodes, self.edges.iter().take(extent.edges))
     }
 
     /// What the roadmap comes to.
@@ -156,6 +170,9 @@ impl Roadmap {
     }
 
     /// The digest of the roadmap's canonical bytes; `docs/architecture.md` defines them.
+    ///
+    /// # Panics
+    /// If the roadmap is a worker's.
     pub fn digest(&self) -> Digest {
         self.tally.digest()
     }

@@ -12,18 +12,25 @@ pub struct Tally {
     nodes: usize,
     edges: usize,
     components: usize,
-    hasher: RoadmapHasher,
+    /// `None` where nobody asks for the digest.
+    hasher: Option<RoadmapHasher>,
 }
 
 impl Tally {
     pub(super) fn new(space: &Space) -> Tally {
-        let hasher = RoadmapHasher::new(space.len());
-        Tally { sets: 0, nodes: 0, edges: 0, components: 0, hasher }
+        Tally { hasher: Some(RoadmapHasher::new(space.len())), ..Tally::unhashed() }
+    }
+
+    /// The same without a digest.
+    pub(super) fn unhashed() -> Tally {
+        Tally { sets: 0, nodes: 0, edges: 0, components: 0, hasher: None }
     }
 
     /// Counts and hashes the next set; its components are left to the caller.
     pub(super) fn add_set(&mut self, increment: &Increment, joins: &[Edge]) {
-        self.hasher.add_set(self.nodes as u32, increment, joins);
+        if let Some(hasher) = &mut self.hasher {
+            hasher.add_set(self.nodes as u32, increment, joins);
+        }
         self.sets += 1;
         self.nodes += increment.configs.len();
         self.edges += increment.edges.len() + joins.len();
@@ -31,7 +38,9 @@ impl Tally {
 
     /// Ends a fold.
     pub(super) fn set_components(&mut self, components: usize) {
-        self.hasher.take_in();
+        if let Some(hasher) = &mut self.hasher {
+            hasher.take_in();
+        }
         self.components = components;
     }
 
@@ -56,8 +65,11 @@ impl Tally {
     }
 
     /// The digest of the roadmap's canonical bytes; `docs/architecture.md` defines them.
+    ///
+    /// # Panics
+    /// If it is that of a worker's roadmap, which is not hashed.
     pub fn digest(&self) -> Digest {
-        self.hasher.digest()
+        self.hasher.as_ref().expect("a worker's roadmap is not hashed").digest()
     }
 }
 

@@ -3,8 +3,11 @@ use crate::img::{Setup, build};
 use crate::neighbor::{Best, NearPair, closest_pairs, k_nearest};
 use crate::problem::Problem;
 use crate::seed::{Purpose, Seed, Stream};
+use crate::shelf::tests::Flaky;
+use crate::shelf::{BlockName, Shelf};
 use crate::space::{Motion, rigid_space};
 use crate::validity::Asked;
+use crate::wire;
 use proptest::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
@@ -18,17 +21,22 @@ struct Growth {
     stream: Stream,
     group_of: Vec<u32>,
     roadmap: Roadmap,
-    for_joins: Roadmap,
+    /// Workers that have what is on one shelf in common.
+    workers: [Roadmap; 2],
     outline: Outline,
 }
 
 impl Growth {
     fn new(motion: Motion, ordinal: u64) -> Growth {
+        Growth::with_shelf(motion, ordinal, Arc::new(Flaky::new(0.2, ordinal)))
+    }
+
+    fn with_shelf(motion: Motion, ordinal: u64, shelf: Arc<dyn Shelf>) -> Growth {
         let space = rigid_space(motion, [0.0; 3], [9.0, 9.0, 2.0], 0.5);
         let stream = Seed::of_set(1, "growth", ordinal).stream(Purpose::Sampling);
         let (roadmap, outline) = (Roadmap::new(&space), Outline::new(&space));
-        let for_joins = Roadmap::for_joins(&space);
-        Growth { space, stream, group_of: Vec::new(), roadmap, for_joins, outline }
+        let workers = [false, true].map(|keeps| Roadmap::of_worker(&space, shelf.clone(), keeps));
+        Growth { space, stream, group_of: Vec::new(), roadmap, workers, outline }
     }
 
     fn below(&mut self, count: usize) -> usize {
@@ -80,7 +88,9 @@ impl Growth {
         }
         let sets = || round.iter().map(|(increment, joins)| (increment, &joins[..]));
         self.roadmap.fold_round(&self.space, sets());
-        self.for_joins.fold_round(&self.space, sets());
+        for worker in &mut self.workers {
+            worker.fold_round(&self.space, sets());
+        }
         self.outline.fold_round(sets());
     }
 
@@ -92,27 +102,33 @@ impl Growth {
             queries.push(&self.draw());
         }
         let some = self.below(nodes as usize) as u32;
-        let (space, roadmap) = (&self.space, &self.roadmap);
-        let (configs, components) = (roadmap.configs(), roadmap.components());
-        for q in queries.iter() {
-            let expected = k_nearest(space, configs, 0..nodes, q, k);
-            assert_eq!(roadmap.k_nearest(space, q, k), expected);
+        for roadmap in [&self.roadmap, &self.workers[0], &self.workers[1]] {
+            check(&self.space, roadmap, &queries, some, k);
+        }
+    }
+}
 
-            let mut best = Best::new(k);
-            for component in components.iter() {
-                let distance = space.distance(q, &component.centre);
-                best.offer(Neighbor { distance, id: component.name });
-            }
-            assert_eq!(components.nearest(space, q, k), best.into_items());
+fn check(space: &Space, roadmap: &Roadmap, queries: &Configs, some: u32, k: usize) {
+    let nodes = roadmap.components().nodes();
+    let (configs, components) = (roadmap.configs(), roadmap.components());
+    for q in queries.iter() {
+        let expected = k_nearest(space, configs, 0..nodes, q, k);
+        assert_eq!(roadmap.k_nearest(space, q, k), expected);
+
+        let mut best = Best::new(k);
+        for component in components.iter() {
+            let distance = space.distance(q, &component.centre);
+            best.offer(Neighbor { distance, id: component.name });
         }
-        let largest = components.iter().max_by_key(|component| component.members.len());
-        for component in [components.of_node(some), components.of_node(0), largest.expect("one")] {
-            let ids: Vec<u32> = (0..queries.len() as u32).collect();
-            let expected: Vec<NearPair> =
-                closest_pairs(space, (&queries, &ids), (configs, &component.members), k);
-            let found = components.closest_pairs(space, (&queries, &ids), (configs, component), k);
-            assert_eq!(found, expected);
-        }
+        assert_eq!(components.nearest(space, q, k), best.into_items());
+    }
+    let largest = components.iter().max_by_key(|component| component.members.len());
+    for component in [components.of_node(some), components.of_node(0), largest.expect("one")] {
+        let ids: Vec<u32> = (0..queries.len() as u32).collect();
+        let expected: Vec<NearPair> =
+            closest_pairs(space, (queries, &ids), (configs, &component.members), k);
+        let found = components.closest_pairs(space, (queries, &ids), (configs, component), k);
+        assert_eq!(found, expected);
     }
 }
 
@@ -144,7 +160,8 @@ fn folding_round_by_round_and_finding_the_components_of_the_whole_agree() {
     let mut growth = Growth::new(Motion::Rigid3d, 0);
     (0..9).for_each(|_| growth.fold_round(2, 40));
     let whole = &growth.roadmap;
-    let again = Components::of(&growth.space, whole.configs(), whole.edges());
+    let edges: Vec<Edge> = whole.edges().iter().collect();
+    let again = Components::of(&growth.space, whole.configs(), &edges);
     for node in 0..again.nodes() {
         let (a, b) = (whole.components().of_node(node), again.of_node(node));
         assert_eq!((a.name, a.members.len()), (b.name, b.members.len()));
@@ -156,9 +173,7 @@ fn folding_round_by_round_and_finding_the_components_of_the_whole_agree() {
 
 #[test]
 fn those_who_keep_less_come_to_the_same() {
-    let numbers = |tally: &Tally| {
-        (tally.sets(), tally.nodes(), tally.edges(), tally.components(), tally.digest())
-    };
+    let numbers = |tally: &Tally| (tally.sets(), tally.nodes(), tally.edges(), tally.components());
     let mut growth = Growth::new(Motion::Rigid2d, 1);
     for round in 1..9 {
         growth.fold_round(2, 40);
@@ -168,11 +183,33 @@ fn those_who_keep_less_come_to_the_same() {
         assert_eq!(whole.edges(), growth.roadmap.edges().len());
         assert_eq!(whole.components(), growth.roadmap.components().count());
         assert_eq!(numbers(growth.outline.tally()), numbers(whole));
-        assert_eq!(numbers(growth.for_joins.tally()), numbers(whole));
+        assert_eq!(growth.outline.tally().digest(), whole.digest());
+        for worker in &growth.workers {
+            assert_eq!(numbers(worker.tally()), numbers(whole));
+            assert_eq!(worker.configs(), growth.roadmap.configs());
+        }
     }
-    assert!(growth.for_joins.edges().is_empty());
-    std::mem::swap(&mut growth.roadmap, &mut growth.for_joins);
+    assert!(growth.workers[0].edges().is_empty());
+    let [ours, theirs] = [&growth.roadmap, &growth.workers[1]].map(Roadmap::edges);
+    assert!(ours.iter().eq(theirs.iter()));
+    assert!((0..ours.len()).all(|index| ours.get(index) == theirs.get(index)));
+    assert_eq!(wire::encode(growth.roadmap.configs()), wire::encode(growth.workers[0].configs()));
     growth.check();
+}
+
+#[test]
+fn what_is_whole_is_made_by_one_worker_and_found_by_the_other() {
+    let shelf = Arc::new(Flaky::new(0.0, 0));
+    let mut growth = Growth::with_shelf(Motion::Rigid3d, 2, shelf.clone());
+    (0..9).for_each(|_| growth.fold_round(2, 40));
+    // Only who searches often builds an index.
+    (0..2).for_each(|_| growth.check());
+    let edges = growth.roadmap.edges().len();
+    let whole = |name: &BlockName| !matches!(name, BlockName::Segment { .. });
+    // Blocks of 32 configurations and of 32 edges.
+    assert_eq!(shelf.names().into_iter().filter(whole).count(), 720 / 32 + edges / 32);
+    // 720 = 512 + 128 + 64 + 16, made by whichever searched first.
+    assert_eq!(shelf.made(), 720 / 32 + edges / 32 + 3);
 }
 
 #[test]

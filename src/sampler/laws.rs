@@ -293,7 +293,7 @@ fn grid_sets_together_hit_every_cell_equally() {
         }
         assert_eq!(cells, [[1; 12]; 12]);
     }
-    let places = configs.values().iter().map(|value| value - value.floor());
+    let places = configs.values().map(|value| value - value.floor());
     follows(places.collect(), |place| place);
 }
 

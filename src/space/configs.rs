@@ -1,26 +1,35 @@
-use bincode::{Decode, Encode};
+use crate::shelf::{self, Block, BlockName, Shelf};
+use bincode::de::{Decode, Decoder};
+use bincode::enc::{Encode, Encoder};
+use bincode::error::{DecodeError, EncodeError};
 
-/// Configurations in one flat block, `dofs` values each.
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+/// Number of configurations in a block that is kept on a shelf; a power of two.
+const BLOCK: usize = if cfg!(test) { 1 << 5 } else { 1 << 10 };
+
+/// Configurations in a row, `dofs` values each.
+#[derive(Clone, Debug)]
 pub struct Configs {
     dofs: u32,
+    /// The first ones, as far as they are on a shelf, [`BLOCK`] in each.
+    blocks: Vec<Block>,
+    /// Values of the others.
     values: Vec<f64>,
 }
 
 impl Configs {
     /// No configurations of `dofs` values.
     pub fn new(dofs: usize) -> Configs {
-        Configs { dofs: dofs as u32, values: Vec::new() }
+        Configs { dofs: dofs as u32, blocks: Vec::new(), values: Vec::new() }
     }
 
     /// Number of configurations.
     pub fn len(&self) -> usize {
-        self.values.len() / (self.dofs as usize).max(1)
+        self.blocks.len() * BLOCK + self.values.len() / self.dofs().max(1)
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.values.is_empty()
+        self.blocks.is_empty() && self.values.is_empty()
     }
 
     /// Number of values of a configuration.
@@ -29,8 +38,14 @@ impl Configs {
     }
 
     /// Configuration `index`.
+    #[inline]
     pub fn get(&self, index: usize) -> &[f64] {
-        &self.values[index * self.dofs()..(index + 1) * self.dofs()]
+        let (dofs, block) = (self.dofs(), index / BLOCK);
+        let (values, index) = match self.blocks.get(block) {
+            None => (&self.values[..], index - self.blocks.len() * BLOCK),
+            Some(block) => (bytemuck::cast_slice(block), index % BLOCK),
+        };
+        &values[index * dofs..(index + 1) * dofs]
     }
 
     /// Appends one configuration.
@@ -42,26 +57,71 @@ impl Configs {
         self.values.extend_from_slice(q);
     }
 
-    /// Appends all of another block of the same `dofs`.
+    /// Appends all of another row of the same `dofs`.
     pub fn extend(&mut self, other: &Configs) {
         assert_eq!(other.dofs, self.dofs);
-        self.values.extend_from_slice(&other.values);
+        other.slices().for_each(|values| self.values.extend_from_slice(values));
     }
 
     /// All configurations in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[f64]> {
-        self.values.chunks_exact(self.dofs().max(1))
+        (0..self.len()).map(|index| self.get(index))
     }
 
     /// All values, configuration after configuration.
-    pub fn values(&self) -> &[f64] {
-        &self.values
+    pub fn values(&self) -> impl Iterator<Item = f64> {
+        self.slices().flatten().copied()
     }
 
-    /// Whether the block is whole and holds finite numbers only: what decoded bytes must be.
+    fn slices(&self) -> impl Iterator<Item = &[f64]> {
+        let blocks = self.blocks.iter().map(|block| bytemuck::cast_slice(block));
+        blocks.chain(std::iter::once(&self.values[..]))
+    }
+
+    /// Whether the row is whole and holds finite numbers only: what decoded bytes must be.
     pub fn is_sound(&self, dofs: usize) -> bool {
         self.dofs() == dofs
             && self.values.len().is_multiple_of(dofs.max(1))
-            && self.values.iter().all(|value| value.is_finite())
+            && self.values().all(f64::is_finite)
+    }
+
+    /// Puts on the shelf what fills whole blocks.
+    pub(crate) fn settle(&mut self, shelf: &dyn Shelf) {
+        let length = BLOCK * self.dofs();
+        let mut rest = &self.values[..];
+        while let Some((values, others)) = rest.split_at_checked(length.max(1)) {
+            let name = BlockName::Configs(self.blocks.len() as u32);
+            let bytes = bytemuck::cast_slice(values);
+            let mut fill = |block: &mut [u8]| block.copy_from_slice(bytes);
+            self.blocks.push(shelf::kept(shelf, name, bytes.len(), &mut fill));
+            rest = others;
+        }
+        let settled = self.values.len() - rest.len();
+        self.values.drain(..settled);
     }
 }
+
+/// Two rows are equal where their configurations are, wherever they are kept.
+impl PartialEq for Configs {
+    fn eq(&self, other: &Configs) -> bool {
+        self.dofs == other.dofs && self.len() == other.len() && self.values().eq(other.values())
+    }
+}
+
+/// As the number of values of a configuration, then all values.
+impl Encode for Configs {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        self.dofs.encode(encoder)?;
+        let settled = self.blocks.len() * BLOCK * self.dofs();
+        ((settled + self.values.len()) as u64).encode(encoder)?;
+        self.values().try_for_each(|value| value.encode(encoder))
+    }
+}
+
+impl<Context> Decode<Context> for Configs {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Configs, DecodeError> {
+        let dofs = u32::decode(decoder)?;
+        Ok(Configs { dofs, blocks: Vec::new(), values: Vec::decode(decoder)? })
+    }
+}
+bincode::impl_borrow_decode!(Configs);

@@ -1,4 +1,4 @@
-use crate::channel::{CHUNK_BYTES, ChannelError, Link, StoreReader, WorkerId};
+use crate::channel::{CHUNK_BYTES, ChannelError, Link, SharedShelf, StoreReader, WorkerId};
 use crate::faults::{Faults, Slip};
 use crate::message::{Bytes, Done, Entry, FromWorker, PROTOCOL, ToWorker};
 use roadmill::img::{Job, Outcome, Replica, Setup, Task};
@@ -74,6 +74,7 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
     let faults = Faults::read()?;
     let mut link = Link::open(&arguments.directory, arguments.worker)?;
     let store = StoreReader::open(&arguments.directory);
+    let workers_max = link.workers_max();
     // An orphan that its parent's death did not end ends itself here.
     let parent = arguments.coordinator;
     let mut parent_lives = || {
@@ -88,7 +89,8 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
         ToWorker::Work { .. } => return Err(WorkerError::Turn("work")),
     };
     let setup = Setup::new(*problem);
-    let mut replica = Replica::of_worker(&setup);
+    let shelf = SharedShelf::open(&arguments.directory, workers_max);
+    let mut replica = Replica::of_worker(&setup, Arc::new(shelf));
     let mut scratch = Scratch::new();
     let ready = FromWorker::Ready { canary: canary(&setup) };
     link.send(&wire::encode(&ready), &mut parent_lives)?;

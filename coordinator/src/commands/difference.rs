@@ -11,7 +11,7 @@ use roadmill::wire;
 pub fn of_increments(space: &Space, left: &Increment, right: &Increment) -> Option<String> {
     let (ours, theirs) = (left.configs.len(), right.configs.len());
     let dofs = space.len().max(1);
-    let values = left.configs.values().iter().zip(right.configs.values());
+    let values = left.configs.values().zip(right.configs.values());
     let differing = values.enumerate().find(|(_, (a, b))| a.to_bits() != b.to_bits());
     if let Some((index, (a, b))) = differing {
         let name = &space.dofs()[index % dofs].name;

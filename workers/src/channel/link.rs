@@ -28,7 +28,7 @@ pub struct Link {
     /// the message whose reply is awaited
     sent: Option<Sent>,
     port: WorkerPort,
-    _service: RunService,
+    service: RunService,
     _node: RunNode,
     bell: Bell,
     hub_socket: PathBuf,
@@ -65,7 +65,7 @@ impl Link {
         Ok(Link {
             sent: None,
             port,
-            _service: service,
+            service,
             _node: node,
             bell,
             hub_socket: hub_socket(directory),
@@ -74,6 +74,11 @@ impl Link {
             sequence: 0,
             is_spoiled: false,
         })
+    }
+
+    /// How many workers the hub was made for.
+    pub fn workers_max(&self) -> usize {
+        service::workers_max(&self.service)
     }
 
     /// Sends `message` and sleeps until the whole reply is there.

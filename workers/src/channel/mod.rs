@@ -22,7 +22,8 @@
 //! ```
 //!
 //! What all workers are to know, the hub writes once into a file in shared memory (the [`Store`]), as long
-//! as there is room; messages only say where it stands.
+//! as there is room; messages only say where it stands. What the workers make of it and all of them have, the
+//! first that needs it writes for the others (the [`SharedShelf`]).
 //!
 //! Every chunk has a header with a checksum; a chunk that is malformed or out of turn
 //! ends the conversation with that worker, and only with that worker.
@@ -43,6 +44,7 @@ mod run_folder;
 mod run_lock;
 mod service;
 mod shared_files;
+mod shelf;
 mod store;
 
 use std::fmt;
@@ -53,6 +55,7 @@ pub use error::ChannelError;
 pub use header::Fault;
 pub use hub::{Delivery, Hub, Received};
 pub use link::Link;
+pub use shelf::SharedShelf;
 pub use store::{Store, StoreReader};
 
 /// The longest message in bytes, either way.

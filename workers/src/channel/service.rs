@@ -47,6 +47,11 @@ fn clients_max(workers_max: usize) -> usize {
     2 * workers_max + 8
 }
 
+/// How many workers a service was made for.
+pub(super) fn workers_max(service: &RunService) -> usize {
+    service.static_config().max_clients().saturating_sub(8) / 2
+}
+
 /// Opens a node whose files are in `folder` and whose shared memory is named after it. Hub and
 /// links derive the same configuration from the folder, so that nothing has to be stored, no global
 /// configuration is touched, and several hubs can live in one process. `workers_max` matters to a hub.
