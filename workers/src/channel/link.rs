@@ -51,6 +51,11 @@ struct Sent {
 type Answer = Response<ipc::Service, [u8], Words>;
 
 impl Link {
+    /// How many workers the hub was made for.
+    pub fn workers_max(&self) -> usize {
+        service::workers_max(&self.service)
+    }
+
     /// Joins the run in `directory` (see [`Hub::directory`](super::Hub::directory)) as `worker`.
     ///
     /// # Errors
@@ -74,11 +79,6 @@ impl Link {
             sequence: 0,
             is_spoiled: false,
         })
-    }
-
-    /// How many workers the hub was made for.
-    pub fn workers_max(&self) -> usize {
-        service::workers_max(&self.service)
     }
 
     /// Sends `message` and sleeps until the whole reply is there.
