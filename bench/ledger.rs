@@ -40,7 +40,7 @@ fn main() {
 }
 
 fn share_of_a_build(folder: &Path, seconds: u64) {
-    let problem = cage(folder, 4_000_000, u64::from(SET_NODES));
+    let problem = cage(folder, 4_000_000, SET_NODES);
     let out = folder.join("run");
     let done = Command::new(env!("CARGO_BIN_EXE_roadmill"))
         .arg("build")

@@ -1,12 +1,12 @@
 //! How well two workers use two cores, and what the coordinator costs.
 //!
 //! ```text
-//! cargo bench -p roadmill-coordinator --bench scaling [-- [NODES [SET]]]
-//! cargo bench -p roadmill-coordinator --bench scaling -- memory [judged] [NODES [SET]]
+//! cargo bench -p roadmill-coordinator --bench scaling [-- [--rounds N] [--sampler SAMPLER] [NODES [SET]] [SCENE]]
+//! cargo bench -p roadmill-coordinator --bench scaling -- memory [judged] [NODES [SET]] [SCENE]
 //! ```
 //!
-//! The cage without its query is built up to NODES nodes (default 300 000) in sets of SET (default 50),
-//! five times in turn: by one build with two workers, then by two independent builds with one worker
+//! The cage, or SCENE with SAMPLER (`'obprm = { step = 2 }'`), without its query is built up to NODES nodes
+//! (default 300 000) in sets of SET (default 50), N times (default 5) in turn: by one build with two workers, then by two independent builds with one worker
 //! each, side by side. The machine slows two busy cores down alike in both, so the ratio
 //!
 //! ```text
@@ -14,7 +14,9 @@
 //! ```
 //!
 //! is the share of the speed-up of two independent builds that two workers of one build reach. The last
-//! columns say what the coordinator took, of all CPU time and per set, and what for.
+//! columns say what the coordinator took, of all CPU time and per set, and what for. At the end: what a set
+//! costs the coordinator and what it costs the workers; the first over the sum of both is the coordinator's
+//! share, and how long a worker must be busy with a set of this size for that to be under 1 %.
 //!
 //! With *memory* it is built with 1, 2 and 4 workers. Per build: the most bytes that all processes held at
 //! once, and what that is per node beyond a build of a tenth. *Judged* by an evaluator, so that workers keep edges.
@@ -24,12 +26,10 @@ mod cage;
 #[path = "support/memory.rs"]
 mod memory;
 
-use cage::cage;
+use cage::{cage, endless};
 use memory::peak_bytes;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-
-const ROUNDS: usize = 5;
 
 /// Never satisfied.
 const JUDGED: &str = "[[evaluators]]\nall = [{ coverage = {} }, { not = { coverage = {} } }]\n";
@@ -45,27 +45,72 @@ struct Run {
     digest: String,
 }
 
+/// What is to be built.
+struct Arguments {
+    rounds: usize,
+    memory: bool,
+    is_judged: bool,
+    nodes: u64,
+    set: u32,
+    sampler: Option<String>,
+    scene: Option<String>,
+}
+
+impl Arguments {
+    fn read() -> Arguments {
+        let (mut rounds, mut memory, mut is_judged) = (5, false, false);
+        let (mut sampler, mut scene) = (None, None);
+        let mut numbers = Vec::new();
+        let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
+        while let Some(word) = words.next() {
+            let mut next = || words.next().unwrap_or_else(|| panic!("something after {word}"));
+            match (word.as_str(), word.parse()) {
+                ("--rounds", _) => rounds = next().parse().expect("a number of rounds"),
+                ("--sampler", _) => sampler = Some(next()),
+                ("memory", _) => memory = true,
+                ("judged", _) => is_judged = true,
+                (_, Ok(number)) => numbers.push(number),
+                _ => scene = Some(word),
+            }
+        }
+        let nodes = numbers.first().copied().unwrap_or(300_000);
+        let set = numbers.get(1).map_or(50, |set| *set as u32);
+        Arguments { rounds, memory, is_judged, nodes, set, sampler, scene }
+    }
+
+    /// The problem with so many nodes.
+    fn problem(&self, folder: &Path, nodes: u64) -> PathBuf {
+        match &self.scene {
+            None if self.sampler.is_none() => cage(folder, nodes, self.set),
+            None => panic!("--sampler: a scene expected too"),
+            Some(scene) => {
+                let size = (nodes, self.set);
+                endless(folder, Path::new(scene), size, self.sampler.as_deref())
+            }
+        }
+    }
+}
+
 fn main() {
-    let mut numbers = std::env::args().skip(1).filter_map(|word| word.parse::<u64>().ok());
-    let nodes = numbers.next().unwrap_or(300_000);
-    let set = numbers.next().unwrap_or(50);
+    let arguments = Arguments::read();
     let folder = tempfile::tempdir().expect("a temporary folder");
-    if std::env::args().any(|word| word == "memory") {
-        hold(folder.path(), nodes, set);
+    if arguments.memory {
+        hold(folder.path(), &arguments);
     } else {
-        scale(folder.path(), nodes, set);
+        scale(folder.path(), &arguments);
     }
 }
 
 /// Memory by number of workers.
-fn hold(folder: &Path, nodes: u64, set: u64) {
+fn hold(folder: &Path, arguments: &Arguments) {
+    let nodes = arguments.nodes;
     println!("workers      bytes  per node  times one worker's");
     let mut one = None;
     for workers in [1, 2, 4] {
         let peak = |name: &str, nodes| {
             let out = folder.join(format!("{name}{workers}"));
-            let problem = cage(folder, nodes, set);
-            if std::env::args().any(|word| word == "judged") {
+            let problem = arguments.problem(folder, nodes);
+            if arguments.is_judged {
                 let mut text = std::fs::read_to_string(&problem).expect("it was written");
                 text.push_str(JUDGED);
                 std::fs::write(&problem, text).expect("a problem can be written");
@@ -82,13 +127,14 @@ fn hold(folder: &Path, nodes: u64, set: u64) {
     }
 }
 
-fn scale(folder: &Path, nodes: u64, set: u64) {
-    let problem = cage(folder, nodes, set);
+fn scale(folder: &Path, arguments: &Arguments) {
+    let problem = arguments.problem(folder, arguments.nodes);
     let (mut ratios, mut shares) = (Vec::new(), Vec::new());
+    let (mut costs, mut works) = (Vec::new(), Vec::new());
     println!(
         "round  2 workers  side by side (mean)  share of speed-up  CPU     coordinator; per set"
     );
-    for round in 0..ROUNDS {
+    for round in 0..arguments.rounds {
         let out = |name: &str| folder.join(format!("{name}{round}"));
         let both = finish(start(&problem, 2, &out("both")), &out("both"));
         let (left, right) = (start(&problem, 1, &out("left")), start(&problem, 1, &out("right")));
@@ -97,6 +143,8 @@ fn scale(folder: &Path, nodes: u64, set: u64) {
         let beside = (left.wall + right.wall) / 2.0;
         ratios.push(beside / (2.0 * both.wall));
         shares.push(100.0 * both.coordinator / both.cpu);
+        costs.push(both.coordinator * 1e6 / both.sets);
+        works.push((both.cpu - both.coordinator) * 1e6 / both.sets);
         println!(
             "{:5}  {:7.2} s  {beside:18.2} s  {:17.3}  {:5.1} s  {:.2} s = {:.2} %; {:.0} µs {}",
             round + 1,
@@ -105,12 +153,17 @@ fn scale(folder: &Path, nodes: u64, set: u64) {
             both.cpu,
             both.coordinator,
             shares[round],
-            both.coordinator * 1e6 / both.sets,
+            costs[round],
             both.parts,
         );
     }
     println!("median share of speed-up {:.3}", median(&mut ratios));
     println!("median coordinator share of CPU {:.2} %", median(&mut shares));
+    let (cost, work) = (median(&mut costs), median(&mut works));
+    println!(
+        "per set: {cost:.0} µs of the coordinator, {work:.0} µs of workers; under 1 % from {:.0} µs on",
+        99.0 * cost
+    );
 }
 
 fn median(values: &mut [f64]) -> f64 {

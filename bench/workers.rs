@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! cargo bench --bench workers -- [--nodes N] [--set NODES] [--slower F] [--shared] [--set-us U]
-//!     [--latency-us U] [--gigabytes G] [--svg FILE] SCENE
+//!     [--message-us U] [--latency-us U] [--gigabytes G] [--svg FILE] SCENE
 //! ```
 //!
 //! First the scene is grown up to N nodes (default 20 000), in sets of NODES (as the scene says), by doing
@@ -11,8 +11,9 @@
 //! that does not meet it. Then 256 sets are joined as one round, which gives what every earlier set of a
 //! round adds to a join. Then `img::Core` is driven by workers that take these times
 //! (`bench/support/virtual_pool.rs`), jobs being F times longer with `--slower`: proteins' energies take
-//! far longer than rigid bodies' tests. The coordinator works U microseconds per set (default 300, which
-//! is right for sets of 50 nodes), messages arrive after 45 µs and are copied at 0.8 GB/s
+//! far longer than rigid bodies' tests. The coordinator works U microseconds per set (default 60, which
+//! is right for sets of 50 nodes) and 40 per message, which brings jobs of up to 20 ms; messages arrive after
+//! 45 µs and are copied at 0.8 GB/s
 //! (`docs/performance.md` has these). As in the program, every worker keeps a copy of the roadmap and brings
 //! it up to date before each job; with `--shared` all read one.
 //!
@@ -41,7 +42,7 @@ use virtual_pool::{Costs, Machine, Spent, VirtualPool};
 const WORKERS: [usize; 7] = [1, 4, 16, 64, 256, 1024, 4096];
 const SETS_PER_ROUND: [u32; 5] = [5, 50, 500, 5000, 20_000];
 /// As `coordinator` has it.
-const LOOKAHEAD_PER_WORKER: u64 = 4;
+const LOOKAHEAD_PER_WORKER: u64 = 8;
 /// A coordinator that is at work for a larger share of the time is what workers wait for.
 const BUSY: f64 = 0.7;
 /// Sets joined as one round.
@@ -57,7 +58,8 @@ struct Arguments {
 
 fn arguments() -> Option<Arguments> {
     let machine = Machine {
-        set_seconds: 300e-6,
+        set_seconds: 60e-6,
+        message_seconds: 40e-6,
         latency: 45e-6,
         bytes_per_second: 0.8e9,
         slower: 1.0,
@@ -77,6 +79,7 @@ fn arguments() -> Option<Arguments> {
             "--slower" => machine.slower = number(),
             "--shared" => machine.shared = true,
             "--set-us" => machine.set_seconds = number() * 1e-6,
+            "--message-us" => machine.message_seconds = number() * 1e-6,
             "--latency-us" => machine.latency = number() * 1e-6,
             "--gigabytes" => machine.bytes_per_second = number() * 1e9,
             "--svg" => svg = words.next(),
@@ -112,7 +115,7 @@ fn main() {
     let set = machine.slower * (mean(&costs.generate) + mean(&costs.join))
         + 1e6 * (costs.take_in + costs.fold);
     println!(
-        "{machine:?}\na set's work is {set:.0} µs: the coordinator feeds {:.0} workers; every copy of the roadmap takes it {:.1} µs per set\n",
+        "{machine:?}\na set's work is {set:.0} µs: the coordinator feeds at most {:.0} workers; every copy of the roadmap takes it {:.1} µs per set\n",
         set / (1e6 * machine.set_seconds),
         1e6 * costs.bytes / machine.bytes_per_second,
     );

@@ -4,8 +4,9 @@
 //! bincode 2 have to be left.
 
 use bincode::config::{Configuration, Fixint, Limit, LittleEndian, NoLimit};
+use bincode::de::BorrowDecoder;
 use bincode::error::DecodeError;
-use bincode::{Decode, Encode};
+use bincode::{BorrowDecode, Decode, Encode};
 use std::cell::Cell;
 
 /// Bytes that are not what they should be.
@@ -25,12 +26,28 @@ pub fn encode<T: Encode>(value: &T) -> Vec<u8> {
     }
 }
 
+/// Appends the bytes of a value to others.
+pub fn encode_to<T: Encode>(bytes: &mut Vec<u8>, value: &T) {
+    match bincode::encode_into_std_write(value, bytes, format()) {
+        Ok(_) => {}
+        Err(error) => unreachable!("encoding to memory cannot fail: {error}"),
+    }
+}
+
 /// The value that all of `bytes` stand for.
 ///
 /// # Errors
 /// When the bytes are cut off, too many, or no such value. A hostile length inside them makes it
 /// allocate at most 1 MiB or 64 times their own length, whichever is larger.
 pub fn decode<T: Decode<()>>(bytes: &[u8]) -> Result<T, WireError> {
+    decode_borrowed::<Owned<T>>(bytes).map(|owned| owned.0)
+}
+
+/// The same for a value that borrows from the bytes.
+///
+/// # Errors
+/// As [`decode`].
+pub fn decode_borrowed<'a, T: BorrowDecode<'a, ()>>(bytes: &'a [u8]) -> Result<T, WireError> {
     // bincode's limit is a constant of the type, so the input's length picks one of a few. A value
     // takes at most four times its bytes in memory (padding).
     match bytes.len() {
@@ -39,6 +56,17 @@ pub fn decode<T: Decode<()>>(bytes: &[u8]) -> Result<T, WireError> {
         length if length <= 1 << 26 => decode_within::<T, { 1 << 28 }>(bytes),
         length if length <= 1 << 30 => decode_within::<T, { 1 << 32 }>(bytes),
         length => Err(WireError(format!("{length} bytes, at most 1 GiB expected"))),
+    }
+}
+
+/// A value decoded as one that borrows nothing.
+struct Owned<T>(T);
+
+impl<'a, T: Decode<()>> BorrowDecode<'a, ()> for Owned<T> {
+    fn borrow_decode<D: BorrowDecoder<'a, Context = ()>>(
+        decoder: &mut D,
+    ) -> Result<Owned<T>, DecodeError> {
+        T::decode(decoder).map(Owned)
     }
 }
 
@@ -80,13 +108,13 @@ macro_rules! decode_nested {
 
 pub(crate) use decode_nested;
 
-fn decode_within<T: Decode<()>, const MEMORY_BYTES_MAX: usize>(
-    bytes: &[u8],
+fn decode_within<'a, T: BorrowDecode<'a, ()>, const MEMORY_BYTES_MAX: usize>(
+    bytes: &'a [u8],
 ) -> Result<T, WireError> {
     let limited: Configuration<LittleEndian, Fixint, Limit<MEMORY_BYTES_MAX>> =
         format().with_limit::<MEMORY_BYTES_MAX>();
-    let (value, used) =
-        bincode::decode_from_slice(bytes, limited).map_err(|error| WireError(error.to_string()))?;
+    let (value, used) = bincode::borrow_decode_from_slice(bytes, limited)
+        .map_err(|error| WireError(error.to_string()))?;
     if used != bytes.len() {
         return Err(WireError(format!("{} bytes too many", bytes.len() - used)));
     }

@@ -4,7 +4,7 @@ use super::support::sample;
 use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
 use roadmill::img::{Job, Outcome, Replica, Setup};
-use roadmill::neighbor::{Candidates, Index, k_nearest};
+use roadmill::neighbor::{Candidates, Index, k_nearest, k_nearest_graph};
 use roadmill::problem::Problem;
 use roadmill::query::{Attachment, solve};
 use roadmill::roadmap::{Configs, Increment};
@@ -49,6 +49,7 @@ pub const KERNELS: &[Kernel] = &[
     kernel("index-build", "configuration", index_built),
     kernel("index-search", "query", index_searched),
     kernel("brute-search", "query", brute_searched),
+    kernel("neighbors-set", "milestone", neighbors_of_a_set),
     kernel("connect", "milestone", connected),
     kernel("join", "milestone", joined),
     kernel("fold", "milestone", folded),
@@ -176,6 +177,16 @@ fn brute_searched() -> Work {
             assert_eq!(found.len(), 10);
         }
         QUERIES
+    })
+}
+
+fn neighbors_of_a_set() -> Work {
+    let cx = problem("walls").context();
+    let configs = uniform(&cx, 5000);
+    Box::new(move || {
+        let pairs = k_nearest_graph(&cx.space, &configs, 10);
+        assert!(pairs.len() > 5 * configs.len());
+        configs.len()
     })
 }
 

@@ -9,6 +9,9 @@ use std::collections::{BTreeSet, BinaryHeap, VecDeque};
 use std::sync::Arc;
 use std::time::Duration;
 
+/// As much work as a message brings, as the coordinator has it.
+const HELD_SECONDS: f64 = 0.02;
+
 /// What was measured of a problem, in CPU seconds and bytes, all per set.
 #[derive(Clone, Debug, Default)]
 pub struct Costs {
@@ -27,8 +30,10 @@ pub struct Costs {
 /// What the machine takes.
 #[derive(Clone, Copy, Debug)]
 pub struct Machine {
-    /// The coordinator's CPU seconds per set, whatever the number of workers.
+    /// The coordinator's CPU seconds per set, whatever the number of workers, but for messages.
     pub set_seconds: f64,
+    /// Its CPU seconds per message and reply.
+    pub message_seconds: f64,
     /// From one end of a message to the other.
     pub latency: f64,
     pub bytes_per_second: f64,
@@ -66,9 +71,10 @@ pub struct VirtualPool<'a> {
     /// How much of the log each worker has.
     places: Vec<usize>,
     idle: BTreeSet<usize>,
-    waiting: BTreeSet<Job>,
-    /// Answers on their way: nanoseconds of arrival, worker and job.
-    answers: BinaryHeap<Reverse<(u64, usize, Job)>>,
+    /// By urgency.
+    waiting: [BTreeSet<Job>; 3],
+    /// Answers on their way: nanoseconds of arrival, worker and jobs.
+    answers: BinaryHeap<Reverse<(u64, usize, Vec<Job>)>>,
     heard: VecDeque<Job>,
     /// Bytes and CPU seconds of all entries up to each.
     log: Vec<[f64; 2]>,
@@ -93,7 +99,7 @@ impl<'a> VirtualPool<'a> {
             sets_max,
             places: vec![0; workers],
             idle: (0..workers).collect(),
-            waiting: BTreeSet::new(),
+            waiting: Default::default(),
             answers: BinaryHeap::new(),
             heard: VecDeque::new(),
             log: vec![[0.0; 2]],
@@ -132,11 +138,14 @@ impl<'a> VirtualPool<'a> {
         [checking * self.machine.slower + more, more]
     }
 
-    /// Gives jobs to the workers that wait for one, the most urgent first.
+    /// Gives jobs to the workers that have none: of one urgency up to [`HELD_SECONDS`] and an even share, as
+    /// the coordinator's roster does, which lets workers go on while their messages travel besides.
     fn feed(&mut self) {
-        while let (Some(worker), Some(job)) = (self.idle.first().copied(), self.waiting.first()) {
-            let job = *job;
-            self.waiting.remove(&job);
+        while let Some(worker) = self.idle.first().copied() {
+            let Some(urgency) = self.waiting.iter().position(|jobs| !jobs.is_empty()) else {
+                return;
+            };
+            let share = self.waiting[urgency].len().div_ceil(self.places.len());
             self.idle.remove(&worker);
             let (from, to) = (self.log[self.places[worker]], self.log[self.log.len() - 1]);
             self.places[worker] = self.log.len() - 1;
@@ -146,15 +155,25 @@ impl<'a> VirtualPool<'a> {
                 self.coordinate(bytes / self.machine.bytes_per_second);
                 copies = copying;
             }
-            let [seconds, more] = self.seconds_of(job);
-            self.spent.jobs += seconds;
-            if matches!(job, Job::Evaluate { .. }) {
-                self.spent.evaluations += seconds;
+            let (mut jobs, mut all) = (Vec::new(), 0.0);
+            while let Some(job) = self.waiting[urgency].first().copied() {
+                let [seconds, more] = self.seconds_of(job);
+                let is_full = jobs.len() == share || all + seconds > HELD_SECONDS;
+                if !jobs.is_empty() && is_full {
+                    break;
+                }
+                self.waiting[urgency].pop_first();
+                jobs.push(job);
+                all += seconds;
+                self.spent.rounds += more;
+                if matches!(job, Job::Evaluate { .. }) {
+                    self.spent.evaluations += seconds;
+                }
             }
-            self.spent.rounds += more;
+            self.spent.jobs += all;
             self.spent.copies += copies;
-            let arrival = self.spent.now + 2.0 * self.machine.latency + copies + seconds;
-            self.answers.push(Reverse(((arrival * 1e9) as u64, worker, job)));
+            let arrival = self.spent.now + 2.0 * self.machine.latency + copies + all;
+            self.answers.push(Reverse(((arrival * 1e9) as u64, worker, jobs)));
         }
     }
 
@@ -192,7 +211,12 @@ impl Executor for VirtualPool<'_> {
     }
 
     fn submit(&mut self, job: Job) {
-        self.waiting.insert(job);
+        let urgency = match job {
+            Job::Evaluate { .. } => 0,
+            Job::Join { .. } => 1,
+            Job::Generate { .. } => 2,
+        };
+        self.waiting[urgency].insert(job);
     }
 
     fn next(&mut self, _: Duration) -> Option<Event> {
@@ -206,13 +230,16 @@ impl Executor for VirtualPool<'_> {
             }
             let Reverse((arrival, ..)) = self.answers.peek()?;
             self.spent.now = self.spent.now.max(*arrival as f64 * 1e-9);
-            while let Some(Reverse((arrival, worker, job))) = self.answers.peek().copied()
-                && arrival as f64 * 1e-9 <= self.spent.now
+            while self
+                .answers
+                .peek()
+                .is_some_and(|Reverse((arrival, ..))| *arrival as f64 * 1e-9 <= self.spent.now)
             {
-                self.answers.pop();
-                self.coordinate(self.machine.set_seconds / 2.0);
+                let Some(Reverse((_, worker, jobs))) = self.answers.pop() else { break };
+                let sets = jobs.len() as f64 / 2.0;
+                self.coordinate(self.machine.message_seconds + sets * self.machine.set_seconds);
                 self.idle.insert(worker);
-                self.heard.push_back(job);
+                self.heard.extend(jobs);
             }
         }
     }

@@ -2,10 +2,9 @@ use super::{Within, default_planners};
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
-use crate::neighbor::{Candidates, Index, k_nearest};
+use crate::neighbor::k_nearest_graph;
 use crate::roadmap::{Configs, Edge};
 use crate::seed::Seed;
-use crate::space::Space;
 use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
@@ -42,7 +41,7 @@ impl Within for Nearest {
         configs: &Configs,
         scratch: &mut Scratch,
     ) -> Vec<Edge> {
-        let pairs = pairs(&cx.space, configs, self.neighbors as usize);
+        let pairs = k_nearest_graph(&cx.space, configs, self.neighbors as usize);
         let mut edges = Vec::new();
         for (low, high) in pairs {
             let ends = (configs.get(low as usize), configs.get(high as usize));
@@ -58,80 +57,5 @@ impl Within for Nearest {
             return Some(("neighbors", "0".to_owned(), "at least 1"));
         }
         local::complaint(&self.planners)
-    }
-}
-
-/// Fewer configurations than this are searched faster one by one.
-const INDEXED_MIN: u32 = 200;
-
-/// The pairs of each configuration and its `k` nearest, lower id first, in ascending order.
-fn pairs(space: &Space, configs: &Configs, k: usize) -> Vec<(u32, u32)> {
-    let count = configs.len() as u32;
-    let mut index = Index::new(space);
-    if count >= INDEXED_MIN {
-        index.extend(count, |node| configs.get(node as usize), |_| 0);
-    }
-    let mut pairs = Vec::with_capacity(configs.len() * k.min(configs.len()));
-    for (node, q) in (0..count).zip(configs.iter()) {
-        let near = if index.is_empty() {
-            let others = (0..count).filter(|other| *other != node);
-            k_nearest(space, configs, others, q, k)
-        } else {
-            index.k_nearest(space, &Others { configs, node }, count, q, k)
-        };
-        for near in near {
-            pairs.push((node.min(near.id), node.max(near.id)));
-        }
-    }
-    pairs.sort_unstable();
-    pairs.dedup();
-    pairs
-}
-
-/// All configurations but one.
-struct Others<'a> {
-    configs: &'a Configs,
-    node: u32,
-}
-
-impl Candidates for Others<'_> {
-    fn config(&self, id: u32) -> &[f64] {
-        self.configs.get(id as usize)
-    }
-
-    fn counts(&self, id: u32) -> bool {
-        id != self.node
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::seed::Purpose;
-    use crate::space::{Motion, rigid_space};
-    use std::collections::BTreeSet;
-
-    #[test]
-    fn pairs_are_the_union_of_the_directed_neighbours() {
-        let space = rigid_space(Motion::Rigid3d, [0.0; 3], [3.0; 3], 0.5);
-        let mut stream = Seed::of_set(1, "pairs", 0).stream(Purpose::Sampling);
-        let mut q = vec![0.0; space.len()];
-        for count in [0, 1, 2, 9, INDEXED_MIN - 1, INDEXED_MIN, 3 * INDEXED_MIN] {
-            let mut configs = Configs::new(space.len());
-            for i in 0..count {
-                if i % 5 != 4 {
-                    space.sample_uniform(&mut stream, &mut q);
-                }
-                configs.push(&q);
-            }
-            let mut expected = BTreeSet::new();
-            for node in 0..count {
-                let others = (0..count).filter(|other| *other != node);
-                for near in k_nearest(&space, &configs, others, configs.get(node as usize), 7) {
-                    expected.insert((node.min(near.id), node.max(near.id)));
-                }
-            }
-            assert_eq!(pairs(&space, &configs, 7), Vec::from_iter(expected));
-        }
     }
 }

@@ -106,6 +106,11 @@ pub fn connect(
     scratch: &mut Scratch,
 ) -> Option<(Planner, f64)> {
     planners.iter().find_map(|planner| {
+        if *planner == Planner::StraightLine {
+            // It has no turns, so that nothing needs to be written down.
+            let free = cx.validity.motion(a, b, refinement, scratch);
+            return free.then(|| (*planner, cx.space.distance(a, b)));
+        }
         let motion = planner.motion(cx, a, b);
         let mut length = 0.0;
         for i in 1..motion.len() {

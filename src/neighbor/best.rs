@@ -1,5 +1,7 @@
 //! The few best of many.
 
+use std::cmp::Ordering;
+
 /// A neighbour of some configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neighbor {
@@ -26,6 +28,10 @@ pub trait Ranked {
     fn distance(&self) -> f64;
     /// The ids, in the order in which they break ties.
     fn ids(&self) -> (u32, u32);
+    /// Which of two is nearer.
+    fn rank(&self, other: &Self) -> Ordering {
+        self.distance().total_cmp(&other.distance()).then(self.ids().cmp(&other.ids()))
+    }
 }
 
 impl Ranked for Neighbor {
@@ -70,10 +76,7 @@ impl<T: Ranked> Best<T> {
 
     /// Takes an item in, if it is among the nearest so far.
     pub fn offer(&mut self, item: T) {
-        let before = |known: &T| {
-            known.distance().total_cmp(&item.distance()).then(known.ids().cmp(&item.ids())).is_lt()
-        };
-        let place = self.items.partition_point(before);
+        let place = self.items.partition_point(|known| known.rank(&item).is_lt());
         if place < self.most {
             self.items.truncate(self.most - 1);
             self.items.insert(place, item);

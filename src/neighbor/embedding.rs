@@ -1,10 +1,14 @@
 //! Configurations as points whose Euclidean distance never exceeds the space's by more than rounding.
 
+use super::lanes::{Lanes, Measured};
 use crate::math;
 use crate::space::{PartKind, Space};
 
 /// So many points or boxes are measured together; along each axis their coordinates lie side by side.
 pub(super) const FAN: usize = 16;
+
+/// Squares of distances below this are not told apart: single precision ends near 10⁻³⁸.
+const TINY: f64 = 1e-36;
 
 /// The map from configurations to points of single precision.
 ///
@@ -12,14 +16,66 @@ pub(super) const FAN: usize = 16;
 /// coordinate that wraps; a rotation is four, its quaternion times two, and stands for the point and
 /// its opposite. All are multiplied by the part's weight; parts without weight are left out.
 ///
-/// The chord between two quaternions on one side is at most the angle between them, so in exact
-/// arithmetic the distance of two points is at most that of their configurations. [`Embedding::margin`]
-/// covers what rounding adds.
+/// [`Bounds`] says how the distances of points and of their configurations bound one another.
 #[derive(Clone, Debug)]
 pub(super) struct Embedding {
     lines: Vec<Line>,
     circles: Vec<Circle>,
     rotations: Vec<Rotation>,
+    /// How wrong the scalar products of quaternions make squares, see [`Bounds`].
+    products: f64,
+    lanes: Lanes,
+}
+
+/// How the distances of points and of their configurations, both as they are computed, bound one another.
+///
+/// *Exactly.* The chord between two quaternions on one side is at most the angle between them, so that
+/// the distance of points is at most that of their configurations. Of a rotation by θ with weight w it
+/// is c² = 8 w² x, x = 1 − cos(θ/2), and (wθ)² = c² (1 + x/6 + …), a series without negative terms
+/// that comes to π²/8 at x = 1, so that (wθ)² ≤ c² (1 + (π²/8 − 1) x). As x is at most 1, and at most the
+/// square of the whole distance of points over 8 w² for the least w, this bounds distances from above.
+///
+/// *Margin.* A coordinate of single precision is wrong by at most 2⁻²⁴ of itself, so a point by 2⁻²⁴ of its
+/// length; where angles wrap the turn is wrong by as much, and is at most twice as long as the two
+/// points together. The scalar product of two quaternions in double precision is wrong by less than 2⁻⁴⁹,
+/// their own lengths included; where they nearly agree the arc cosine makes 2⁻²³ of that, a 2⁻²⁵th of what
+/// they add to the lengths. Together that is under 2⁻²² of the lengths; twice as much is allowed. A
+/// sum of lengths a + b has at most the square a² (1 + s) + b² (1 + 1/s), whatever s.
+///
+/// *Squares.* Of a rotation with scale s the square is computed as 2s² − 2|p·q|. The scalar product is wrong
+/// by 2⁻²⁴ s² for each of two roundings to single precision, one of the products and three of the sums,
+/// the rest by a rounding each of 2s²: together under 2⁻²⁰ s², of which twice as much is allowed.
+/// Differences, other squares and sums are wrong by 2⁻²⁴ of themselves, at most as often as there are axes and
+/// a few times more; four times as much is allowed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    /// By what factor squares may differ.
+    share: f64,
+    /// How much they may differ beside it for their margin, and for rounding.
+    margin: f64,
+    rounding: f64,
+    /// How much, relative to itself, a square grows with itself where chords become angles.
+    bend: f64,
+}
+
+/// The s of the square of a sum.
+const SPLIT: f64 = 1.0 / 1024.0;
+/// π²/8 − 1, rounded up.
+const BEND: f64 = 0.23371;
+
+impl Bounds {
+    /// Points whose computed square is beyond this belong to configurations whose distance has a larger
+    /// square than this.
+    pub(super) fn limit(&self, square: f64) -> f32 {
+        // Rounded up; squares beyond single precision are infinite and say nothing.
+        ((square * self.share + self.margin + self.rounding) as f32).next_up()
+    }
+
+    /// The largest square that the distance of configurations can have whose points have a computed one.
+    pub(super) fn most(&self, square: f32) -> f64 {
+        let chord = (f64::from(square).max(0.0) + self.rounding) * self.share + self.margin;
+        chord * (1.0 + (chord * self.bend).min(BEND))
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -40,12 +96,19 @@ struct Circle {
 struct Rotation {
     at: usize,
     scale: f64,
+    /// Twice the square of the scale.
+    whole: f32,
 }
 
 impl Embedding {
     pub(super) fn new(space: &Space) -> Embedding {
-        let mut embedding =
-            Embedding { lines: Vec::new(), circles: Vec::new(), rotations: Vec::new() };
+        let mut embedding = Embedding {
+            lines: Vec::new(),
+            circles: Vec::new(),
+            rotations: Vec::new(),
+            products: 0.0,
+            lanes: Lanes::widest(),
+        };
         for part in space.parts().iter().filter(|part| part.weight > 0.0) {
             let (at, weight) = (part.at, part.weight);
             match part.kind {
@@ -57,7 +120,10 @@ impl Embedding {
                     embedding.circles.push(Circle { at, weight, turn });
                 }
                 PartKind::Rotation => {
-                    embedding.rotations.push(Rotation { at, scale: 2.0 * weight });
+                    let scale = 2.0 * weight;
+                    let whole = 2.0 * scale * scale;
+                    embedding.rotations.push(Rotation { at, scale, whole: whole as f32 });
+                    embedding.products += whole * (1.0 / f64::from(1u32 << 20));
                 }
             }
         }
@@ -79,25 +145,35 @@ impl Embedding {
         }
     }
 
-    /// How much the distance of two points may exceed that of their configurations, both as they are
-    /// computed, given the sum of the points' lengths.
-    ///
-    /// A coordinate of single precision is wrong by at most 2⁻²⁴ of itself, so a point by 2⁻²⁴ of its
-    /// length; where angles wrap the turn is wrong by as much, and is at most twice as long as the two
-    /// points together. The scalar product of two quaternions is wrong by less than 2⁻⁴⁹, their own
-    /// lengths included; where they nearly agree the arc cosine makes 2⁻²³ of that, a 2⁻²⁵th of what
-    /// they add to the lengths. Together that is under 2⁻²² of the lengths; twice as much is allowed.
-    /// Differences, squares and sums are wrong by relative errors beside it: [`Embedding::slack`].
-    pub(super) fn margin(&self, lengths: f64) -> f64 {
-        lengths * (1.0 / f64::from(1u32 << 21))
+    /// What the distances of points say of those of configurations, given the largest sum of two
+    /// points' lengths.
+    pub(super) fn bounds(&self, lengths: f64) -> Bounds {
+        let margin = lengths * (1.0 / f64::from(1u32 << 21));
+        let slack = 1.0 + (self.axes() + 8) as f64 * (1.0 / f64::from(1u32 << 22));
+        let lightest =
+            self.rotations.iter().map(|rotation| rotation.scale).fold(f64::INFINITY, f64::min);
+        Bounds {
+            share: slack * (1.0 + SPLIT),
+            margin: margin * margin * (1.0 + 1.0 / SPLIT) * slack,
+            rounding: self.products + TINY,
+            bend: BEND / (2.0 * lightest * lightest),
+        }
     }
 
-    /// By what factor a computed square of a distance of points may exceed the true one.
-    pub(super) fn slack(&self) -> f64 {
-        1.0 + (self.axes() + 8) as f64 * (1.0 / f64::from(1u32 << 22))
+    /// Squares of the distances between a point and those of a leaf, and which are within a limit.
+    #[inline]
+    pub(super) fn near_points(&self, point: &[f32], leaf: &[f32], limit: f32) -> Measured {
+        self.lanes.points(self, point, leaf, limit)
+    }
+
+    /// The same for boxes: along each axis their least coordinates, then their largest.
+    #[inline]
+    pub(super) fn near_boxes(&self, point: &[f32], sides: &[f32], limit: f32) -> Measured {
+        self.lanes.boxes(self, point, sides, limit)
     }
 
     /// Squares of the distances between a point and those of a leaf.
+    #[inline(always)]
     pub(super) fn squares(&self, point: &[f32], leaf: &[f32]) -> [f32; FAN] {
         let mut squares = [0.0; FAN];
         let mut axes = point.iter().zip(leaf.as_chunks::<FAN>().0);
@@ -115,23 +191,22 @@ impl Embedding {
                 *square += difference * difference;
             }
         }
-        for _ in &self.rotations {
-            let (mut same, mut opposite) = ([0.0; FAN], [0.0; FAN]);
+        for rotation in &self.rotations {
+            let mut products = [0.0; FAN];
             for (at, values) in axes.by_ref().take(4) {
-                for ((same, opposite), value) in same.iter_mut().zip(&mut opposite).zip(values) {
-                    *same += (value - at) * (value - at);
-                    *opposite += (value + at) * (value + at);
+                for (product, value) in products.iter_mut().zip(values) {
+                    *product += value * at;
                 }
             }
-            for ((square, same), opposite) in squares.iter_mut().zip(same).zip(opposite) {
-                *square += if opposite < same { opposite } else { same };
+            for (square, product) in squares.iter_mut().zip(products) {
+                *square += rotation.whole - 2.0 * product.abs();
             }
         }
         squares
     }
 
-    /// Squares of the distances between a point and boxes: along each axis their least coordinates,
-    /// then their largest.
+    /// Squares of the distances between a point and boxes.
+    #[inline(always)]
     pub(super) fn box_squares(&self, point: &[f32], sides: &[f32]) -> [f32; FAN] {
         // 0 where something is not a number.
         fn outside(at: f32, least: f32, largest: f32) -> f32 {

@@ -1,10 +1,12 @@
 //! Nearest neighbours among configurations that only become more.
 
-use super::best::{Best, NearPair, Neighbor, Ranked};
+use super::best::{NearPair, Neighbor, Ranked};
 use super::build::Source;
 use super::embedding::Embedding;
 use super::places;
-use super::tree::{Place, Seeker, Tree};
+use super::seek::{Leaves, Search, Seeker};
+use super::shortlist::{Met, Shortlist};
+use super::tree::{Tree, length};
 use crate::shelf::{self, Shelf};
 use crate::space::{Configs, Space};
 use std::sync::Arc;
@@ -129,8 +131,7 @@ impl Index {
         q: &[f64],
         k: usize,
     ) -> Vec<Neighbor> {
-        let queries = std::iter::once((0, q));
-        self.search((space, candidates, end), queries, k, |_, near| near)
+        self.search((space, candidates, end), &[q], k, |_, near| near)
     }
 
     /// The at most `count` closest pairs of a configuration of `first` and a candidate, closest first,
@@ -143,60 +144,74 @@ impl Index {
         end: u32,
         count: usize,
     ) -> Vec<NearPair> {
-        let queries = first.1.iter().map(|id| (*id, first.0.get(*id as usize)));
-        let pair =
-            |first, near: Neighbor| NearPair { distance: near.distance, first, second: near.id };
-        self.search((space, candidates, end), queries, count, pair)
+        let queries: Vec<_> = first.1.iter().map(|id| first.0.get(*id as usize)).collect();
+        self.search((space, candidates, end), &queries, count, |query, near| NearPair {
+            distance: near.distance,
+            first: first.1[query as usize],
+            second: near.id,
+        })
     }
 
     /// The best of what all queries find. Short segments come first, for all queries: what they give
     /// bounds the search of the long ones.
-    fn search<'a, T: Ranked>(
+    fn search<T: Ranked>(
         &self,
         (space, candidates, end): (&Space, &impl Candidates, u32),
-        queries: impl Iterator<Item = (u32, &'a [f64])>,
+        queries: &[&[f64]],
         most: usize,
         item: impl Fn(u32, Neighbor) -> T,
     ) -> Vec<T> {
-        let mut best = Best::new(most);
-        let queries: Vec<_> =
-            queries.map(|(id, q)| (id, q, Place::new(&self.embedding, q))).collect();
-        for (first, q, _) in &queries {
-            let item = |near| item(*first, near);
-            let mut search = Search { space, candidates, q, best: &mut best, item };
-            (self.len()..end).for_each(|id| search.meet(id, false));
+        let most = most.min(queries.len().saturating_mul(end as usize));
+        if most == 0 {
+            return Vec::new();
         }
-        for segment in self.segments.iter().rev() {
-            for (first, q, place) in &queries {
-                let item = |near| item(*first, near);
-                let mut search = Search { space, candidates, q, best: &mut best, item };
-                segment.seek(&self.embedding, place, end, &mut search);
+        let axes = self.embedding.axes();
+        let mut points = Vec::with_capacity(queries.len() * axes);
+        queries.iter().for_each(|q| self.embedding.embed(q, &mut points));
+        let rest = (self.len()..end).filter(|id| candidates.counts(*id));
+        let rest = Leaves::new(&self.embedding, rest, |id| candidates.config(id));
+        let longest = points.chunks_exact(axes.max(1)).map(length).fold(0.0, f64::max);
+        let of_segments = self.segments.iter().map(|segment| segment.longest());
+        let bounds = self.embedding.bounds(longest + of_segments.fold(rest.longest, f64::max));
+        let item = |met: &Met| {
+            let distance = space.distance(queries[met.query as usize], candidates.config(met.id));
+            item(met.query, Neighbor { distance, id: candidates.name(met.id) })
+        };
+        let near = Shortlist::new(most, bounds);
+        let mut visitor = Visitor { candidates, query: 0, near, item };
+        let mut each = |visit: &mut dyn FnMut(&[f32], &mut Visitor<_, _>)| {
+            for query in 0..queries.len() {
+                visitor.query = query as u32;
+                visit(&points[query * axes..(query + 1) * axes], &mut visitor);
             }
+        };
+        each(&mut |point, visitor| rest.look(&self.embedding, point, visitor));
+        for tree in self.segments.iter().rev() {
+            each(&mut |point, visitor| {
+                Search::new(tree, &self.embedding, point, end, visitor).everywhere();
+            });
         }
-        best.into_items()
+        let Visitor { mut near, item, .. } = visitor;
+        near.nearest(item).into_iter().map(|(_, item)| item).collect()
     }
 }
 
-struct Search<'a, C, T, I> {
-    space: &'a Space,
+struct Visitor<'a, C, I> {
     candidates: &'a C,
-    q: &'a [f64],
-    best: &'a mut Best<T>,
+    query: u32,
+    near: Shortlist,
     item: I,
 }
 
-impl<C: Candidates, T: Ranked, I: Fn(Neighbor) -> T> Seeker for Search<'_, C, T, I> {
-    fn bound(&self) -> f64 {
-        self.best.bound()
+impl<C: Candidates, T: Ranked, I: Fn(&Met) -> T> Seeker for Visitor<'_, C, I> {
+    fn limit(&self) -> f32 {
+        self.near.limit()
     }
 
-    fn meet(&mut self, id: u32, counts: bool) {
-        if (counts || self.candidates.counts(id))
-            && let Some(distance) =
-                self.space.distance_unless_above(self.q, self.candidates.config(id), self.bound())
-        {
-            let id = self.candidates.name(id);
-            self.best.offer((self.item)(Neighbor { distance, id }));
+    fn meet(&mut self, id: u32, square: f32, counts: bool) {
+        if counts || self.candidates.counts(id) {
+            self.near.offer(self.query, id, square);
+            self.near.clear_up(&self.item);
         }
     }
 

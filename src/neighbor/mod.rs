@@ -6,14 +6,19 @@ mod brute;
 mod build;
 mod embedding;
 mod farthest;
+mod graph;
 mod index;
+mod lanes;
 mod layout;
 mod places;
+mod seek;
+mod shortlist;
 mod tree;
 
 pub use best::{Best, NearPair, Neighbor, Ranked};
 pub use brute::{closest_pairs, k_nearest};
 pub use farthest::{FarPair, farthest_pair};
+pub use graph::k_nearest_graph;
 pub use index::{Candidates, Index};
 
 #[cfg(test)]

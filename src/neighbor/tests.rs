@@ -1,9 +1,13 @@
+use super::embedding::{Embedding, FAN};
+use super::lanes::Lanes;
+use super::tree::length;
 use super::*;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::shelf::tests::Flaky;
 use crate::shelf::{BlockName, Shelf};
 use crate::space::{Configs, Dof, Motion, Part, PartKind, Space, rigid_space};
 use proptest::prelude::*;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Every kind of motion, and a linkage: a free base with sliding, limited and turning joints.
@@ -207,6 +211,132 @@ proptest! {
     }
 }
 
+/// The edges of the graph by definition.
+fn graph(space: &Space, configs: &Configs, k: usize) -> Vec<(u32, u32)> {
+    let count = configs.len() as u32;
+    let mut pairs = BTreeSet::new();
+    for id in 0..count {
+        let others = (0..count).filter(|other| *other != id);
+        for near in k_nearest(space, configs, others, configs.get(id as usize), k) {
+            pairs.insert((id.min(near.id), id.max(near.id)));
+        }
+    }
+    Vec::from_iter(pairs)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+    #[test]
+    fn the_graph_is_the_union_of_the_directed_neighbours(
+        ordinal in any::<u64>(),
+        count in 0usize..400,
+        k in 0usize..25,
+    ) {
+        let mut stream = Seed::of_set(1, "graph", ordinal).stream(Purpose::Sampling);
+        for space in spaces() {
+            let configs = configs(&space, &mut stream, count);
+            prop_assert_eq!(k_nearest_graph(&space, &configs, k), graph(&space, &configs, k));
+        }
+    }
+
+    #[test]
+    fn points_bound_configurations(ordinal in any::<u64>()) {
+        let mut stream = Seed::of_set(1, "points", ordinal).stream(Purpose::Sampling);
+        for space in spaces() {
+            let configs = configs(&space, &mut stream, 2 * FAN);
+            let embedding = Embedding::new(&space);
+            let (leaf, points) = leaf(&embedding, &configs);
+            let longest = points.iter().map(|point| length(point)).fold(0.0, f64::max);
+            let bounds = embedding.bounds(2.0 * longest);
+            for (q, point) in configs.iter().zip(&points) {
+                let squares = embedding.squares(point, &leaf);
+                for (square, other) in squares.into_iter().zip(configs.iter()) {
+                    let distance = space.distance(q, other);
+                    prop_assert!(distance * distance <= bounds.most(square));
+                    prop_assert!(square <= bounds.limit(distance * distance));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn all_lanes_measure_the_same_bits(ordinal in any::<u64>()) {
+        let mut stream = Seed::of_set(1, "lanes", ordinal).stream(Purpose::Sampling);
+        for space in spaces().into_iter().filter(|space| !space.is_empty()) {
+            let configs = configs(&space, &mut stream, 3 * FAN);
+            let embedding = Embedding::new(&space);
+            let (leaf, points) = leaf(&embedding, &configs);
+            // Any two points are the corners of a box.
+            let ends = |index: usize| [points[index].as_slice(), points[index + FAN].as_slice()];
+            let side = |index: usize, axis: usize, pick: fn(f32, f32) -> f32| {
+                let [a, b] = ends(index);
+                pick(a[axis], b[axis])
+            };
+            let mut sides = Vec::new();
+            for axis in 0..embedding.axes() {
+                sides.extend((0..FAN).map(|index| side(index, axis, f32::min)));
+                sides.extend((0..FAN).map(|index| side(index, axis, f32::max)));
+            }
+            for point in &points[2 * FAN..] {
+                let expected = [embedding.squares(point, &leaf), embedding.box_squares(point, &sides)];
+                for limit in expected[0].into_iter().chain([0.0, f32::INFINITY]) {
+                    let bits = |squares: &[f32; FAN]| {
+                        (0..FAN).filter(|at| squares[*at] <= limit).fold(0, |bits, at| bits | 1 << at)
+                    };
+                    for lanes in Lanes::all() {
+                        let found = [
+                            lanes.points(&embedding, point, &leaf, limit),
+                            lanes.boxes(&embedding, point, &sides, limit),
+                        ];
+                        for ((squares, within), expected) in found.iter().zip(&expected) {
+                            prop_assert_eq!(squares.map(f32::to_bits), expected.map(f32::to_bits));
+                            prop_assert_eq!(*within, bits(expected), "{:?}", lanes);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// All points, and the first of them as a leaf.
+fn leaf(embedding: &Embedding, configs: &Configs) -> (Vec<f32>, Vec<Vec<f32>>) {
+    let point = |q: &[f64]| {
+        let mut point = Vec::new();
+        embedding.embed(q, &mut point);
+        point
+    };
+    let points: Vec<_> = configs.iter().map(point).collect();
+    let axes = (0..embedding.axes()).flat_map(|axis| points[..FAN].iter().map(move |at| at[axis]));
+    (axes.collect(), points)
+}
+
+/// More than can be told apart by squares: a crowd of equals, and some that nearly are.
+#[test]
+fn equals_are_told_apart_by_their_ids() {
+    for space in spaces() {
+        let mut stream = Seed::of_set(1, "equals", 0).stream(Purpose::Sampling);
+        let mut q = vec![0.0; space.len()];
+        space.sample_uniform(&mut stream, &mut q);
+        let mut configs = Configs::new(space.len());
+        for i in 0..900 {
+            let mut near = q.clone();
+            if let Some(value) = near.first_mut().filter(|_| i % 3 == 0) {
+                *value += 1e-12 * stream.unit();
+            }
+            configs.push(&near);
+        }
+        assert_eq!(k_nearest_graph(&space, &configs, 3), graph(&space, &configs, 3));
+        let mut index = Index::new(&space);
+        for end in [500, 800] {
+            index.extend(end, |id| configs.get(id as usize), |_| 0);
+        }
+        let candidates = Labelled { configs: &configs, label_of: &[], wanted: None };
+        let expected = k_nearest(&space, &configs, 0..900, &q, 9);
+        assert_eq!(index.k_nearest(&space, &candidates, 900, &q, 9), expected);
+    }
+}
+
 /// What was united by the time of its maker keeps no label apart for who is not as far.
 #[test]
 fn labels_of_a_later_state_are_not_believed() {
@@ -260,6 +390,7 @@ fn lengths_of_any_size_keep_their_neighbours() {
         let configs = configs(&space, &mut stream, 300);
         let mut index = Index::new(&space);
         index.extend(300, |id| configs.get(id as usize), |_| 0);
+        assert_eq!(k_nearest_graph(&space, &configs, 5), graph(&space, &configs, 5), "{scale}");
         let candidates = Labelled { configs: &configs, label_of: &[], wanted: None };
         for q in configs.iter().step_by(7) {
             let expected = k_nearest(&space, &configs, 0..300, q, 10);

@@ -2,36 +2,56 @@ use super::{Edge, Increment};
 use crate::digest::Digest;
 use std::fmt;
 
+const EDGE_BYTES: usize = 4 + 4 + 1 + 8;
+const PIECE_BYTES: usize = 1 << 16;
+
 /// Hashes a roadmap's canonical bytes, set by set as they are folded.
 #[derive(Clone)]
-pub(super) struct RoadmapHasher(blake3::Hasher);
+pub(super) struct RoadmapHasher {
+    hasher: blake3::Hasher,
+    /// What comes next: long pieces are hashed several times faster than short ones.
+    bytes: Vec<u8>,
+}
 
 impl RoadmapHasher {
     pub(super) fn new(dofs: usize) -> RoadmapHasher {
         let mut hasher = blake3::Hasher::new_derive_key("roadmill 1 roadmap digest");
         hasher.update(&(dofs as u64).to_le_bytes());
-        RoadmapHasher(hasher)
+        RoadmapHasher { hasher, bytes: Vec::new() }
     }
 
     pub(super) fn add_set(&mut self, first: u32, increment: &Increment, joins: &[Edge]) {
-        let mut bytes = Vec::new();
+        let bytes = &mut self.bytes;
+        let edges = increment.edges.len() + joins.len();
+        bytes.reserve(
+            24 + 8 * increment.configs.len() * increment.configs.dofs() + EDGE_BYTES * edges,
+        );
         bytes.extend((increment.configs.len() as u64).to_le_bytes());
         for value in increment.configs.iter().flatten() {
             bytes.extend((value + 0.0).to_bits().to_le_bytes()); // −0 becomes 0
         }
         bytes.extend((increment.edges.len() as u64).to_le_bytes());
         for edge in &increment.edges {
-            push_edge(&mut bytes, &edge.shifted(first));
+            push_edge(bytes, &edge.shifted(first));
         }
         bytes.extend((joins.len() as u64).to_le_bytes());
         for edge in joins {
-            push_edge(&mut bytes, edge);
+            push_edge(bytes, edge);
         }
-        self.0.update(&bytes);
+        if bytes.len() > PIECE_BYTES {
+            self.take_in();
+        }
+    }
+
+    /// Hashes what was added; to be called before digests are asked for.
+    pub(super) fn take_in(&mut self) {
+        self.hasher.update(&self.bytes);
+        self.bytes.clear();
     }
 
     pub(super) fn digest(&self) -> Digest {
-        Digest(*self.0.finalize().as_bytes())
+        let mut hasher = self.hasher.clone();
+        Digest(*hasher.update(&self.bytes).finalize().as_bytes())
     }
 }
 

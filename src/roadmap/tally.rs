@@ -36,7 +36,11 @@ impl Tally {
         self.edges += increment.edges.len() + joins.len();
     }
 
+    /// Ends a fold.
     pub(super) fn set_components(&mut self, components: usize) {
+        if let Some(hasher) = &mut self.hasher {
+            hasher.take_in();
+        }
         self.components = components;
     }
 

@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn rubbish_is_no_message() {
-        assert!(wire::decode::<crate::message::FromWorker>(&RUBBISH).is_err());
+        assert!(wire::decode_borrowed::<crate::message::FromWorker>(&RUBBISH).is_err());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The worker process of roadmill: what it says to the coordinator, and its loop.
 //!
-//! A worker keeps a replica of the roadmap, does one job at a time and knows nothing of the
+//! A worker keeps a replica of the roadmap, does one job after the other and knows nothing of the
 //! others. It is the same executable as the coordinator.
 
 pub mod channel;

@@ -5,26 +5,30 @@
 //! Hello { protocol, build }  ───────────▶
 //!                            ◀───────────  Problem, or Refused
 //! Ready { canary }           ───────────▶
-//!                            ◀───────────  Work { entries, job }     as soon as there is a job
-//! Finished { job, outcome }  ───────────▶
-//!                            ◀───────────  Work …
+//!                            ◀───────────  Work { entries, jobs }     as soon as there is a job
+//! Done: one or several       ───────────▶
+//!     it goes on with        ◀───────────  Work …                     at once where it holds jobs yet
+//!     what it holds
 //! ```
 //!
-//! `Work` brings the worker's replica up to date before its job. Where the entries are too many
-//! for one message it comes without a job, and the worker asks for the rest with `More`.
+//! `Work` brings the worker's replica up to date and adds jobs to those that the worker holds; it does the
+//! most urgent first. It tells what it has done when few are left to begin, so that the reply comes
+//! while it works, and when its last urgent one is done, since others may wait for that. Where the entries
+//! are too many for one message they come without jobs; a worker that has neither job nor outcome says
+//! `Done` of nothing to get the rest.
 
-use bincode::{Decode, Encode};
+use bincode::{BorrowDecode, Decode, Encode};
 use roadmill::img::Job;
 use roadmill::problem::Problem;
 use roadmill::roadmap::Digest;
 use std::sync::Arc;
 
 /// Version of these messages.
-pub const PROTOCOL: u32 = 2;
+pub const PROTOCOL: u32 = 3;
 
 /// From a worker.
-#[derive(Debug, Clone, PartialEq, Encode, Decode)]
-pub enum FromWorker {
+#[derive(Debug, Clone, PartialEq, Encode, BorrowDecode)]
+pub enum FromWorker<'a> {
     /// The first message.
     Hello {
         /// [`PROTOCOL`] of the worker.
@@ -37,15 +41,20 @@ pub enum FromWorker {
         /// Digest of a small increment made for comparison: the same arithmetic gives the same.
         canary: Digest,
     },
-    /// The entries are in; there are more.
-    More,
-    /// A job is done.
-    Finished {
-        /// Which.
-        job: Job,
-        /// The bytes of its [`roadmill::img::Outcome`].
-        outcome: Vec<u8>,
-    },
+    /// Jobs that are done, in the order in which they were.
+    Done(Vec<Done<'a>>),
+}
+
+/// A job that is done.
+#[derive(Debug, Clone, PartialEq, Encode, BorrowDecode)]
+pub struct Done<'a> {
+    /// Which.
+    pub job: Job,
+    /// How long it took, in microseconds on the clock. It tells how many jobs make a message, never what
+    /// comes of them.
+    pub micros: u64,
+    /// The bytes of its [`roadmill::img::Outcome`].
+    pub outcome: &'a [u8],
 }
 
 /// To a worker.
@@ -55,12 +64,12 @@ pub enum ToWorker {
     Problem(Box<Problem>),
     /// The worker cannot take part; why.
     Refused(String),
-    /// Entries for the replica, then a job.
+    /// Entries for the replica, then jobs.
     Work {
         /// The next ones, in order.
         entries: Vec<Entry>,
-        /// The job, unless more entries are to come.
-        job: Option<Job>,
+        /// More jobs; none while more entries are to come.
+        jobs: Vec<Job>,
     },
 }
 
@@ -69,8 +78,8 @@ pub enum ToWorker {
 pub enum Entry {
     /// The increment at the next place: the bytes of the [`roadmill::img::Outcome`] that it is.
     Increment(Bytes),
-    /// The end of a round: the bytes of a `Vec<Vec<Edge>>`, for each of its sets the edges that join it.
-    Fold(Bytes),
+    /// The end of a round: for each of its sets the bytes of the [`roadmill::img::Outcome`] that joins it.
+    Fold(Vec<Bytes>),
 }
 
 /// Bytes for all workers.

@@ -1,21 +1,25 @@
-use crate::channel::{ChannelError, Link, SharedShelf, StoreReader, WorkerId};
+use crate::channel::{CHUNK_BYTES, ChannelError, Link, SharedShelf, StoreReader, WorkerId};
 use crate::faults::{Faults, Slip};
-use crate::message::{Bytes, Entry, FromWorker, PROTOCOL, ToWorker};
-use roadmill::img::{Outcome, Replica, Setup, Task};
+use crate::message::{Bytes, Done, Entry, FromWorker, PROTOCOL, ToWorker};
+use roadmill::img::{Job, Outcome, Replica, Setup, Task};
 use roadmill::problem::Problem;
-use roadmill::roadmap::{Digest, Edge};
+use roadmill::roadmap::Digest;
 use roadmill::validity::Scratch;
 use roadmill::wire::{self, WireError};
 use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::os::unix::fs::MetadataExt;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How often a worker shows that it lives.
 pub const HEARTBEAT: Duration = Duration::from_secs(1);
+
+/// A worker that has so many jobs left to begin tells what it has done, so that it need not wait for more.
+const HELD_WHEN_TELLING: usize = 2;
 
 /// What a worker is started with.
 #[derive(Debug, Clone)]
@@ -77,14 +81,9 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
         faults.at_wait();
         is_parent(parent)
     };
-    let mut call = |message: &[u8]| -> Result<ToWorker, WorkerError> {
-        let reply = link.call(message, &mut parent_lives)?;
-        Ok(wire::decode(&reply)?)
-    };
-
     let build = build_id().map_err(|error| WorkerError::System("cannot read itself", error))?;
     let hello = FromWorker::Hello { protocol: PROTOCOL, build };
-    let problem = match call(&wire::encode(&hello))? {
+    let problem = match wire::decode(&link.call(&wire::encode(&hello), &mut parent_lives)?)? {
         ToWorker::Problem(problem) => problem,
         ToWorker::Refused(reason) => return Err(WorkerError::Refused(reason)),
         ToWorker::Work { .. } => return Err(WorkerError::Turn("work")),
@@ -93,45 +92,109 @@ pub fn run(arguments: &WorkerArguments) -> Result<std::convert::Infallible, Work
     let shelf = SharedShelf::open(&arguments.directory, workers_max);
     let mut replica = Replica::of_worker(&setup, Arc::new(shelf));
     let mut scratch = Scratch::new();
-    let mut message = wire::encode(&FromWorker::Ready { canary: canary(&setup) });
+    let ready = FromWorker::Ready { canary: canary(&setup) };
+    link.send(&wire::encode(&ready), &mut parent_lives)?;
+    let mut held = BTreeSet::new();
+    let mut done: Vec<(Job, u64, Vec<u8>)> = Vec::new();
+    let mut slip = None;
+    let mut is_urgent = false;
     loop {
-        let (entries, job) = match call(&message)? {
-            ToWorker::Work { entries, job } => (entries, job),
-            ToWorker::Refused(reason) => return Err(WorkerError::Refused(reason)),
-            ToWorker::Problem(_) => return Err(WorkerError::Turn("a problem")),
+        let reply = match (link.is_awaiting(), held.is_empty()) {
+            (false, _) => None,
+            (true, true) => Some(link.receive(&mut parent_lives)?),
+            (true, false) => link.try_receive(&mut parent_lives)?,
         };
-        for entry in entries {
-            match entry {
-                Entry::Increment(outcome) => match wire::decode(&read(&store, &outcome)?)? {
-                    Outcome::Increment(Ok(made)) => replica.publish(&setup, Arc::new(made)),
-                    _ => return Err(WorkerError::Turn("another outcome as an increment")),
-                },
-                Entry::Fold(joins) => {
-                    let joins: Vec<Vec<Edge>> = wire::decode(&read(&store, &joins)?)?;
-                    replica.fold(&setup, joins.iter().map(|edges| &edges[..]));
+        if let Some(reply) = reply {
+            let (entries, jobs) = match wire::decode(&reply)? {
+                ToWorker::Work { entries, jobs } => (entries, jobs),
+                ToWorker::Refused(reason) => return Err(WorkerError::Refused(reason)),
+                ToWorker::Problem(_) => return Err(WorkerError::Turn("a problem")),
+            };
+            for entry in entries {
+                take_in(&entry, &setup, &store, &mut replica)?;
+            }
+            held.extend(jobs);
+        }
+        let bytes: usize = done.iter().map(|(.., outcome)| outcome.len()).sum();
+        // Where few jobs come at once, not after each of them.
+        let few = HELD_WHEN_TELLING;
+        let is_to_tell = match done.is_empty() {
+            true => held.is_empty(),
+            false => is_urgent || held.len() <= few.min(done.len()) || bytes > CHUNK_BYTES,
+        };
+        if is_to_tell && !link.is_awaiting() {
+            let told = done.iter().map(|(job, micros, outcome)| Done {
+                job: *job,
+                micros: *micros,
+                outcome,
+            });
+            let message = wire::encode(&FromWorker::Done(told.collect()));
+            done.clear();
+            match slip.take() {
+                None => link.send(&message, &mut parent_lives)?,
+                Some(Slip::Instead(rubbish)) => link.send(&rubbish, &mut parent_lives)?,
+                Some(Slip::Twice) => {
+                    link.call(&message, &mut parent_lives)?;
+                    link.send(&message, &mut parent_lives)?;
                 }
             }
         }
-        message = match job {
-            None => wire::encode(&FromWorker::More),
-            Some(job) => {
-                let task = replica.task(&setup, job).ok_or(WorkerError::Turn("a job"))?;
-                let slip = faults.at(job, &setup);
-                let outcome = wire::encode(&task.run(&setup, &mut scratch));
-                // Free the inputs before the next fold, which would copy a shared roadmap.
-                drop(task);
-                let answer = wire::encode(&FromWorker::Finished { job, outcome });
-                match slip {
-                    None => answer,
-                    Some(Slip::Instead(rubbish)) => rubbish,
-                    Some(Slip::Twice) => {
-                        call(&answer)?;
-                        answer
-                    }
+        if is_urgent {
+            // With nothing left to do it rings when it waits.
+            if !held.is_empty() {
+                link.nudge();
+            }
+            // Still to be told, where an earlier message has not been answered.
+            is_urgent = !done.is_empty();
+        }
+        if let Some(job) = held.pop_first() {
+            if held.is_empty() {
+                // The next jobs are to be there when this one is done.
+                link.nudge();
+            }
+            let begun = Instant::now();
+            let task = replica.task(&setup, job).ok_or(WorkerError::Turn("a job"))?;
+            slip = faults.at(job, &setup).or(slip);
+            let outcome = wire::encode(&task.run(&setup, &mut scratch));
+            // Its inputs are freed here, before the next fold, which would copy a shared roadmap.
+            drop(task);
+            let micros = begun.elapsed().as_micros() as u64;
+            done.push((job, micros, outcome));
+            is_urgent |= is_last_urgent(job, &held);
+        }
+    }
+}
+
+/// Whether `job` was the last urgent one: everybody waits for these, and nobody for sets generated ahead.
+fn is_last_urgent(job: Job, held: &BTreeSet<Job>) -> bool {
+    let is_urgent = |job: &Job| !matches!(job, Job::Generate { .. });
+    is_urgent(&job) && !held.first().is_some_and(is_urgent)
+}
+
+/// Brings a replica up to date.
+fn take_in(
+    entry: &Entry,
+    setup: &Setup,
+    store: &StoreReader,
+    replica: &mut Replica,
+) -> Result<(), WorkerError> {
+    match entry {
+        Entry::Increment(outcome) => match wire::decode(&read(store, outcome)?)? {
+            Outcome::Increment(Ok(made)) => replica.publish(setup, Arc::new(made)),
+            _ => return Err(WorkerError::Turn("another outcome as an increment")),
+        },
+        Entry::Fold(outcomes) => {
+            let mut joins = Vec::with_capacity(outcomes.len());
+            for outcome in outcomes {
+                match wire::decode(&read(store, outcome)?)? {
+                    Outcome::Joined(joined) => joins.push(joined.edges),
+                    _ => return Err(WorkerError::Turn("another outcome as a join")),
                 }
             }
-        };
+            replica.fold(setup, joins.iter().map(|edges| &edges[..]));
+        }
     }
+    Ok(())
 }
 
 /// The bytes of an entry, checked.

@@ -66,8 +66,34 @@ fn be_a_worker(role: &str) {
         "sizes" => sizes().map(&mut echo).iter().for_each(|()| ()),
         "many" => (0..300).for_each(|i| echo(1000 + i)),
         "long" => echo(500_000_000),
+        "ahead" => work_ahead(&mut link, worker),
         other => panic!("no such role: {other}"),
     }
+}
+
+/// Sends, works for a while, and only then looks for the reply: a ring that was lost between the looking and
+/// the sleeping would cost a second each time.
+fn work_ahead(link: &mut Link, worker: WorkerId) {
+    for i in 0..1000u32 {
+        let message =
+            pattern(if i % 50 == 0 { CHUNK_BYTES + 1 } else { 9 }, worker.0 + u64::from(i));
+        link.send(&message, &mut || true).expect("the hub is there");
+        assert!(link.is_awaiting());
+        if i % 3 == 0 {
+            link.nudge();
+        }
+        let mut reply = None;
+        for _ in 0..i % 40 {
+            reply = link.try_receive(&mut || true).expect("the hub answers");
+            if reply.is_some() {
+                break;
+            }
+            (0..100).for_each(|_| std::hint::spin_loop());
+        }
+        let reply = reply.map_or_else(|| link.receive(&mut || true), Ok);
+        assert!(reply.expect("the hub answers") == message, "message {i} came back altered");
+    }
+    assert!(link.try_receive(&mut || true).is_err(), "nothing was sent");
 }
 
 fn command(role: &str, directory: &Path, worker: u64) -> Command {
@@ -173,6 +199,14 @@ fn eight_workers_at_a_time() {
     let directory = hub.directory().to_path_buf();
     let roles = ["sizes", "sizes", "sizes", "many", "many", "many", "many", "many"];
     let mut children: Vec<Child> = (0..8).map(|i| start(roles[i], &directory, i as u64)).collect();
+    serve(&mut hub, echo, || have_ended(&mut children));
+    close(hub);
+}
+
+#[test]
+fn workers_that_go_on_while_their_messages_travel_are_woken_when_they_sleep() {
+    let mut hub = Hub::create(2).expect("the hub opens");
+    let mut children = [1, 2].map(|id| start("ahead", hub.directory(), id));
     serve(&mut hub, echo, || have_ended(&mut children));
     close(hub);
 }

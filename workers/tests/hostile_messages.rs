@@ -12,7 +12,7 @@ use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Edge};
 use roadmill::validity::{Asked, Scratch};
 use roadmill::wire;
-use roadmill_workers::message::{Bytes, Entry, FromWorker, PROTOCOL, ToWorker};
+use roadmill_workers::message::{Bytes, Done, Entry, FromWorker, PROTOCOL, ToWorker};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -30,33 +30,31 @@ fn messages() -> Vec<Vec<u8>> {
         |parts: Vec<Verdict>| Verdict { parts, ..Verdict::at_least(1.0, 1.0, Asked::default()) };
     let nested = verdict(vec![verdict(Vec::new()), verdict(vec![verdict(Vec::new())])]);
     let job = Job::Join { place: 3, strategy: 0, ordinal: 3 };
-    let (set, joins) = (wire::encode(&increment), wire::encode(&vec![vec![edge; 2]; 2]));
+    let outcomes = [increment, Outcome::Joined(joined), Outcome::Verdict(Box::new(nested))];
+    let (set, joins) = (wire::encode(&outcomes[0]), wire::encode(&outcomes[1]));
     let stored = Bytes::Stored { offset: 7, length: 9, digest: Digest([3; 32]) };
     let here = |bytes: &Vec<u8>| Bytes::Here(Arc::new(bytes.clone()));
-    let entries = [Entry::Increment(here(&set)), Entry::Fold(here(&joins)), Entry::Fold(stored)];
-    let outcomes = [increment, Outcome::Joined(joined), Outcome::Verdict(Box::new(nested))];
+    let entries = [Entry::Increment(here(&set)), Entry::Fold(vec![here(&joins), stored])];
+    let done = |outcome| Done { job, micros: 7, outcome };
     let mut messages = vec![
         wire::encode(&FromWorker::Hello { protocol: PROTOCOL, build: Digest([1; 32]) }),
         wire::encode(&FromWorker::Ready { canary: Digest([2; 32]) }),
-        wire::encode(&FromWorker::More),
-        wire::encode(&FromWorker::Finished { job, outcome: wire::encode(&outcomes[1]) }),
+        wire::encode(&FromWorker::Done(vec![done(&set), done(&joins)])),
         wire::encode(&ToWorker::Problem(Box::new(problem))),
         wire::encode(&ToWorker::Refused("no".to_owned())),
-        wire::encode(&ToWorker::Work { entries: entries.to_vec(), job: Some(job) }),
+        wire::encode(&ToWorker::Work { entries: entries.to_vec(), jobs: vec![job; 3] }),
     ];
     messages.extend(entries.iter().map(wire::encode));
-    messages.push(joins);
     messages.extend(outcomes.iter().map(wire::encode));
     messages
 }
 
 fn decode_as_everything(bytes: &[u8]) {
     // Errors or not: what counts is to come back.
-    let _ = wire::decode::<FromWorker>(bytes);
+    let _ = wire::decode_borrowed::<FromWorker>(bytes);
     let _ = wire::decode::<ToWorker>(bytes);
     let _ = wire::decode::<Entry>(bytes);
     let _ = wire::decode::<Outcome>(bytes);
-    let _ = wire::decode::<Vec<Vec<Edge>>>(bytes);
 }
 
 /// What `wire::decode` promises.

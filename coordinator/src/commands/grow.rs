@@ -25,8 +25,9 @@ use std::time::{Duration, Instant};
 
 /// The most worker processes or threads.
 const WORKERS_MAX: usize = 4096;
-/// Sets per worker that may be generated ahead of the current round.
-const LOOKAHEAD_PER_WORKER: u64 = 4;
+/// Sets per worker that may be generated ahead of the current round: some milliseconds of work for each, where
+/// sets are short, so that none waits for the end of a round.
+const LOOKAHEAD_PER_WORKER: u64 = 8;
 /// Looking at every process's memory takes a moment.
 const MEMORY_PAUSE: Duration = Duration::from_secs(1);
 

@@ -1,12 +1,13 @@
-use super::log::Log;
+use super::log::{Log, bytes_of};
 use super::process::{Executable, WorkerProcess};
+use super::roster::Roster;
 use crate::cpu::Meter;
 use crate::signals::Signals;
-use roadmill::img::{Cut, Event, Executor, Finished, Front, Job, Outcome, Round, Setup};
+use roadmill::img::{Cut, Event, Executor, Finished, Front, Job, Round, Setup};
 use roadmill::roadmap::{Digest, Increment, Outline, Tally};
 use roadmill::wire;
 use roadmill_workers::channel::{ChannelError, Delivery, Hub, Received, WorkerId};
-use roadmill_workers::message::{FromWorker, PROTOCOL, ToWorker};
+use roadmill_workers::message::{Done, FromWorker, PROTOCOL, ToWorker};
 use roadmill_workers::{build_id, canary};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -35,12 +36,8 @@ enum State {
     Starting,
     /// It sets the problem up.
     SettingUp,
-    /// It waits for a job.
-    Idle,
-    /// It takes in a part of the log and will ask for more.
-    CatchingUp,
-    /// It works.
-    Busy(Job),
+    /// It takes jobs.
+    Ready,
 }
 
 struct Worker {
@@ -50,8 +47,8 @@ struct Worker {
     place: usize,
 }
 
-/// Worker processes as an executor. Jobs are pulled: a worker that has finished one is given the
-/// most urgent there is. A worker that dies loses its job, which the build hands out again, and is
+/// Worker processes as an executor. Jobs are pulled: a worker that tells what it has done is given the
+/// most urgent there are. A worker that dies loses its jobs, which the build hands out again, and is
 /// replaced.
 pub struct Pool {
     setup: Arc<Setup>,
@@ -70,7 +67,9 @@ pub struct Pool {
     next_worker: u64,
     /// Deaths since a job was last finished.
     fruitless_deaths: usize,
-    waiting: BTreeSet<Job>,
+    roster: Roster,
+    /// Workers whose messages have not been answered.
+    asking: BTreeSet<WorkerId>,
     events: VecDeque<Event>,
     signals: Arc<Signals>,
     failed: bool,
@@ -116,7 +115,8 @@ impl Pool {
             workers: BTreeMap::new(),
             next_worker: 0,
             fruitless_deaths: 0,
-            waiting: BTreeSet::new(),
+            roster: Roster::default(),
+            asking: BTreeSet::new(),
             events: VecDeque::new(),
             signals,
             failed: false,
@@ -149,7 +149,7 @@ impl Pool {
         self.messages.seconds()
     }
 
-    /// CPU seconds that publishing and folding took, the roadmap's digest included.
+    /// CPU seconds that folding took, the roadmap's digest included.
     pub fn fold_seconds(&self) -> f64 {
         self.folds.seconds()
     }
@@ -169,9 +169,8 @@ impl Pool {
         };
         let status = worker.process.end();
         self.hub.forget(id);
-        if let State::Busy(job) = worker.state {
-            self.events.push_back(Event::Lost(job));
-        }
+        self.asking.remove(&id);
+        self.events.extend(self.roster.dismiss(id).into_iter().map(Event::Lost));
         self.fruitless_deaths += 1;
         let status = status.map_or_else(String::new, |status| format!(" ({status})"));
         if self.fruitless_deaths > (3 * self.wanted).max(5) {
@@ -192,37 +191,33 @@ impl Pool {
         }
     }
 
-    /// Gives jobs to the workers that wait for one.
-    fn feed(&mut self) {
-        let idle =
-            |(id, worker): (&WorkerId, &Worker)| (worker.state == State::Idle).then_some(*id);
-        let idle: Vec<WorkerId> = self.workers.iter().filter_map(idle).collect();
-        for id in idle {
-            let Some(job) = self.next_job() else { return };
-            let Some(worker) = self.workers.get_mut(&id) else {
+    /// Answers workers with jobs: those that hold none, and those that do `with_others`. What these ask for
+    /// may wait until it is known what follows from what they did, but not longer: they cannot say
+    /// more before they are answered.
+    fn feed(&mut self, with_others: bool) {
+        if self.asking.is_empty() || !(with_others || self.roster.has_work()) {
+            return;
+        }
+        let asking: Vec<WorkerId> = self.asking.iter().copied().collect();
+        for id in asking {
+            let is_free = self.roster.is_free(id);
+            if is_free && !self.roster.has_work() || !is_free && !with_others {
                 continue;
-            };
+            }
+            let Some(worker) = self.workers.get_mut(&id) else { continue };
             let (entries, place) = self.log.part(worker.place);
             worker.place = place;
-            let job = if place == self.log.end() {
-                worker.state = State::Busy(job);
-                Some(job)
+            let jobs = if place == self.log.end() {
+                self.roster.give(id, |job| self.front.has(&self.setup, job))
             } else {
-                worker.state = State::CatchingUp;
-                self.waiting.insert(job);
-                None
+                Vec::new()
             };
-            self.send(id, wire::encode(&ToWorker::Work { entries, job }));
-        }
-    }
-
-    fn next_job(&mut self) -> Option<Job> {
-        loop {
-            let job = self.waiting.pop_first()?;
-            // A job handed out again may have been overtaken.
-            if self.front.has(&self.setup, job) {
-                return Some(job);
+            if is_free && jobs.is_empty() && entries.is_empty() {
+                // What waited had been overtaken.
+                continue;
             }
+            self.asking.remove(&id);
+            self.send(id, wire::encode(&ToWorker::Work { entries, jobs }));
         }
     }
 
@@ -251,11 +246,11 @@ impl Pool {
         let Some(worker) = self.workers.get_mut(&id) else {
             return;
         };
-        let message = match wire::decode(message) {
-            Ok(message) => message,
+        let decoded = match wire::decode_borrowed(message) {
+            Ok(decoded) => decoded,
             Err(error) => return self.replace(id, &error.to_string()),
         };
-        match (worker.state, message) {
+        match (worker.state, decoded) {
             (State::Starting, FromWorker::Hello { protocol, build }) => {
                 if (protocol, build) != (PROTOCOL, self.build) {
                     return self.refuse(id, "another version of the program");
@@ -267,29 +262,49 @@ impl Pool {
                 if canary != self.canary {
                     return self.refuse(id, "another arithmetic: its canary increment differs");
                 }
-                worker.state = State::Idle;
+                worker.state = State::Ready;
+                self.roster.enlist(id);
+                self.asking.insert(id);
             }
-            (State::CatchingUp, FromWorker::More) => worker.state = State::Idle,
-            (State::Busy(job), FromWorker::Finished { job: finished, outcome })
-                if job == finished =>
-            {
-                match wire::decode::<Outcome>(&outcome) {
-                    Ok(decoded) => {
-                        worker.state = State::Idle;
-                        self.fruitless_deaths = 0;
-                        let digest = Digest::of(&outcome);
-                        if let (Job::Generate { place, .. }, true) = (job, self.front.is_ahead(job))
-                        {
-                            self.log.keep(place, outcome, digest);
-                        }
-                        let finished = Finished { outcome: decoded, digest };
-                        self.events.push_back(Event::Done(job, finished));
-                    }
-                    Err(error) => self.replace(id, &error.to_string()),
+            (State::Ready, FromWorker::Done(done)) => {
+                self.asking.insert(id);
+                if let Err(why) = self.take_outcomes(id, message, &done) {
+                    self.replace(id, &why);
                 }
             }
             _ => self.replace(id, "a message out of turn"),
         }
+    }
+
+    /// Takes in what a worker has done; why it must be replaced, if it must.
+    fn take_outcomes(
+        &mut self,
+        id: WorkerId,
+        message: &[u8],
+        done: &[Done<'_>],
+    ) -> Result<(), String> {
+        let is_for_workers = |done: &Done| match done.job {
+            Job::Generate { .. } => self.front.is_ahead(done.job),
+            Job::Join { .. } => true,
+            Job::Evaluate { .. } => false,
+        };
+        // All at once, as they came.
+        let stored = done.iter().any(is_for_workers).then(|| self.hub.store().append(message));
+        for Done { job, micros, outcome } in done {
+            let decoded = wire::decode(outcome).map_err(|error| error.to_string())?;
+            if !self.roster.done(id, *job, *micros as f64 * 1e-6) {
+                return Err("what it was not asked for".to_owned());
+            }
+            self.fruitless_deaths = 0;
+            let digest = Digest::of(outcome);
+            if let Some(stored) = stored {
+                let within = outcome.as_ptr().addr() - message.as_ptr().addr();
+                let stored = stored.map(|offset| offset + within as u64);
+                self.log.keep(*job, bytes_of(outcome, stored, digest));
+            }
+            self.events.push_back(Event::Done(*job, Finished { outcome: decoded, digest }));
+        }
+        Ok(())
     }
 
     fn refuse(&mut self, id: WorkerId, why: &str) {
@@ -338,10 +353,8 @@ impl Pool {
 
 impl Executor for Pool {
     fn publish(&mut self, increment: &Arc<Increment>) {
-        let begun = Meter::begin();
         self.log.publish(self.front.next(), increment, self.hub.store());
         self.front.publish();
-        self.folds.end(begun);
     }
 
     fn fold(&mut self, round: &Round) {
@@ -353,10 +366,13 @@ impl Executor for Pool {
     }
 
     fn submit(&mut self, job: Job) {
-        self.waiting.insert(job);
+        self.roster.submit(job);
     }
 
     fn next(&mut self, wait: Duration) -> Option<Event> {
+        if let Some(event) = self.events.pop_front() {
+            return Some(event);
+        }
         let begun = Meter::begin();
         let event = self.wait(wait);
         self.messages.end(begun);
@@ -364,8 +380,7 @@ impl Executor for Pool {
     }
 
     fn alive(&self) -> usize {
-        let ready = |worker: &&Worker| !matches!(worker.state, State::Starting | State::SettingUp);
-        self.workers.values().filter(ready).count()
+        self.roster.workers()
     }
 
     fn tally(&self) -> &Tally {
@@ -377,7 +392,7 @@ impl Pool {
     fn wait(&mut self, wait: Duration) -> Option<Event> {
         let until = Instant::now() + wait;
         loop {
-            self.feed();
+            self.feed(true);
             if let Some(event) = self.events.pop_front() {
                 return Some(event);
             }
@@ -390,6 +405,11 @@ impl Pool {
                 self.hear();
             }
             self.look_after_workers(woken.by_hearts);
+            if !self.events.is_empty() {
+                // Who holds nothing need not wait until it is known what follows from what was heard.
+                self.feed(false);
+                return self.events.pop_front();
+            }
         }
     }
 }

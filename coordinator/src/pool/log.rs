@@ -1,4 +1,4 @@
-use roadmill::img::{Outcome, Round};
+use roadmill::img::{Job, Outcome, Round};
 use roadmill::roadmap::{Digest, Increment};
 use roadmill::wire;
 use roadmill_workers::channel::Store;
@@ -11,37 +11,40 @@ const PART_BYTES_MAX: usize = 32 << 20;
 
 /// Everything that has changed the replicas so far, ready to be sent: each worker has its place in
 /// it, and a new one starts at the beginning. As long as there is room, the bytes stand in the channel's
-/// store, once for all workers.
+/// store, once for all workers, and as they came.
 #[derive(Debug, Default)]
 pub struct Log {
     entries: Vec<Entry>,
-    /// By place, the bytes of outcomes that are increments to be published: as they came, so that they
-    /// need not be encoded again.
-    made: BTreeMap<u64, (Vec<u8>, Digest)>,
+    /// By place, the outcomes that are increments to be published.
+    increments: BTreeMap<u64, Bytes>,
+    /// By place, those that are joins to be folded.
+    joins: BTreeMap<u64, Bytes>,
 }
 
 impl Log {
-    /// Keeps the bytes of the outcome that is the increment at `place`, until it is published.
-    pub fn keep(&mut self, place: u64, outcome: Vec<u8>, digest: Digest) {
-        self.made.entry(place).or_insert((outcome, digest));
+    /// Keeps the outcome of a job until it is published or folded.
+    pub fn keep(&mut self, job: Job, outcome: Bytes) {
+        match job {
+            Job::Generate { place, .. } => self.increments.entry(place).or_insert(outcome),
+            Job::Join { place, .. } => self.joins.entry(place).or_insert(outcome),
+            Job::Evaluate { .. } => return,
+        };
     }
 
     /// Appends the increment at `place`, the next one.
     pub fn publish(&mut self, place: u64, increment: &Increment, store: &mut Store) {
-        let (bytes, digest) = self.made.remove(&place).unwrap_or_else(|| {
-            let bytes = wire::encode(&Outcome::Increment(Ok(increment.clone())));
-            let digest = Digest::of(&bytes);
-            (bytes, digest)
-        });
-        self.entries.push(Entry::Increment(put(bytes, digest, store)));
+        let kept = self.increments.remove(&place);
+        let made = || Outcome::Increment(Ok(increment.clone()));
+        self.entries.push(Entry::Increment(kept.unwrap_or_else(|| put(&made(), store))));
     }
 
     /// Appends the end of a round.
     pub fn fold(&mut self, round: &Round, store: &mut Store) {
-        let joins: Vec<_> = round.sets.iter().map(|set| &set.joined.edges).collect();
-        let bytes = wire::encode(&joins);
-        let digest = Digest::of(&bytes);
-        self.entries.push(Entry::Fold(put(bytes, digest, store)));
+        let joins = round.sets.iter().map(|set| {
+            let kept = self.joins.remove(&set.place);
+            kept.unwrap_or_else(|| put(&Outcome::Joined(set.joined.clone()), store))
+        });
+        self.entries.push(Entry::Fold(joins.collect()));
     }
 
     /// The entries from `place` on that fit into one message, at least one if there is one, and
@@ -63,19 +66,30 @@ impl Log {
     }
 }
 
-fn put(bytes: Vec<u8>, digest: Digest, store: &mut Store) -> Bytes {
-    match store.append(&bytes) {
+/// The bytes of an outcome that came from no worker.
+fn put(outcome: &Outcome, store: &mut Store) -> Bytes {
+    let bytes = wire::encode(outcome);
+    let stored = store.append(&bytes);
+    bytes_of(&bytes, stored, Digest::of(&bytes))
+}
+
+/// Bytes that stand in the store at `stored`, or else go by messages.
+pub fn bytes_of(bytes: &[u8], stored: Option<u64>, digest: Digest) -> Bytes {
+    match stored {
         Some(offset) => Bytes::Stored { offset, length: bytes.len() as u64, digest },
-        None => Bytes::Here(Arc::new(bytes)),
+        None => Bytes::Here(Arc::new(bytes.to_vec())),
     }
 }
 
 /// Bytes that an entry takes in a message.
 fn length(entry: &Entry) -> usize {
-    let (Entry::Increment(bytes) | Entry::Fold(bytes)) = entry;
-    match bytes {
-        Bytes::Stored { .. } => size_of::<Entry>(),
+    let of = |bytes: &Bytes| match bytes {
+        Bytes::Stored { .. } => size_of::<Bytes>(),
         Bytes::Here(bytes) => bytes.len(),
+    };
+    match entry {
+        Entry::Increment(bytes) => of(bytes),
+        Entry::Fold(joins) => joins.iter().map(of).sum(),
     }
 }
 
@@ -86,8 +100,8 @@ mod tests {
     #[test]
     fn parts_are_whole_entries_and_together_the_log() {
         let sizes = [1, PART_BYTES_MAX - 1, 1, PART_BYTES_MAX + 5, 7, 9];
-        let entry = |size: &usize| Entry::Fold(Bytes::Here(Arc::new(vec![0; *size])));
-        let log = Log { entries: sizes.iter().map(entry).collect(), made: BTreeMap::new() };
+        let entry = |size: &usize| Entry::Fold(vec![Bytes::Here(Arc::new(vec![0; *size]))]);
+        let log = Log { entries: sizes.iter().map(entry).collect(), ..Log::default() };
         let (mut place, mut parts) = (0, Vec::new());
         while place < log.end() {
             let (part, next) = log.part(place);

@@ -4,6 +4,7 @@ mod executor;
 mod imported;
 mod log;
 mod process;
+mod roster;
 
 pub use executor::Pool;
 pub use imported::Imported;

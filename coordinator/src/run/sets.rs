@@ -134,7 +134,7 @@ impl SetsWriter {
 
     fn append(&mut self, record: &Record) -> Result<(), Failure> {
         let mut bytes = Vec::new();
-        self.at = frame::append(&mut bytes, &self.at, &wire::encode(record));
+        self.at = frame::append(&mut bytes, &self.at, record);
         self.file.write_all(&bytes).map_err(|error| self.cannot(&error))
     }
 

@@ -5,6 +5,9 @@
 //! after the listener has taken the datagram; from then on notifiers send nothing, while a listener
 //! that sleeps on the descriptor waits for a datagram. With plain sockets the kernel keeps the
 //! state, a dead peer is refused at once, and nothing is left in shared memory.
+//!
+//! To wake a process costs more than to send it a message, so a worker is woken only where it has said that
+//! it sleeps: see [`Note`].
 
 use std::fs::{self, Permissions};
 use std::io::{self, ErrorKind};
@@ -16,6 +19,7 @@ use std::time::Duration;
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
+use super::WorkerId;
 use super::error::ChannelError;
 
 /// The longest path a socket can be bound to (108 bytes with the closing zero).
@@ -32,6 +36,38 @@ pub(super) enum Rung {
     Later,
     /// Nobody is there.
     Gone,
+}
+
+/// What a ring says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Note {
+    /// there is something to look at
+    Look,
+    /// this worker sleeps until the message that it sent with this sequence number is answered
+    Asleep(WorkerId, u64),
+}
+
+impl Note {
+    const BYTES: usize = 16;
+
+    fn encode(self) -> [u8; Note::BYTES] {
+        let mut bytes = [0; Note::BYTES];
+        if let Note::Asleep(worker, sequence) = self {
+            bytes[..8].copy_from_slice(&worker.0.to_le_bytes());
+            // counted from 1
+            bytes[8..].copy_from_slice(&sequence.to_le_bytes());
+        }
+        bytes
+    }
+
+    fn decode(bytes: &[u8]) -> Note {
+        match bytes.as_chunks().0 {
+            [worker, sequence] if *sequence != [0; 8] => {
+                Note::Asleep(WorkerId(u64::from_le_bytes(*worker)), u64::from_le_bytes(*sequence))
+            }
+            _ => Note::Look,
+        }
+    }
 }
 
 /// One end's socket: it is rung by others, and rings others.
@@ -54,16 +90,16 @@ impl Bell {
     }
 
     /// Wakes whoever sleeps on the socket at `path`. Never blocks.
-    pub fn ring(&self, path: &Path) -> Rung {
+    pub fn ring(&self, path: &Path, note: Note) -> Rung {
         loop {
-            let error = match self.socket.send_to(&[1], path) {
+            let error = match self.socket.send_to(&note.encode(), path) {
                 Ok(_) => return Rung::Yes,
                 Err(error) => error,
             };
             match error.kind() {
                 ErrorKind::Interrupted => continue,
-                // a full queue is readable, so its owner is about to wake anyway
-                ErrorKind::WouldBlock => return Rung::Yes,
+                // a full queue is readable, so its owner is about to wake anyway, but will not have read this
+                ErrorKind::WouldBlock if note == Note::Look => return Rung::Yes,
                 ErrorKind::NotFound | ErrorKind::ConnectionRefused => return Rung::Gone,
                 _ => return Rung::Later,
             }
@@ -71,11 +107,11 @@ impl Bell {
     }
 
     /// Takes the rings that have come; not for ever, however fast new ones come.
-    pub fn drain(&self) {
-        let mut byte = [0];
+    pub fn drain(&self, mut hear: impl FnMut(Note)) {
+        let mut bytes = [0; Note::BYTES];
         for _ in 0..RINGS_PER_DRAIN_MAX {
-            match self.socket.recv(&mut byte) {
-                Ok(_) => continue,
+            match self.socket.recv(&mut bytes) {
+                Ok(length) => hear(Note::decode(&bytes[..length])),
                 Err(error) if error.kind() == ErrorKind::Interrupted => continue,
                 Err(_) => return,
             }
@@ -89,7 +125,7 @@ impl Bell {
         let mut sockets = [PollFd::new(&self.socket, PollFlags::IN)];
         match poll(&mut sockets, Some(&timeout)) {
             Ok(_) | Err(rustix::io::Errno::INTR) => {
-                self.drain();
+                self.drain(|_| ());
                 Ok(())
             }
             Err(error) => Err(error.into()),

@@ -27,7 +27,7 @@ type Pending = iceoryx2::pending_response::PendingResponse<
 
 impl Raw {
     fn open(hub: &Hub, worker: WorkerId) -> Raw {
-        let node = open_node(hub.directory()).expect("the node opens");
+        let node = open_node(hub.directory(), 0).expect("the node opens");
         let (service, port) = open_service(&node, worker).expect("the port opens");
         Raw { port, _service: service, _node: node }
     }
@@ -73,12 +73,12 @@ fn each_kind_of_nonsense_is_named() {
     let message = vec![1; CHUNK_BYTES + 1];
     let (good, chunk) = Header::data(HOSTILE, 1, &message, 0);
     let mut flipped = good.encode(chunk);
-    flipped[9] ^= 1;
+    flipped[7] ^= 1;
     let other_worker = Header { worker: WorkerId(1), ..good };
     let second = Header { sequence: 2, ..good };
     let go_on = Header::go_on(Kind::Continue, HOSTILE, 1, 9, 4).encode(&[]);
     let ack = Header::go_on(Kind::Ack, HOSTILE, 1, 9, 4).encode(&[]);
-    assert_eq!(said_to([0; 10], &[]), broken(Fault::Magic));
+    assert_eq!(said_to([0; 8], &[]), broken(Fault::Magic));
     assert_eq!(said_to(flipped, chunk), broken(Fault::Checksum));
     assert_eq!(said_to(good.encode(chunk), &[1]), broken(Fault::Bounds));
     assert_eq!(said_to(other_worker.encode(chunk), chunk), broken(Fault::Worker));
@@ -112,7 +112,7 @@ fn many_broken_workers_leave_no_connection_behind() {
     let mut hub = Hub::create(1).expect("the hub opens");
     for id in 0..40 {
         let raw = Raw::open(&hub, WorkerId(id));
-        let _pending = raw.send([id; 10], &[1, 2, 3]);
+        let _pending = raw.send([id; 8], &[1, 2, 3]);
         if id % 2 == 0 {
             assert!(matches!(receive(&mut hub), Some(Received::Broken { .. })));
         }

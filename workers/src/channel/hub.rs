@@ -9,7 +9,7 @@ use iceoryx2::port::ReceiveError;
 use iceoryx2::port::update_connections::UpdateConnections;
 use rustix::process::{Resource, getrlimit, setrlimit};
 
-use super::bell::Bell;
+use super::bell::{Bell, Note};
 use super::error::ChannelError;
 use super::header::Fault;
 use super::peer::{Peer, Step};
@@ -87,6 +87,10 @@ pub struct Hub {
     /// forgotten or broken: what still comes from them is dropped
     ignored: BTreeSet<WorkerId>,
     inbox: VecDeque<Received>,
+    /// Whether the rings have been taken since there was nothing to receive.
+    is_drained: bool,
+    /// workers that have said so, with the message for whose answer
+    asleep: Vec<(WorkerId, u64)>,
 }
 
 impl Hub {
@@ -104,7 +108,7 @@ impl Hub {
         service::check_free_space(workers_max)?;
         raise_descriptor_limit(workers_max);
         let bell = Bell::bind(&hub_socket(folder.path()))?;
-        let node = service::open_node(folder.path())?;
+        let node = service::open_node(folder.path(), workers_max)?;
         let (service, port) = service::create_service(&node, workers_max)?;
         service::protect_shared_memory(folder.path())?;
         let store = Store::create(folder.path(), workers_max);
@@ -119,6 +123,8 @@ impl Hub {
             workers_of_ports: BTreeMap::new(),
             ignored: BTreeSet::new(),
             inbox: VecDeque::new(),
+            is_drained: false,
+            asleep: Vec::new(),
         })
     }
 
@@ -148,9 +154,17 @@ impl Hub {
         if let Some(received) = self.inbox.pop_front() {
             return Ok(Some(received));
         }
-        self.bell.drain();
+        if !std::mem::replace(&mut self.is_drained, true) {
+            let asleep = &mut self.asleep;
+            self.bell.drain(|note| match note {
+                Note::Look => {}
+                Note::Asleep(worker, sequence) => asleep.push((worker, sequence)),
+            });
+        }
         for _ in 0..CHUNKS_PER_RECEIVE_MAX {
             let Some(question) = self.next_question()? else {
+                self.is_drained = false;
+                self.hear_who_sleeps();
                 return Ok(None);
             };
             if let Some(received) = self.take(question) {
@@ -158,11 +172,12 @@ impl Hub {
             }
         }
         // there may be more, and its ring has been drained
+        self.is_drained = false;
         self.ring_self();
         Ok(None)
     }
 
-    /// Answers the message of `worker` and wakes it. Never blocks; a long reply is kept until the
+    /// Answers the message of `worker` and wakes it if it sleeps. Never blocks; a long reply is kept until the
     /// worker has pulled all of it. An `Arc` may be shared among several replies.
     ///
     /// # Errors
@@ -180,11 +195,13 @@ impl Hub {
             return Ok(Delivery::Gone);
         };
         match peer.reply(message) {
-            Ok(true) => {
-                self.wake(worker);
+            Ok(Some(is_asleep)) => {
+                if is_asleep {
+                    self.wake(worker);
+                }
                 Ok(Delivery::Sent)
             }
-            Ok(false) => Ok(Delivery::Gone),
+            Ok(None) => Ok(Delivery::Gone),
             Err(reason) => {
                 let broken = self.give_up(worker, reason);
                 self.inbox.push_back(broken);
@@ -282,6 +299,16 @@ impl Hub {
         }
     }
 
+    /// Notes who sleeps, now that all they sent before has been taken, and wakes those who were answered
+    /// meanwhile.
+    fn hear_who_sleeps(&mut self) {
+        for (worker, sequence) in std::mem::take(&mut self.asleep) {
+            if self.peers.get_mut(&worker).is_some_and(|peer| peer.sleeps(sequence)) {
+                self.wake(worker);
+            }
+        }
+    }
+
     fn give_up(&mut self, worker: WorkerId, reason: Fault) -> Received {
         self.peers.remove(&worker);
         self.ignored.insert(worker);
@@ -291,11 +318,11 @@ impl Hub {
 
     fn wake(&self, worker: WorkerId) {
         // a worker that cannot be rung is dead, or looks by itself after a while
-        let _ = self.bell.ring(&worker_socket(self.folder.path(), worker));
+        let _ = self.bell.ring(&worker_socket(self.folder.path(), worker), Note::Look);
     }
 
     fn ring_self(&self) {
-        let _ = self.bell.ring(&hub_socket(self.folder.path()));
+        let _ = self.bell.ring(&hub_socket(self.folder.path()), Note::Look);
     }
 }
 

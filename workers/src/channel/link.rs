@@ -4,9 +4,13 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use iceoryx2::pending_response::PendingResponse;
+use iceoryx2::response::Response;
+use iceoryx2::service::ipc;
+
 use super::WorkerId;
 use super::assembly::Assembly;
-use super::bell::{Bell, Rung};
+use super::bell::{Bell, Note, Rung};
 use super::error::ChannelError;
 use super::header::{Fault, Header, Kind, Words};
 use super::hub::check_length;
@@ -15,10 +19,14 @@ use super::service::{self, RunNode, RunService, WorkerPort};
 
 /// How long a worker sleeps at most before it asks `keep_waiting`.
 const NAP: Duration = Duration::from_secs(1);
+/// The same where the hub does not yet know that it sleeps.
+const SHORT_NAP: Duration = Duration::from_millis(2);
 
 /// A worker's end of the channel. It belongs to one thread.
 pub struct Link {
-    // dropped in this order: the port before its node, the right to be there last
+    // dropped in this order: what was sent, the port, its node, the right to be there last
+    /// the message whose reply is awaited
+    sent: Option<Sent>,
     port: WorkerPort,
     service: RunService,
     _node: RunNode,
@@ -30,8 +38,17 @@ pub struct Link {
     is_spoiled: bool,
 }
 
+/// The last chunk of a message, while its answer is awaited.
+struct Sent {
+    pending: PendingResponse<ipc::Service, [u8], Words, [u8], Words>,
+    /// whether the hub knows that this end sleeps until the answer comes
+    rung: Rung,
+    /// whether the hub was told to look
+    is_nudged: bool,
+}
+
 /// A chunk of the hub, copied out of shared memory only once it is put into its place.
-type Answer = iceoryx2::response::Response<iceoryx2::service::ipc::Service, [u8], Words>;
+type Answer = Response<ipc::Service, [u8], Words>;
 
 impl Link {
     /// How many workers the hub was made for.
@@ -48,9 +65,10 @@ impl Link {
     pub fn open(directory: &Path, worker: WorkerId) -> Result<Link, ChannelError> {
         let membership = join(directory)?;
         let bell = Bell::bind(&worker_socket(directory, worker))?;
-        let node = service::open_node(directory)?;
+        let node = service::open_node(directory, 0)?;
         let (service, port) = service::open_service(&node, worker)?;
         Ok(Link {
+            sent: None,
             port,
             service,
             _node: node,
@@ -63,44 +81,50 @@ impl Link {
         })
     }
 
-    /// Sends `message` and sleeps until the whole reply is there. Wakes about once a second to ask
-    /// `keep_waiting`.
+    /// Sends `message` and sleeps until the whole reply is there.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`send`](Link::send) and [`receive`](Link::receive).
+    pub fn call(
+        &mut self,
+        message: &[u8],
+        keep_waiting: &mut dyn FnMut() -> bool,
+    ) -> Result<Vec<u8>, ChannelError> {
+        self.send(message, keep_waiting)?;
+        self.receive(keep_waiting)
+    }
+
+    /// Sends `message`, whose reply is to be received before the next is sent. The hub finds it when it next
+    /// looks: when anybody rings, this end by [`nudge`](Link::nudge) or [`receive`](Link::receive).
+    /// Sleeps only between the chunks of a long message, and wakes about once a second to ask `keep_waiting`.
     ///
     /// # Errors
     ///
     /// [`ChannelError::Abandoned`] if `keep_waiting` says false, [`ChannelError::HubGone`],
     /// [`ChannelError::Refused`], [`ChannelError::BrokenReply`], [`ChannelError::TooLarge`]. After
     /// any but the last the link is spoiled.
-    pub fn call(
+    pub fn send(
         &mut self,
         message: &[u8],
         keep_waiting: &mut dyn FnMut() -> bool,
-    ) -> Result<Vec<u8>, ChannelError> {
+    ) -> Result<(), ChannelError> {
         check_length(message.len())?;
-        if std::mem::replace(&mut self.is_spoiled, true) {
+        let is_out_of_turn = self.sent.is_some();
+        if std::mem::replace(&mut self.is_spoiled, true) || is_out_of_turn {
             return Err(ChannelError::Spoiled);
         }
         self.sequence += 1;
-        let first = self.send(message, keep_waiting)?;
-        let reply = self.pull(first, keep_waiting)?;
-        self.is_spoiled = false;
-        Ok(reply)
-    }
-
-    /// Sends all chunks; the answer to the last is the first chunk of the reply.
-    fn send(
-        &mut self,
-        message: &[u8],
-        keep_waiting: &mut dyn FnMut() -> bool,
-    ) -> Result<Answer, ChannelError> {
         let mut offset = 0;
         loop {
             let (header, chunk) = Header::data(self.worker, self.sequence, message, offset);
-            let answer = self.exchange(&header, chunk, keep_waiting)?;
             offset += chunk.len();
             if offset == message.len() {
-                return Ok(answer);
+                self.sent = Some(self.submit(&header, chunk)?);
+                self.is_spoiled = false;
+                return Ok(());
             }
+            let answer = self.exchange(&header, chunk, keep_waiting)?;
             let words: Words = *answer.user_header();
             let ack = self.read(&words, Kind::Ack)?;
             super::header::verify(&words, answer.payload()).map_err(ChannelError::BrokenReply)?;
@@ -108,6 +132,72 @@ impl Link {
                 return Err(ChannelError::BrokenReply(Fault::Turn));
             }
         }
+    }
+
+    /// Wakes the hub for the message sent last, if that was not done.
+    pub fn nudge(&mut self) {
+        if let Some(sent) = self.sent.as_mut().filter(|sent| !sent.is_nudged) {
+            sent.is_nudged = true;
+            // what could not be rung is when this end sleeps
+            let _ = self.bell.ring(&self.hub_socket, Note::Look);
+        }
+    }
+
+    /// Whether a message was sent whose reply has not been received.
+    pub fn is_awaiting(&self) -> bool {
+        self.sent.is_some()
+    }
+
+    /// Sleeps until the whole reply to the message sent last is there. Wakes about once a second to ask
+    /// `keep_waiting`.
+    ///
+    /// # Errors
+    ///
+    /// As [`send`](Link::send); [`ChannelError::Spoiled`] also if nothing was sent.
+    pub fn receive(
+        &mut self,
+        keep_waiting: &mut dyn FnMut() -> bool,
+    ) -> Result<Vec<u8>, ChannelError> {
+        let mut sent = self.take_sent()?;
+        let first = match self.look(&sent)? {
+            (Some(first), _) => first,
+            (None, _) => self.answer(&mut sent, keep_waiting)?,
+        };
+        let reply = self.pull(first, keep_waiting)?;
+        self.is_spoiled = false;
+        Ok(reply)
+    }
+
+    /// The same, but `None` if nothing of the reply is there yet.
+    ///
+    /// # Errors
+    ///
+    /// As [`receive`](Link::receive).
+    pub fn try_receive(
+        &mut self,
+        keep_waiting: &mut dyn FnMut() -> bool,
+    ) -> Result<Option<Vec<u8>>, ChannelError> {
+        let mut sent = self.take_sent()?;
+        let first = match self.look(&sent)? {
+            (Some(first), _) => Some(first),
+            (None, true) => None,
+            // nothing will come any more: this finds out why
+            (None, false) => Some(self.answer(&mut sent, keep_waiting)?),
+        };
+        let reply = match first {
+            Some(first) => Some(self.pull(first, keep_waiting)?),
+            None => {
+                self.sent = Some(sent);
+                None
+            }
+        };
+        self.is_spoiled = false;
+        Ok(reply)
+    }
+
+    fn take_sent(&mut self) -> Result<Sent, ChannelError> {
+        self.is_spoiled = true;
+        self.sent.take().ok_or(ChannelError::Spoiled)
     }
 
     /// Asks for the rest of a reply until it is complete.
@@ -147,6 +237,11 @@ impl Link {
         chunk: &[u8],
         keep_waiting: &mut dyn FnMut() -> bool,
     ) -> Result<Answer, ChannelError> {
+        self.answer(&mut self.submit(header, chunk)?, keep_waiting)
+    }
+
+    /// Sends one chunk.
+    fn submit(&self, header: &Header, chunk: &[u8]) -> Result<Sent, ChannelError> {
         let mut request = self
             .port
             .loan_slice_uninit(chunk.len())
@@ -159,26 +254,41 @@ impl Link {
         if pending.number_of_server_connections() == 0 {
             return Err(ChannelError::HubGone);
         }
-        let mut rung = Rung::Later;
+        Ok(Sent { pending, rung: Rung::Later, is_nudged: false })
+    }
+
+    /// Waits for the chunk that answers another.
+    fn answer(
+        &self,
+        sent: &mut Sent,
+        keep_waiting: &mut dyn FnMut() -> bool,
+    ) -> Result<Answer, ChannelError> {
         loop {
-            if rung == Rung::Later {
-                rung = self.bell.ring(&self.hub_socket);
+            if sent.rung == Rung::Later {
+                sent.rung =
+                    self.bell.ring(&self.hub_socket, Note::Asleep(self.worker, self.sequence));
             }
-            // asked before the answer is looked for, which may come in between
-            let is_connected = pending.is_connected();
-            let answer =
-                pending.receive().map_err(ChannelError::shared("could not receive a chunk"))?;
-            match answer {
-                Some(answer) => return Ok(answer),
-                None if rung == Rung::Gone => return Err(ChannelError::HubGone),
-                None if !is_connected => return Err(ChannelError::Refused),
-                None => {}
+            match self.look(sent)? {
+                (Some(answer), _) => return Ok(answer),
+                (None, _) if sent.rung == Rung::Gone => return Err(ChannelError::HubGone),
+                (None, false) => return Err(ChannelError::Refused),
+                (None, true) => {}
             }
             if !keep_waiting() {
                 return Err(ChannelError::Abandoned);
             }
-            self.bell.wait(NAP).map_err(ChannelError::io("could not wait at", &self.hub_socket))?;
+            let nap = if sent.rung == Rung::Later { SHORT_NAP } else { NAP };
+            self.bell.wait(nap).map_err(ChannelError::io("could not wait at", &self.hub_socket))?;
         }
+    }
+
+    /// The chunk that answers another, if it is there, and whether one may still come.
+    fn look(&self, sent: &Sent) -> Result<(Option<Answer>, bool), ChannelError> {
+        // asked before the answer is looked for, which may come in between
+        let is_connected = sent.pending.is_connected();
+        let answer =
+            sent.pending.receive().map_err(ChannelError::shared("could not receive a chunk"))?;
+        Ok((answer, is_connected))
     }
 
     fn read(&self, words: &Words, kind: Kind) -> Result<Header, ChannelError> {

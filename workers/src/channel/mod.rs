@@ -1,9 +1,9 @@
 //! Byte messages between one coordinator process (the [`Hub`]) and many worker processes (the
 //! [`Link`]s), through shared memory of iceoryx2.
 //!
-//! A worker sends a message and gets exactly one reply to it, possibly much later. That is
-//! request-response reversed: the hub is the one server, the workers are its clients, and the reply
-//! that a worker waits for is its next job. The hub never waits for a worker.
+//! A worker sends a message and gets exactly one reply to it, possibly much later; meanwhile it may work.
+//! That is request-response reversed: the hub is the one server, the workers are its clients, and the
+//! reply brings the next jobs. The hub never waits for a worker.
 //!
 //! Messages are cut into chunks of [`CHUNK_BYTES`], so that the shared memory has a fixed, small
 //! size whatever the messages' lengths:

@@ -12,6 +12,8 @@ pub(super) struct Peer {
     worker: WorkerId,
     /// sequence number of the last message begun
     sequence: u64,
+    /// that of the message for whose answer the worker has said it sleeps
+    asleep: u64,
     stage: Stage,
 }
 
@@ -37,7 +39,7 @@ pub(super) enum Step {
 impl Peer {
     /// A worker that has not said anything.
     pub fn new(worker: WorkerId) -> Peer {
-        Peer { worker, sequence: 0, stage: Stage::Idle }
+        Peer { worker, sequence: 0, asleep: 0, stage: Stage::Idle }
     }
 
     /// Takes a chunk from this worker. After a fault the peer is not to be used any more.
@@ -105,18 +107,25 @@ impl Peer {
         }
     }
 
-    /// Answers the message that waits. `Ok(false)` if none does.
-    pub fn reply(&mut self, message: Arc<Vec<u8>>) -> Result<bool, Fault> {
+    /// Answers the message that waits; whether the worker has to be woken. `Ok(None)` if none waits.
+    pub fn reply(&mut self, message: Arc<Vec<u8>>) -> Result<Option<bool>, Fault> {
         match std::mem::replace(&mut self.stage, Stage::Idle) {
             Stage::Waiting(question) => {
                 self.give(&question, message, 0)?;
-                Ok(true)
+                Ok(Some(self.asleep == self.sequence))
             }
             other => {
                 self.stage = other;
-                Ok(false)
+                Ok(None)
             }
         }
+    }
+
+    /// The worker says that it sleeps until this message is answered; whether it is, so that the worker
+    /// has to be woken. To be told after all chunks that came before.
+    pub fn sleeps(&mut self, sequence: u64) -> bool {
+        self.asleep = sequence;
+        sequence == self.sequence && matches!(self.stage, Stage::Idle | Stage::Pulling(..))
     }
 
     fn give(

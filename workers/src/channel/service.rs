@@ -34,8 +34,8 @@ type ServiceBuilder = Builder<[u8], Words, [u8], Words, Ipc>;
 const SERVICE_NAME: &str = "roadmill";
 /// one with the hub, one being written, and one the hub has not yet given back
 const REQUEST_CHUNKS: usize = 3;
-/// connections of dead workers whose chunks the hub still holds; beyond, the library panics
-const EXPIRED_CONNECTIONS_MAX: usize = 4096;
+/// connections of dead workers with chunks that nobody has taken out: the hub looks for them when it forgets
+const ABANDONED_CONNECTIONS: usize = 64;
 /// Another hub of the same process may be cleaning up, and the library allows one at a time.
 const CLEANUP_PATIENCE: Duration = Duration::from_millis(200);
 /// management files, and rounding up to pages
@@ -54,8 +54,8 @@ pub(super) fn workers_max(service: &RunService) -> usize {
 
 /// Opens a node whose files are in `folder` and whose shared memory is named after it. Hub and
 /// links derive the same configuration from the folder, so that nothing has to be stored, no global
-/// configuration is touched, and several hubs can live in one process.
-pub(super) fn open_node(folder: &Path) -> Result<RunNode, ChannelError> {
+/// configuration is touched, and several hubs can live in one process. `workers_max` matters to a hub.
+pub(super) fn open_node(folder: &Path, workers_max: usize) -> Result<RunNode, ChannelError> {
     // the library tells about things it then copes with; failures come back as errors anyway
     set_log_level(LogLevel::Fatal);
     let unusable =
@@ -69,7 +69,10 @@ pub(super) fn open_node(folder: &Path) -> Result<RunNode, ChannelError> {
     config.global.node.cleanup_dead_nodes_on_creation = false;
     config.global.node.cleanup_dead_nodes_on_destruction = false;
     config.global.service.cleanup_dead_nodes_on_open = false;
-    config.defaults.request_response.server_expired_connection_buffer = EXPIRED_CONNECTIONS_MAX;
+    // connections of dead workers whose chunks the hub still holds: beyond, the library panics, and each
+    // takes memory and time from the start
+    config.defaults.request_response.server_expired_connection_buffer =
+        clients_max(workers_max) + ABANDONED_CONNECTIONS;
     NodeBuilder::new()
         .config(&config)
         .signal_handling_mode(SignalHandlingMode::Disabled)

@@ -12,6 +12,8 @@ use super::service::{free_bytes, needed_bytes};
 use super::shared_files::SHARED_MEMORY_FOLDER;
 
 const NAME: &str = "store";
+/// So much is appended between two looks at how much is free.
+const GRANT_BYTES: u64 = 1 << 20;
 
 fn path(folder: &Path) -> Option<PathBuf> {
     let prefix = shared_memory_prefix(folder)?;
@@ -26,6 +28,8 @@ pub struct Store {
     bytes: Arc<AtomicU64>,
     /// Left to the channel, which would be ended by SIGBUS if the memory ran out.
     spare_bytes: u64,
+    /// What may be appended before it is looked again how much is free.
+    granted_bytes: u64,
 }
 
 impl Store {
@@ -34,7 +38,8 @@ impl Store {
             File::options().read(true).write(true).create_new(true).mode(0o600).open(path).ok()
         };
         let file = path(folder).and_then(create);
-        Store { file, bytes: Arc::default(), spare_bytes: needed_bytes(workers_max) }
+        let spare_bytes = needed_bytes(workers_max);
+        Store { file, bytes: Arc::default(), spare_bytes, granted_bytes: 0 }
     }
 
     /// Appends bytes for workers to read; where they begin. `None` where shared memory is short: then
@@ -42,12 +47,16 @@ impl Store {
     pub fn append(&mut self, bytes: &[u8]) -> Option<u64> {
         let file = self.file.as_ref()?;
         let length = bytes.len() as u64;
-        let has_room = free_bytes().is_ok_and(|free| free >= self.spare_bytes + length);
+        if self.granted_bytes < length {
+            let free = free_bytes().unwrap_or(0).saturating_sub(self.spare_bytes);
+            self.granted_bytes = free.min(length + GRANT_BYTES);
+        }
         let offset = self.bytes.load(Ordering::Relaxed);
-        if !has_room || file.write_all_at(bytes, offset).is_err() {
+        if self.granted_bytes < length || file.write_all_at(bytes, offset).is_err() {
             self.file = None;
             return None;
         }
+        self.granted_bytes -= length;
         self.bytes.store(offset + length, Ordering::Relaxed);
         Some(offset)
     }

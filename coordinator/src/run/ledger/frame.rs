@@ -1,6 +1,8 @@
 //! Frames: how records stand one after the other in the file, and how each is chained to the one before.
 
+use bincode::Encode;
 use roadmill::roadmap::Digest;
+use roadmill::wire;
 use std::io::{ErrorKind, Read};
 
 /// Name and, as the last byte, version of the format.
@@ -39,13 +41,20 @@ impl Mark {
 }
 
 /// Appends a record to `bytes`; the place behind it.
-pub fn append(bytes: &mut Vec<u8>, before: &Mark, payload: &[u8]) -> Mark {
-    let head = head_of(payload.len() as u64);
-    let hash = link(&before.chain, &head, payload);
-    bytes.extend(head);
-    bytes.extend(hash.0);
-    bytes.extend(payload);
-    before.behind(payload.len() as u64, hash)
+pub fn append(bytes: &mut Vec<u8>, before: &Mark, record: &impl Encode) -> Mark {
+    let start = bytes.len();
+    bytes.resize(start + HEAD_BYTES, 0);
+    wire::encode_to(bytes, record);
+    let whole = &mut bytes[start..];
+    let length = (whole.len() - HEAD_BYTES) as u64;
+    // What is hashed stands where the record will: as long as its head, and one piece.
+    let head = head_of(length);
+    whole[..32].copy_from_slice(&before.chain.0);
+    whole[32..HEAD_BYTES].copy_from_slice(&head);
+    let hash = Digest::of(whole);
+    whole[..16].copy_from_slice(&head);
+    whole[16..HEAD_BYTES].copy_from_slice(&hash.0);
+    before.behind(length, hash)
 }
 
 /// The length and its check. A damaged length would otherwise pass for a record that is cut off.

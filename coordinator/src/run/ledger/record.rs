@@ -88,15 +88,27 @@ pub struct Set {
     pub joined: Joined,
 }
 
-impl Set {
+/// The bytes of a [`Record::Set`], of a set that stays where it is.
+#[derive(Clone, Debug, Encode)]
+pub struct WrittenSet<'a> {
+    tag: [u8; 4],
+    place: u64,
+    label: &'a str,
+    ordinal: u64,
+    increment: &'a Increment,
+    joined: &'a Joined,
+}
+
+impl WrittenSet<'_> {
     /// The record of a set that was folded.
-    pub fn new(set: &RoundSet, problem: &Problem) -> Set {
-        Set {
+    pub fn new<'a>(set: &'a RoundSet, problem: &'a Problem) -> WrittenSet<'a> {
+        WrittenSet {
+            tag: SET_TAG,
             place: set.place,
-            label: problem.strategies[set.strategy as usize].label.clone(),
+            label: &problem.strategies[set.strategy as usize].label,
             ordinal: set.ordinal,
-            increment: set.increment.clone(),
-            joined: set.joined.clone(),
+            increment: &set.increment,
+            joined: &set.joined,
         }
     }
 }

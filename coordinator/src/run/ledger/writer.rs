@@ -1,6 +1,6 @@
 use super::durable::{DURABLE, DurableFile};
 use super::frame::{self, HEADING, Mark};
-use super::record::{Chapter, Judged, Record, RoundEnd, Set};
+use super::record::{Chapter, Judged, Record, RoundEnd, WrittenSet};
 use super::scan::Scan;
 use super::stopped::Stopped;
 use super::{LEDGER, sync_folder};
@@ -10,7 +10,6 @@ use crate::run::RunLock;
 use roadmill::img::{Judgement, Round};
 use roadmill::problem::Problem;
 use roadmill::roadmap::Tally;
-use roadmill::wire;
 use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -31,6 +30,8 @@ pub struct LedgerWriter {
     file: File,
     durable: DurableFile,
     lock: RunLock,
+    /// Where records are put together.
+    bytes: Vec<u8>,
     /// What has been written.
     at: Mark,
     /// What is durable of it.
@@ -85,7 +86,8 @@ impl LedgerWriter {
     fn new(folder: &Path, file: File, durable: DurableFile, lock: RunLock, at: Mark) -> Self {
         let path = folder.join(LEDGER);
         let (next_sync, spent, cpu) = (Instant::now(), Duration::ZERO, Meter::default());
-        LedgerWriter { path, file, durable, lock, at, durable_offset: 0, next_sync, spent, cpu }
+        let (bytes, durable_offset) = (Vec::new(), 0);
+        LedgerWriter { path, file, durable, lock, bytes, at, durable_offset, next_sync, spent, cpu }
     }
 
     /// Appends the beginning of a chapter and makes it durable.
@@ -94,7 +96,7 @@ impl LedgerWriter {
     /// Exit code 1: the file cannot be written.
     pub fn chapter(&mut self, first_round: u64, problem: &Problem) -> Result<(), Failure> {
         let chapter = Chapter::new(first_round, problem);
-        self.append([Record::Chapter(Box::new(chapter))])?;
+        self.append_one(&Record::Chapter(Box::new(chapter)))?;
         self.sync_all()
     }
 
@@ -116,8 +118,12 @@ impl LedgerWriter {
             components: tally.components() as u64,
             roadmap: tally.digest(),
         };
-        let sets = round.sets.iter().map(|set| Record::Set(Set::new(set, problem)));
-        self.append(sets.chain([Record::RoundEnd(end)]))?;
+        self.append(|bytes, mut at| {
+            for set in &round.sets {
+                at = frame::append(bytes, &at, &WrittenSet::new(set, problem));
+            }
+            frame::append(bytes, &at, &Record::RoundEnd(end))
+        })?;
         self.sync_if_due()
     }
 
@@ -127,7 +133,7 @@ impl LedgerWriter {
     /// Exit code 1: the file cannot be written.
     pub fn judged(&mut self, judgement: &Judgement) -> Result<(), Failure> {
         let verdicts = judgement.verdicts.clone();
-        self.append([Record::Judged(Judged { round: judgement.round, verdicts })])?;
+        self.append_one(&Record::Judged(Judged { round: judgement.round, verdicts }))?;
         self.sync_if_due()
     }
 
@@ -136,7 +142,7 @@ impl LedgerWriter {
     /// # Errors
     /// Exit code 1: the file cannot be written.
     pub fn stopped(&mut self, stopped: &Stopped) -> Result<(), Failure> {
-        self.append([Record::Stopped(stopped.clone())])?;
+        self.append_one(&Record::Stopped(stopped.clone()))?;
         self.sync_all()
     }
 
@@ -162,16 +168,20 @@ impl LedgerWriter {
         self.cpu.seconds()
     }
 
+    fn append_one(&mut self, record: &Record) -> Result<(), Failure> {
+        self.append(|bytes, at| frame::append(bytes, &at, record))
+    }
+
     /// Writes records, all of them or, where that fails, a part that no reader takes for whole.
-    fn append(&mut self, records: impl IntoIterator<Item = Record>) -> Result<(), Failure> {
+    fn append(&mut self, records: impl FnOnce(&mut Vec<u8>, Mark) -> Mark) -> Result<(), Failure> {
         let (begun, cpu) = (Instant::now(), Meter::begin());
         self.lock.beat()?;
-        let mut bytes = Vec::new();
-        let mut at = self.at;
-        for record in records {
-            at = frame::append(&mut bytes, &at, &wire::encode(&record));
-        }
-        self.file.write_all(&bytes).map_err(|error| cannot_write(&self.path, &error))?;
+        let mut bytes = std::mem::take(&mut self.bytes);
+        bytes.clear();
+        let at = records(&mut bytes, self.at);
+        let written = self.file.write_all(&bytes);
+        self.bytes = bytes;
+        written.map_err(|error| cannot_write(&self.path, &error))?;
         self.at = at;
         self.spent += begun.elapsed();
         self.cpu.end(cpu);

@@ -1,0 +1,264 @@
+use roadmill::img::Job;
+use roadmill_workers::channel::WorkerId;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// As much work as a worker is to hold, by what jobs of its kind took before. Messages cost the coordinator
+/// some 50 µs and a worker that waits for the reply some 100, which this makes little of; and no worker
+/// is longer than this behind another that has nothing left to do.
+const HELD_SECONDS: f64 = 0.02;
+/// The share that a new measurement has in what a kind of jobs is taken to last.
+const NEWEST: f64 = 0.25;
+
+/// Which jobs wait, and who holds which. Where jobs are short a worker is given several at once, but of
+/// each urgency no more than its share of all that are open, so that none is left without while another
+/// has many to begin. A job that was lost is handed out alone: should it kill again, no other is lost with
+/// it, and none other is blamed.
+#[derive(Debug, Default)]
+pub struct Roster {
+    /// By urgency.
+    waiting: [BTreeSet<Job>; URGENCIES],
+    /// Waiting or held, by urgency.
+    open: [usize; URGENCIES],
+    held: BTreeMap<WorkerId, BTreeSet<Job>>,
+    /// Lost and not yet done.
+    suspects: BTreeSet<Job>,
+    /// What jobs of a kind take.
+    seconds: BTreeMap<Kind, f64>,
+}
+
+const URGENCIES: usize = 3;
+
+fn urgency(job: &Job) -> usize {
+    match job {
+        Job::Evaluate { .. } => 0,
+        Job::Join { .. } => 1,
+        Job::Generate { .. } => 2,
+    }
+}
+
+/// Urgency, and which strategy or evaluator: these take about as long every time.
+type Kind = (usize, u32);
+
+fn kind(job: &Job) -> Kind {
+    let (Job::Evaluate { evaluator: of, .. }
+    | Job::Join { strategy: of, .. }
+    | Job::Generate { strategy: of, .. }) = *job;
+    (urgency(job), of)
+}
+
+impl Roster {
+    /// A worker is ready.
+    pub fn enlist(&mut self, worker: WorkerId) {
+        self.held.insert(worker, BTreeSet::new());
+    }
+
+    /// How many workers are ready.
+    pub fn workers(&self) -> usize {
+        self.held.len()
+    }
+
+    /// Whether a worker holds nothing.
+    pub fn is_free(&self, worker: WorkerId) -> bool {
+        self.held.get(&worker).is_none_or(BTreeSet::is_empty)
+    }
+
+    /// Whether a job waits that somebody who holds nothing could do.
+    pub fn has_work(&self) -> bool {
+        self.waiting.iter().any(|jobs| !jobs.is_empty())
+    }
+
+    /// A job is to be done.
+    pub fn submit(&mut self, job: Job) {
+        self.open[urgency(&job)] += 1;
+        self.waiting[urgency(&job)].insert(job);
+    }
+
+    /// Hands out jobs to a worker, the most urgent first; none if it has enough. Jobs that `is_needed`
+    /// denies are dropped.
+    pub fn give(&mut self, worker: WorkerId, is_needed: impl Fn(Job) -> bool) -> Vec<Job> {
+        let mut given = Vec::new();
+        let workers = self.held.len();
+        let Some(held) = self.held.get_mut(&worker) else { return given };
+        if held.iter().any(|job| self.suspects.contains(job)) {
+            return given;
+        }
+        let seconds_of = |job: &Job| self.seconds.get(&kind(job)).copied().unwrap_or(HELD_SECONDS);
+        let mut seconds: f64 = held.iter().map(seconds_of).sum();
+        for (waiting, open) in self.waiting.iter_mut().zip(&mut self.open) {
+            while let Some(job) = waiting.first().copied() {
+                if !is_needed(job) {
+                    waiting.pop_first();
+                    *open -= 1;
+                    continue;
+                }
+                let is_suspect = self.suspects.contains(&job);
+                let more = seconds_of(&job);
+                if !held.is_empty() && (is_suspect || seconds + more > HELD_SECONDS) {
+                    return given;
+                }
+                let own = held.iter().filter(|other| urgency(other) == urgency(&job)).count();
+                // Rounded down: the rest is for whoever is done first.
+                if own >= (*open / workers).max(1) {
+                    break;
+                }
+                seconds += more;
+                waiting.pop_first();
+                held.insert(job);
+                given.push(job);
+                if is_suspect {
+                    return given;
+                }
+            }
+        }
+        given
+    }
+
+    /// A worker says that it has done a job in so many seconds; whether it had it to do.
+    pub fn done(&mut self, worker: WorkerId, job: Job, seconds: f64) -> bool {
+        if !self.held.get_mut(&worker).is_some_and(|held| held.remove(&job)) {
+            return false;
+        }
+        self.open[urgency(&job)] -= 1;
+        self.suspects.remove(&job);
+        let mean = self.seconds.entry(kind(&job)).or_insert(seconds);
+        *mean += NEWEST * (seconds - *mean);
+        true
+    }
+
+    /// A worker is gone: the jobs lost with it, which are to be submitted again if they still matter.
+    pub fn dismiss(&mut self, worker: WorkerId) -> BTreeSet<Job> {
+        let lost = self.held.remove(&worker).unwrap_or_default();
+        lost.iter().for_each(|job| self.open[urgency(job)] -= 1);
+        self.suspects.extend(&lost);
+        lost
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn join(place: u64) -> Job {
+        Job::Join { place, strategy: 0, ordinal: place }
+    }
+
+    fn generate(place: u64) -> Job {
+        Job::Generate { place, strategy: 0, ordinal: place }
+    }
+
+    /// Workers, each of which has done one job of each kind in so many seconds.
+    fn roster(workers: u64, seconds: f64) -> Roster {
+        let mut roster = Roster::default();
+        for worker in (0..workers).map(WorkerId) {
+            roster.enlist(worker);
+            for job in [join(1_000_000), generate(1_000_000)] {
+                roster.submit(job);
+                assert_eq!(roster.give(worker, |_| true), [job]);
+                assert!(roster.done(worker, job, seconds));
+            }
+        }
+        roster
+    }
+
+    #[test]
+    fn jobs_of_unknown_length_and_long_ones_are_given_one_by_one() {
+        for mut roster in [roster(2, 60.0), Roster::default()] {
+            let worker = WorkerId(0);
+            roster.enlist(worker);
+            (0..4).for_each(|place| roster.submit(generate(place)));
+            assert_eq!(roster.give(worker, |_| true), [generate(0)]);
+            assert_eq!(roster.give(worker, |_| true), []);
+            assert!(!roster.done(worker, generate(1), 60.0), "it had not this one");
+            assert!(roster.done(worker, generate(0), 60.0));
+            assert!(!roster.done(worker, generate(0), 60.0), "not twice");
+            // Another is more urgent; one is no longer needed.
+            roster.submit(join(0));
+            assert_eq!(roster.give(worker, |job| job != join(0)), [generate(1)]);
+        }
+    }
+
+    #[test]
+    fn short_jobs_make_some_milliseconds_of_work() {
+        let mut roster = roster(1, 0.003);
+        (0..100).for_each(|place| roster.submit(generate(place)));
+        let given = roster.give(WorkerId(0), |_| true);
+        assert_eq!(given, (0..6).map(generate).collect::<Vec<_>>());
+        assert!(roster.done(WorkerId(0), generate(0), 0.003));
+        assert_eq!(roster.give(WorkerId(0), |_| true), [generate(6)]);
+    }
+
+    proptest! {
+        /// However many jobs there are: in whatever order workers ask and finish, none is left without
+        /// while another has two joins to begin.
+        #[test]
+        fn joins_are_shared_out_evenly(
+            workers in 1u64..6, joins in 0u64..20, ahead in 0u64..10,
+            first in any::<prop::sample::Index>(),
+        ) {
+            let mut roster = roster(workers, 1e-4);
+            (0..joins).for_each(|place| roster.submit(join(place)));
+            (0..ahead).for_each(|place| roster.submit(generate(100 + place)));
+            let first = first.index(workers as usize) as u64;
+            let order = (0..workers).map(|worker| WorkerId((worker + first) % workers));
+            let mut left: Vec<_> = order.map(|worker| (worker, Vec::new())).collect();
+            let mut all = BTreeSet::<Job>::new();
+            loop {
+                for (worker, jobs) in &mut left {
+                    let given = roster.give(*worker, |_| true);
+                    all.extend(given.iter().copied());
+                    jobs.extend(given);
+                    jobs.sort();
+                }
+                // Every worker begins its first job: the others are still to be begun.
+                let is_idle = left.iter().any(|(_, jobs)| jobs.is_empty());
+                let to_begin = left.iter().map(|(_, jobs)| {
+                    jobs.iter().skip(1).filter(|job| urgency(job) == 1).count()
+                });
+                prop_assert!(!is_idle || to_begin.max() < Some(2));
+                if left.iter().all(|(_, jobs)| jobs.is_empty()) {
+                    break;
+                }
+                for (worker, jobs) in &mut left {
+                    if !jobs.is_empty() {
+                        prop_assert!(roster.done(*worker, jobs.remove(0), 1e-4));
+                    }
+                }
+            }
+            prop_assert_eq!(all.len() as u64, joins + ahead);
+            prop_assert_eq!(roster.open, [0; URGENCIES]);
+        }
+    }
+
+    /// One of several jobs kills: only that one is lost again, whoever gets it.
+    #[test]
+    fn a_job_that_kills_is_found_among_those_lost_with_it() {
+        let mut roster = roster(2, 1e-4);
+        let deadly = generate(3);
+        (0..12).for_each(|place| roster.submit(generate(place)));
+        let mut losses = BTreeMap::new();
+        let mut done = BTreeSet::new();
+        let mut newcomers = (2..).map(WorkerId);
+        while losses.get(&deadly) < Some(&3) {
+            let workers: Vec<WorkerId> = roster.held.keys().copied().collect();
+            for worker in workers {
+                roster.give(worker, |_| true);
+                let held: Vec<Job> = roster.held[&worker].iter().copied().collect();
+                for job in held {
+                    if job != deadly {
+                        assert!(roster.done(worker, job, 1e-4) && done.insert(job));
+                        continue;
+                    }
+                    for lost in roster.dismiss(worker) {
+                        *losses.entry(lost).or_insert(0) += 1;
+                        roster.submit(lost);
+                    }
+                    roster.enlist(newcomers.next().expect("endless"));
+                    break;
+                }
+            }
+        }
+        assert!(losses.len() > 1, "it was lost with others at first");
+        assert!(losses.iter().all(|(job, losses)| *job == deadly || *losses == 1), "{losses:?}");
+    }
+}
