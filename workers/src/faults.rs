@@ -4,8 +4,8 @@
 //! Workers read them from the environment variable [`VARIABLE`], which is for tests only. A fault
 //! takes a worker's answer away; none can change an outcome.
 
-use crate::WorkerError;
 use crate::channel::CHUNK_BYTES;
+use crate::error::WorkerError;
 use roadmill::img::{Job, Setup};
 use rustix::process::{Signal, getpid, kill_process};
 use std::cell::Cell;

@@ -4,8 +4,11 @@
 //! others. It is the same executable as the coordinator.
 
 pub mod channel;
+mod desk;
+mod error;
 mod faults;
 pub mod message;
 mod worker;
 
-pub use worker::{WorkerArguments, WorkerError, build_id, canary, run};
+pub use error::WorkerError;
+pub use worker::{WorkerArguments, build_id, canary, run};
