@@ -13,13 +13,14 @@
 //! (`bench/support/virtual_pool.rs`), jobs being F times longer with `--slower`: proteins' energies take
 //! far longer than rigid bodies' tests. The coordinator works U microseconds per set (default 60, which
 //! is right for sets of 50 nodes) and 40 per message, which brings jobs of up to 20 ms; messages arrive after
-//! 45 µs and are copied at 0.8 GB/s
-//! (`docs/performance.md` has these). As in the program, every worker keeps a copy of the roadmap and brings
-//! it up to date before each job; with `--shared` all read one.
+//! 45 µs and are copied at 0.8 GB/s, 90 bytes per set and worker
+//! (`docs/performance.md` has these). As in the program, every worker takes in all sets before its next job:
+//! configurations, edges and segments lie in memory once, but which component a node is in each keeps for
+//! itself. With `--shared` that is done once for all.
 //!
 //! Printed per number of workers and sets per round: the efficiency, that is the share of the workers' time
 //! in which they do what a single process would do for the same sets; and what most of the loss goes
-//! into where that is under 0.9: `copies` of the roadmap, the `coordinator` (at work for over 70 % of the
+//! into where that is under 0.9: `copies`, that is taking in sets, the `coordinator` (at work for over 70 % of the
 //! time), longer joins in `rounds` of many sets, the `criteria`, or else `waiting` for the end of a round.
 //! Costs are those of a roadmap of N nodes throughout.
 
@@ -37,7 +38,7 @@ use std::path::Path;
 use std::sync::Arc;
 use support::plot::{COLOURS, Plot, Scale};
 use support::{cpu_seconds, median};
-use virtual_pool::{Costs, Machine, Spent, VirtualPool};
+use virtual_pool::{Costs, Machine, Spent, TOLD_BYTES, VirtualPool};
 
 const WORKERS: [usize; 7] = [1, 4, 16, 64, 256, 1024, 4096];
 const SETS_PER_ROUND: [u32; 5] = [5, 50, 500, 5000, 20_000];
@@ -101,7 +102,7 @@ fn main() {
     let costs = measure(&problem, nodes);
     let mean = |values: &[f64]| 1e6 * values.iter().sum::<f64>() / values.len() as f64;
     println!(
-        "{}: sets of {} nodes: generate {:.0} µs, take in {:.0}, join {:.0} and {:.2} for every earlier set of the round, fold {:.0}, {:.0} bytes; evaluate {:.0} µs",
+        "{}: sets of {} nodes: generate {:.0} µs, take in {:.0}, join {:.0} and {:.2} for every earlier set of the round, fold {:.0}; evaluate {:.0} µs",
         problem.name,
         problem.strategies[0].nodes,
         mean(&costs.generate),
@@ -109,15 +110,14 @@ fn main() {
         mean(&costs.join),
         1e6 * costs.join_more,
         1e6 * costs.fold,
-        costs.bytes,
         1e6 * costs.evaluate,
     );
     let set = machine.slower * (mean(&costs.generate) + mean(&costs.join))
         + 1e6 * (costs.take_in + costs.fold);
     println!(
-        "{machine:?}\na set's work is {set:.0} µs: the coordinator feeds at most {:.0} workers; every copy of the roadmap takes it {:.1} µs per set\n",
+        "{machine:?}\na set's work is {set:.0} µs: the coordinator feeds at most {:.0} workers; telling another takes it {:.2} µs per set\n",
         set / (1e6 * machine.set_seconds),
-        1e6 * costs.bytes / machine.bytes_per_second,
+        1e6 * TOLD_BYTES / machine.bytes_per_second,
     );
     println!("| workers |{}", SETS_PER_ROUND.map(|k| format!(" {k} sets per round |")).concat());
     println!("|{}", " --- |".repeat(1 + SETS_PER_ROUND.len()));
@@ -136,7 +136,7 @@ fn main() {
             1.0 => String::new(),
             slower => format!(", sets {slower} times slower"),
         };
-        let copies = if machine.shared { "one copy of the roadmap" } else { "a copy each" };
+        let copies = if machine.shared { "components in common" } else { "components each" };
         let title = format!("{}{slower}: efficiency of workers with {copies}", problem.name);
         std::fs::write(file, picture(&title, &curves)).expect("the file can be written");
     }
@@ -170,7 +170,6 @@ fn measure(problem: &Problem, nodes: u64) -> Costs {
             costs.join.push(join);
             take_in.push(taking);
             fold.push(folding);
-            costs.bytes = bytes.len() as f64;
         }
     }
     // The mean: a set that waits for an index to be built anew does so in every copy.
