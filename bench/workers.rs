@@ -136,8 +136,8 @@ fn main() {
             1.0 => String::new(),
             slower => format!(", sets {slower} times slower"),
         };
-        let copies = if machine.shared { "components in common" } else { "components each" };
-        let title = format!("{}{slower}: efficiency of workers with {copies}", problem.name);
+        let shared = if machine.shared { ", one taking sets in for all" } else { "" };
+        let title = format!("{}{slower}: efficiency of workers{shared}", problem.name);
         std::fs::write(file, picture(&title, &curves)).expect("the file can be written");
     }
 }
