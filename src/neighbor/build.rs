@@ -1,8 +1,8 @@
 //! Filling the block of a segment.
 
-use super::embedding::{Embedding, FAN};
+use super::embedding::{Embedding, FAN, length};
+use super::layout::NONE;
 use super::layout::{Head, Layout};
-use super::tree::{NONE, length};
 use bytemuck::{cast_slice, cast_slice_mut};
 
 /// How many points of a part are looked at to see along which axis it is longest.

@@ -1,6 +1,6 @@
 //! Configurations as points whose Euclidean distance never exceeds the space's by more than rounding.
 
-use super::lanes::{Lanes, Measured};
+use super::lanes::Lanes;
 use crate::math;
 use crate::space::{PartKind, Space};
 
@@ -9,6 +9,11 @@ pub(super) const FAN: usize = 16;
 
 /// Squares of distances below this are not told apart: single precision ends near 10⁻³⁸.
 const TINY: f64 = 1e-36;
+
+/// Length of a point as a vector.
+pub(super) fn length(point: &[f32]) -> f64 {
+    point.iter().map(|value| f64::from(*value) * f64::from(*value)).sum::<f64>().sqrt()
+}
 
 /// The map from configurations to points of single precision.
 ///
@@ -24,7 +29,7 @@ pub(super) struct Embedding {
     rotations: Vec<Rotation>,
     /// How wrong the scalar products of quaternions make squares, see [`Bounds`].
     products: f64,
-    lanes: Lanes,
+    pub(super) lanes: Lanes,
 }
 
 /// How the distances of points and of their configurations, both as they are computed, bound one another.
@@ -158,18 +163,6 @@ impl Embedding {
             rounding: self.products + TINY,
             bend: BEND / (2.0 * lightest * lightest),
         }
-    }
-
-    /// Squares of the distances between a point and those of a leaf, and which are within a limit.
-    #[inline]
-    pub(super) fn near_points(&self, point: &[f32], leaf: &[f32], limit: f32) -> Measured {
-        self.lanes.points(self, point, leaf, limit)
-    }
-
-    /// The same for boxes: along each axis their least coordinates, then their largest.
-    #[inline]
-    pub(super) fn near_boxes(&self, point: &[f32], sides: &[f32], limit: f32) -> Measured {
-        self.lanes.boxes(self, point, sides, limit)
     }
 
     /// Squares of the distances between a point and those of a leaf.

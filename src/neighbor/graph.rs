@@ -1,9 +1,10 @@
 use super::best::Neighbor;
 use super::build::Source;
 use super::embedding::{Embedding, FAN};
+use super::layout::NONE;
 use super::seek::{Search, Seeker};
 use super::shortlist::{Met, Shortlist};
-use super::tree::{NONE, Tree};
+use super::tree::Tree;
 use crate::shelf;
 use crate::space::{Configs, Space};
 

@@ -2,11 +2,11 @@
 
 use super::best::{NearPair, Neighbor, Ranked};
 use super::build::Source;
-use super::embedding::Embedding;
+use super::embedding::{Embedding, length};
 use super::places;
 use super::seek::{Leaves, Search, Seeker};
 use super::shortlist::{Met, Shortlist};
-use super::tree::{Tree, length};
+use super::tree::Tree;
 use crate::shelf::{self, Shelf};
 use crate::space::{Configs, Space};
 use std::sync::Arc;

@@ -4,6 +4,9 @@ use super::embedding::FAN;
 use crate::shelf::ALIGNMENT;
 use std::ops::Range;
 
+/// Stands where a leaf has no point.
+pub(super) const NONE: u32 = u32::MAX;
+
 /// Where the parts of a segment of so many points stand in its block, in bytes: after the head all that is
 /// numbers of four bytes, then a byte per box.
 #[derive(Debug)]

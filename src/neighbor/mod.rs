@@ -10,6 +10,7 @@ mod graph;
 mod index;
 mod lanes;
 mod layout;
+mod measure;
 mod places;
 mod seek;
 mod shortlist;

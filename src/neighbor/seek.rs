@@ -1,8 +1,9 @@
 //! The search of a tree for what is near a place.
 
 use super::build::an_id;
-use super::embedding::{Embedding, FAN};
-use super::tree::{NONE, Tree, length};
+use super::embedding::{Embedding, FAN, length};
+use super::layout::NONE;
+use super::tree::Tree;
 
 /// Whoever looks for points near a place.
 pub(super) trait Seeker {

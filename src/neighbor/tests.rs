@@ -1,6 +1,5 @@
-use super::embedding::{Embedding, FAN};
+use super::embedding::{Embedding, FAN, length};
 use super::lanes::Lanes;
-use super::tree::length;
 use super::*;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::shelf::tests::Flaky;

@@ -5,13 +5,6 @@ use super::embedding::{Embedding, FAN};
 use super::layout::{Head, Layout, Level};
 use crate::shelf::Block;
 
-/// Stands where a leaf has no point.
-pub(super) const NONE: u32 = u32::MAX;
-/// Length of a point as a vector.
-pub(super) fn length(point: &[f32]) -> f64 {
-    point.iter().map(|value| f64::from(*value) * f64::from(*value)).sum::<f64>().sqrt()
-}
-
 /// A balanced tree of boxes. Leaves hold [`FAN`] points but for the last; [`FAN`] leaves following one
 /// another have a box together, as many such boxes one again, and so on. Points are put in order by
 /// cutting parts across their longest axis, always so that whole boxes go to the left.
