@@ -43,7 +43,7 @@ impl RoadmapHasher {
         }
     }
 
-    /// Hashes what was added; to be called before digests are asked for.
+    /// Hashes what was added, which digests would do again and again otherwise.
     pub(super) fn take_in(&mut self) {
         self.hasher.update(&self.bytes);
         self.bytes.clear();
