@@ -31,6 +31,7 @@
 
 mod context;
 mod digest;
+mod lanes;
 
 pub mod connect;
 pub mod evaluate;

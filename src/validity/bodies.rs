@@ -7,6 +7,7 @@ use super::meet::{Group, Meeting};
 use super::piece::Piece;
 use super::swept::Walls;
 use super::{Scratch, State, Validity};
+use crate::lanes::Lanes;
 use crate::robot::{Chain, Rates, Robot, Speeds};
 use crate::scene::Body;
 use crate::space::{Motion, Space};
@@ -73,6 +74,8 @@ pub struct BodyValidity {
     pub(super) slack: f64,
     /// The same in single precision.
     pub(super) grain: f32,
+    /// The instructions that test boxes.
+    pub(super) lanes: Lanes,
 }
 
 /// A link that has bodies.
@@ -137,16 +140,19 @@ impl BodyValidity {
             solid,
             slack: 1e-12 * scale,
             grain: grain(scale),
+            lanes: Lanes::widest(),
         }
     }
 
     /// What moves in what: every link among the obstacles, then the pairs of links.
     pub(super) fn meetings(&self) -> impl Iterator<Item = (Meeting<'_>, &Chain)> {
-        let (slack, grain) = (self.slack, self.grain);
+        let (slack, grain, lanes) = (self.slack, self.grain, self.lanes);
         let among = self.links.iter().filter_map(move |Moving { link, group, chain }| {
             let still = self.obstacles.as_ref()?;
             let (mover, mover_link) = (group, *link);
-            Some((Meeting { mover, mover_link, still, still_link: None, slack, grain }, chain))
+            let meeting =
+                Meeting { mover, mover_link, still, still_link: None, slack, grain, lanes };
+            Some((meeting, chain))
         });
         let own = self.self_pairs.iter().map(move |SelfPair { first, second, chain }| {
             let (still, mover) = (&self.links[*first], &self.links[*second]);
@@ -157,6 +163,7 @@ impl BodyValidity {
                 still_link: Some(still.link),
                 slack,
                 grain,
+                lanes,
             };
             (meeting, chain)
         });

@@ -2,11 +2,13 @@
 
 use super::element::{Element, elements};
 use super::frame::{Frame, Stance};
-use super::light::{Stand, above};
+use super::light::{Four, Frames, Stands, above};
 use super::piece::Piece;
 use super::tree::{Node, Tree};
 use super::triangles::triangles_meet;
+use crate::lanes::{Lanes, with_lanes};
 use crate::scene::Body;
+use fearless_simd::{Simd, f32x4};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::{DefaultQueryDispatcher, QueryDispatcher};
 use parry3d_f64::shape::{Shape, SupportMap, Triangle};
@@ -29,35 +31,56 @@ pub(super) struct Meeting<'a> {
     pub slack: f64,
     /// The same in single precision, see [`light`](super::light).
     pub grain: f32,
+    /// The instructions that test boxes.
+    pub lanes: Lanes,
 }
 
 impl Meeting<'_> {
     /// Whether a surface of one meets a surface of the other; a primitive is solid and meets what lies
     /// inside it, too. Touching counts. That a mesh may enclose the other is not looked at.
     pub fn surfaces_meet(&self, stance: &Stance, stack: &mut Vec<(u32, u32)>) -> bool {
-        let (movers, stills) = (&self.mover.tree.nodes, &self.still.tree.nodes);
         let frame = stance.seen(self.mover_link, self.still_link);
-        stack.clear();
-        stack.push((0, 0));
+        with_lanes!(self.lanes, simd => simd.vectorize(
+            #[inline(always)]
+            || self.surfaces_meet_at(simd, &frame, stance, stack),
+        ))
+    }
+
+    #[inline(always)]
+    fn surfaces_meet_at<S: Simd>(
+        &self,
+        simd: S,
+        frame: &Frame,
+        stance: &Stance,
+        stack: &mut Vec<(u32, u32)>,
+    ) -> bool {
+        let (own, other) = (&self.mover.tree, &self.still.tree);
+        let frames: Frames<f32x4<S>> = Frames::new(simd, [frame, frame]);
         let room = above(self.slack) + self.grain;
-        let mut held = (0, Stand::new(&movers[0].space.placed(&frame)));
+        let place = |four: &Four<S>| Stands::new(&frames, four);
+        let same = |tree: &'_ Tree, node: u32| Four::same(simd, &tree.boxes[node as usize]);
+        let gathered = |tree: &'_ Tree, nodes: &[u32]| Four::new(simd, tree.gathered(nodes));
+        let mut held = (0, place(&same(own, 0)));
+        stack.clear();
+        if held.1.may_meet(simd, &same(other, 0), room) != 0 {
+            stack.push((0, 0));
+        }
         while let Some((i, j)) = stack.pop() {
-            let (mover, still) = (&movers[i as usize], &stills[j as usize]);
-            if held.0 != i {
-                held = (i, Stand::new(&mover.space.placed(&frame)));
-            }
-            let (own, other) =
-                (&self.mover.tree.boxes[i as usize], &self.still.tree.boxes[j as usize]);
-            if !held.1.may_meet(own, other, room) {
-                continue;
-            }
+            let (mover, still) = (&own.nodes[i as usize], &other.nodes[j as usize]);
             if !mover.ends && (still.ends || mover.space.radius > still.space.radius) {
-                stack.push((mover.left + 1, j));
-                stack.push((mover.left, j));
+                let nodes = own.children(i);
+                let met = place(&gathered(own, nodes)).may_meet(simd, &same(other, j), room);
+                let met = nodes.iter().enumerate().rev().filter(|(lane, _)| met >> lane & 1 == 1);
+                stack.extend(met.map(|(_, i)| (*i, j)));
             } else if !still.ends {
-                stack.push((i, still.left + 1));
-                stack.push((i, still.left));
-            } else if self.ends_meet(mover, still, &frame, stance) {
+                if held.0 != i {
+                    held = (i, place(&same(own, i)));
+                }
+                let nodes = other.children(j);
+                let met = held.1.may_meet(simd, &gathered(other, nodes), room);
+                let met = nodes.iter().enumerate().rev().filter(|(lane, _)| met >> lane & 1 == 1);
+                stack.extend(met.map(|(_, j)| (i, *j)));
+            } else if self.ends_meet(mover, still, frame, stance) {
                 return true;
             }
         }

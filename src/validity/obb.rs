@@ -2,7 +2,6 @@
 //! structure for rapid interference detection*, SIGGRAPH 1996).
 
 use super::element::Element;
-use super::frame::Frame;
 use nalgebra::Matrix3;
 use parry3d_f64::math::Vector;
 
@@ -15,13 +14,6 @@ pub(super) struct Obb {
     pub half: Vector,
     /// Half its diagonal.
     pub radius: f64,
-}
-
-/// Where a box that moves has its centre and its axes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Placed {
-    pub centre: Vector,
-    pub axes: [Vector; 3],
 }
 
 /// The axes of the frame itself.
@@ -53,15 +45,6 @@ impl Obb {
             }
         }
         best
-    }
-
-    /// The box as it stands at a frame.
-    #[inline]
-    pub fn placed(&self, frame: &Frame) -> Placed {
-        Placed {
-            centre: frame.point(self.centre),
-            axes: self.axes.map(|axis| frame.direction(axis)),
-        }
     }
 
     fn along(axes: [Vector; 3], elements: &[&Element]) -> Obb {

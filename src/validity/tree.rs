@@ -32,6 +32,8 @@ pub(super) struct Tree {
     pub nodes: Vec<Node>,
     /// Those of the nodes, in single precision.
     pub boxes: Vec<LightBox>,
+    /// For each node up to four nodes below it that hold all that it holds, and how many.
+    below: Vec<([u32; 4], u32)>,
     pub elements: Vec<Element>,
 }
 
@@ -63,12 +65,56 @@ impl Tree {
             return None;
         }
         let nodes = Vec::with_capacity(2 * elements.len());
-        let mut tree = Tree { nodes, boxes: Vec::new(), elements };
+        let mut tree = Tree { nodes, boxes: Vec::new(), below: Vec::new(), elements };
         let root = tree.node(&units);
         tree.nodes.push(root);
         tree.grow(0, &mut units, 0);
         tree.boxes = tree.nodes.iter().map(|node| LightBox::new(&node.space)).collect();
+        tree.below = (0..tree.nodes.len() as u32).map(|at| tree.four_below(at)).collect();
         Some(tree)
+    }
+
+    #[inline(always)]
+    pub fn is_leaf(&self, node: u32) -> bool {
+        self.below[node as usize].1 == 0
+    }
+
+    /// Up to four nodes below a node that together hold all that it holds; none of a leaf.
+    #[inline(always)]
+    pub fn children(&self, node: u32) -> &[u32] {
+        let (nodes, count) = &self.below[node as usize];
+        &nodes[..*count as usize]
+    }
+
+    /// The boxes of up to four nodes, the last again where there are fewer.
+    #[inline(always)]
+    pub fn gathered(&self, nodes: &[u32]) -> [&LightBox; 4] {
+        let last = nodes.len() - 1;
+        let [a, b, c, d] = [nodes[0], nodes[last.min(1)], nodes[last.min(2)], nodes[last]];
+        let boxes = &self.boxes;
+        [&boxes[a as usize], &boxes[b as usize], &boxes[c as usize], &boxes[d as usize]]
+    }
+
+    /// Opens the larger ones. Primitives stay whole: looks at one sample end there.
+    fn four_below(&self, at: u32) -> ([u32; 4], u32) {
+        let node = |at: u32| &self.nodes[at as usize];
+        if node(at).is_leaf() {
+            return ([at; 4], 0);
+        }
+        let mut list = vec![node(at).left, node(at).left + 1];
+        while list.len() < 4 {
+            let inner = list.iter().enumerate().filter(|(_, at)| !node(**at).ends);
+            let size = |at: u32| node(at).space.radius;
+            let Some((place, _)) = inner.max_by(|(_, a), (_, b)| size(**a).total_cmp(&size(**b)))
+            else {
+                break;
+            };
+            let left = node(list[place]).left;
+            list.splice(place..=place, [left, left + 1]);
+        }
+        let mut nodes = [list[0]; 4];
+        nodes[..list.len()].copy_from_slice(&list);
+        (nodes, list.len() as u32)
     }
 
     fn of(&self, units: &[Unit]) -> impl Iterator<Item = &Element> {

@@ -3,8 +3,8 @@
 use super::clip::Span;
 use super::{Asks, Sweep};
 use crate::validity::element::Element;
-use crate::validity::tree::Node;
 use crate::validity::triangles::separating_axis;
+use fearless_simd::Simd;
 use parry3d_f64::math::Vector;
 
 /// What keeps two elements apart at one sample.
@@ -15,19 +15,22 @@ enum Apart {
     By(f64),
 }
 
-impl Sweep<'_, '_> {
+impl<S: Simd> Sweep<'_, '_, S> {
     /// Whether two elements come as near, at a sample of the span, as half a step moves the points of
     /// the moving one.
     ///
     /// If only samples are asked about: whether they meet at one. The gap at one sample keeps them apart for a while, for its change is bounded; what is left on
     /// either side is looked at in the same way.
-    pub(super) fn touches(&mut self, moving: &Node, node: &Node, span: Span) -> bool {
+    #[inline(never)]
+    pub(super) fn touches(&mut self, moving: u32, node: u32, span: Span) -> bool {
         let meeting = self.meeting;
+        let moving = &meeting.mover.tree.nodes[moving as usize];
+        let node = &meeting.still.tree.nodes[node as usize];
         let element = &meeting.mover.tree.elements[moving.element as usize];
         let other = &meeting.still.tree.elements[node.element as usize];
-        let reach = element.reach(&self.rates);
-        let (speed, bend) = (self.rates.speed_at(reach), self.rates.bend_at(reach));
-        let margin = self.spare * speed;
+        let reach = element.reach(&self.course.rates);
+        let (speed, bend) = (self.course.rates.speed_at(reach), self.course.rates.bend_at(reach));
+        let margin = self.course.spare * speed;
         // A sample is cut off by far less than rounding could move it.
         let samples = self.clock.samples as f64 * (1.0 - 1e-9);
         self.stacks.work.count(|work| work.pairs += 1);
@@ -57,7 +60,7 @@ impl Sweep<'_, '_> {
                     let time = (distance - margin) / speed;
                     (time, time)
                 }
-                Some(Apart::Along(axis, gap)) => match &self.rates.steady {
+                Some(Apart::Along(axis, gap)) => match &self.course.rates.steady {
                     Some(steady) => {
                         let drift = steady.velocity - steady.turning.cross(frame.shift);
                         let rates = corners.map(|p| axis.dot(drift + steady.turning.cross(p)));

@@ -16,11 +16,13 @@ pub(super) use clock::{Clock, Timeline};
 pub(super) use room::{Walls, stays_inside};
 
 use super::frame::Frame;
+use super::light::Four;
 use super::meet::Meeting;
-use super::tree::Tree;
 use super::work::Work;
+use crate::lanes::with_lanes;
 use crate::robot::Rates;
-use clip::{Span, SweptBall, SweptBox};
+use clip::{Chord, Course, Span, SweptBall, SweptBoxes};
+use fearless_simd::Simd;
 
 /// A chord is halved while its points leave it by more than this share of the larger box.
 const BEND: f64 = 0.01;
@@ -41,10 +43,14 @@ type Open = Vec<(u32, Span)>;
 pub(super) struct Stacks {
     /// To be tested against the box at hand.
     open: Open,
+    /// Not told apart from it.
+    near: Open,
     /// To be tested against the same box over shorter chords.
     halves: Open,
     /// To be tested against the children of the box.
     children: Open,
+    /// Not told apart from one of these, the first, the second, …
+    found: Vec<(u32, u32, Span)>,
     pub pairs: Vec<(u32, u32)>,
     /// A bit for each of the last searches, set where something was in the way.
     blocked: u32,
@@ -54,10 +60,13 @@ pub(super) struct Stacks {
 impl Stacks {
     /// Rubbish, see [`Scratch::poison`](crate::validity::Scratch::poison).
     pub fn poison(&mut self, rubbish: u64) {
-        let entry = (u32::MAX, Span { from: 0, to: rubbish });
+        let span = Span { from: 0, to: rubbish };
+        let entry = (u32::MAX, span);
         self.open = vec![entry; rubbish as usize % 3];
+        self.near = vec![entry; rubbish as usize % 7];
         self.halves = vec![entry; rubbish as usize % 5];
         self.children = vec![entry; rubbish as usize % 2];
+        self.found = vec![(7, u32::MAX, span); rubbish as usize % 4];
         self.pairs = vec![(u32::MAX, 7); rubbish as usize % 3];
         self.blocked = rubbish as u32;
     }
@@ -84,15 +93,25 @@ pub(super) enum Finds {
     Meets,
 }
 
-/// Two groups during a motion.
-pub(super) struct Sweep<'a, 'c> {
+/// What is found of two groups during a motion.
+pub(super) fn find<'a>(
     meeting: Meeting<'a>,
     rates: Rates,
     asks: Asks,
+    clock: &mut Clock<'a>,
+    stacks: &mut Stacks,
+) -> Finds {
+    with_lanes!(meeting.lanes, simd => Sweep::new(simd, meeting, rates, asks, clock, stacks).finds())
+}
+
+/// Two groups during a motion.
+struct Sweep<'a, 'c, S: Simd> {
+    simd: S,
+    meeting: Meeting<'a>,
+    course: Course,
+    asks: Asks,
     clock: &'c mut Clock<'a>,
     stacks: &'c mut Stacks,
-    /// The time in which the tolerance is used up: that of half a step, or none.
-    spare: f64,
     /// Surfaces were found to meet at a sample between the ends.
     meets: bool,
     /// Tests of boxes until a sample is looked at.
@@ -101,37 +120,41 @@ pub(super) struct Sweep<'a, 'c> {
     looks: u64,
 }
 
-impl<'a, 'c> Sweep<'a, 'c> {
-    pub fn new(
+impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
+    fn new(
+        simd: S,
         meeting: Meeting<'a>,
         rates: Rates,
         asks: Asks,
         clock: &'c mut Clock<'a>,
         stacks: &'c mut Stacks,
-    ) -> Sweep<'a, 'c> {
+    ) -> Sweep<'a, 'c, S> {
         let half_step = 0.5 / clock.samples as f64;
         let spare = if asks == Asks::Samples { 0.0 } else { half_step };
         let (often, few) = OFTEN;
         let patience = if stacks.blocked.count_ones() >= often { few } else { PATIENCE };
-        Sweep { meeting, rates, asks, clock, stacks, spare, meets: false, patience, looks: 0 }
+        let Meeting { slack, grain, .. } = meeting;
+        let course = Course { rates, spare, slack, grain };
+        Sweep { simd, meeting, course, asks, clock, stacks, meets: false, patience, looks: 0 }
     }
 
     /// Whether it is as asked.
-    pub fn finds(&mut self) -> Finds {
+    fn finds(&mut self) -> Finds {
         let samples = self.clock.samples;
         let asked = match self.asks {
             Asks::AllTimes => Span { from: 0, to: samples },
             _ if samples < 2 => return Finds::Free,
             _ => Span { from: 1, to: samples - 1 },
         };
+        self.stacks.near.clear();
         self.stacks.halves.clear();
         self.stacks.children.clear();
-        let Some(mut chord) = self.near_the_ball(asked) else { return Finds::Free };
-        if 2 * chord.length() > samples {
-            chord = Span { from: 0, to: samples };
+        self.stacks.found.clear();
+        let Some(mut span) = self.near_the_ball(asked) else { return Finds::Free };
+        if 2 * span.length() > samples {
+            span = Span { from: 0, to: samples };
         }
-        let swept = self.swept(0, chord);
-        let blocked = self.blocked(&swept, 0);
+        let blocked = self.blocked(0, span, (0, 0));
         self.stacks.blocked = self.stacks.blocked << 1 | u32::from(blocked);
         match (blocked, self.meets) {
             (false, _) => Finds::Free,
@@ -143,28 +166,47 @@ impl<'a, 'c> Sweep<'a, 'c> {
     /// Opens the nodes, no larger than the ball around what moves, that the ball may meet, and says which
     /// samples they span.
     fn near_the_ball(&mut self, asked: Span) -> Option<Span> {
-        let Meeting { mover, still, slack, grain, .. } = self.meeting;
+        let simd = self.simd;
         let frames = [self.frame(0), self.frame(self.clock.samples)];
+        simd.vectorize(
+            #[inline(always)]
+            || self.near_the_ball_at(asked, frames),
+        )
+    }
+
+    #[inline(always)]
+    fn near_the_ball_at(&mut self, asked: Span, frames: [Frame; 2]) -> Option<Span> {
+        let (simd, course) = (self.simd, &self.course);
+        let Meeting { mover, still, slack, grain, .. } = self.meeting;
         let space = &mover.tree.nodes[0].space;
-        let ball = SweptBall::new(space, &frames, &self.rates, (self.spare, slack, grain));
-        let Tree { nodes, boxes, .. } = &still.tree;
-        let Stacks { open, pairs: todo, work, .. } = &mut *self.stacks;
+        let from_origin = course.rates.distance(space.centre);
+        let margin = course.spare * course.rates.speed_at(space.radius + from_origin);
+        let room = space.radius + course.rates.bend_at(from_origin) / 8.0 + margin + slack;
+        let ends = frames.map(|frame| frame.point(space.centre));
+        let ball = SweptBall::new(simd, ends, room, grain);
+        let radius = mover.tree.boxes[0].radius();
+        let tree = &still.tree;
+        let all = Span { from: 0, to: self.clock.samples };
+        let Stacks { open, near: todo, work, .. } = &mut *self.stacks;
         open.clear();
-        todo.clear();
-        todo.push((0, 0));
+        work.count(|work| work.balls += 1);
+        let met = ball.meets(simd, &Four::same(simd, &tree.boxes[0]));
+        if met.lanes == 0 {
+            return None;
+        }
+        todo.extend(met.samples(0, all, asked).map(|span| (0, span)));
         let mut whole: Option<Span> = None;
-        while let Some((at, _)) = todo.pop() {
-            let node = &nodes[at as usize];
-            work.count(|work| work.balls += 1);
-            let Some(clip) = ball.meets(&boxes[at as usize]) else { continue };
-            if node.space.radius > space.radius && !node.is_leaf() {
-                todo.push((node.left, 0));
-                todo.push((node.left + 1, 0));
-            } else if let Some(span) = clip.samples(Span { from: 0, to: self.clock.samples }, asked)
-            {
+        while let Some((at, span)) = todo.pop() {
+            if tree.boxes[at as usize].radius() <= radius || tree.is_leaf(at) {
                 open.push((at, span));
-                let Span { from, to } = whole.unwrap_or(span);
-                whole = Some(Span { from: from.min(span.from), to: to.max(span.to) });
+                whole = Some(whole.map_or(span, |whole| whole.with(span)));
+                continue;
+            }
+            let children = tree.children(at);
+            work.count(|work| work.balls += children.len() as u64);
+            let met = ball.meets(simd, &Four::new(simd, tree.gathered(children)));
+            for lane in lanes(met.lanes, children.len()) {
+                todo.extend(met.samples(lane, all, asked).map(|span| (children[lane], span)));
             }
         }
         whole
@@ -179,74 +221,97 @@ impl<'a, 'c> Sweep<'a, 'c> {
         self.clock.at(sample).seen(mover_link, still_link)
     }
 
-    fn swept(&mut self, node: u32, chord: Span) -> SweptBox {
-        self.stacks.work.count(|work| work.placed += 1);
-        let frames = [self.frame(chord.from), self.frame(chord.to)];
-        let Tree { nodes, boxes, .. } = &self.meeting.mover.tree;
-        let of = (node, &nodes[node as usize].space, &boxes[node as usize]);
-        let time = chord.length() as f64 * self.step();
-        let tolerances = (self.spare, self.meeting.slack, self.meeting.grain);
-        SweptBox::new(of, (chord, time), [&frames[0], &frames[1]], &self.rates, tolerances)
+    /// Whether anything in a box comes near anything below the nodes that are open, at a sample of theirs
+    /// within the chord.
+    fn blocked(&mut self, node: u32, span: Span, base: (usize, usize)) -> bool {
+        let simd = self.simd;
+        let frames = [self.frame(span.from), self.frame(span.to)];
+        let time = span.length() as f64 * self.step();
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let chord = Chord::new(simd, &self.course, (span, time), [&frames[0], &frames[1]]);
+                self.stacks.work.count(|work| work.placed += 1);
+                let own = Four::same(simd, &self.meeting.mover.tree.boxes[node as usize]);
+                let swept = SweptBoxes::new(simd, &self.course, &chord, &own);
+                self.comes_near(node, &chord, &swept, base)
+            },
+        )
     }
 
-    /// Whether anything in the swept box comes near anything below the nodes that are open from `base`
-    /// on, at a sample of theirs.
-    fn blocked(&mut self, swept: &SweptBox, base: usize) -> bool {
+    /// [`Sweep::blocked`] of a box in all lanes, from `base` on of what is near and what is open.
+    #[inline(always)]
+    fn comes_near(
+        &mut self,
+        node: u32,
+        chord: &Chord<S>,
+        swept: &SweptBoxes<S>,
+        base: (usize, usize),
+    ) -> bool {
+        let simd = self.simd;
         let Meeting { mover, still: other, .. } = self.meeting;
-        let moving = &mover.tree.nodes[swept.node as usize];
+        let (own, other) = (&mover.tree, &other.tree);
+        let (leaf, radius) = (own.is_leaf(node), own.boxes[node as usize].radius());
+        let bend = swept.bend(0);
         let (halves, children) = (self.stacks.halves.len(), self.stacks.children.len());
-        while self.stacks.open.len() > base {
-            let (still, span) = self.stacks.open.pop().expect("more than the base");
-            self.patience -= 1;
-            if self.patience == 0 && self.meets_at_a_sample() {
+        loop {
+            while self.stacks.near.len() > base.0 {
+                let (still, span) = self.stacks.near.pop().expect("more than the base");
+                let (end, size) = (other.is_leaf(still), other.boxes[still as usize].radius());
+                let list = if leaf && end {
+                    if self.touches(node, still, span) {
+                        return true;
+                    }
+                    continue;
+                } else if chord.span.length() > 1 && bend > BEND as f32 * radius.max(size) {
+                    &mut self.stacks.halves
+                } else if !leaf && (end || radius > size) {
+                    &mut self.stacks.children
+                } else {
+                    let nodes = other.children(still).iter().rev();
+                    self.stacks.open.extend(nodes.map(|child| (*child, span)));
+                    continue;
+                };
+                list.push((still, span));
+            }
+            let count = (self.stacks.open.len() - base.1).min(4);
+            if count == 0 {
+                break;
+            }
+            let Stacks { open, near, work, .. } = &mut *self.stacks;
+            let rest = open.len() - count;
+            let mut nodes = [0; 4];
+            open[rest..].iter().zip(&mut nodes).for_each(|((still, _), node)| *node = *still);
+            let four = Four::new(simd, other.gathered(&nodes[..count]));
+            let met = swept.meets(simd, &four);
+            work.count(|work| work.boxes += count as u64);
+            for lane in lanes(met.lanes, count) {
+                let (still, span) = open[rest + lane];
+                near.extend(met.samples(lane, chord.span, span).map(|span| (still, span)));
+            }
+            open.truncate(rest);
+            if self.tires(count) {
                 return true;
             }
-            self.stacks.work.count(|work| work.boxes += 1);
-            let Some(span) = swept.meets(&other.tree.boxes[still as usize], span) else { continue };
-            self.stacks.work.count(|work| work.near += 1);
-            let node = &other.tree.nodes[still as usize];
-            if moving.is_leaf() && node.is_leaf() {
-                if self.touches(moving, node, span) {
-                    return true;
-                }
-                continue;
-            }
-            let larger = moving.space.radius.max(node.space.radius);
-            if swept.chord.length() > 1 && swept.bend > BEND * larger {
-                self.stacks.halves.push((still, span));
-            } else if !moving.is_leaf()
-                && (node.is_leaf() || moving.space.radius > node.space.radius)
-            {
-                self.stacks.children.push((still, span));
-            } else {
-                self.stacks.open.push((node.left + 1, span));
-                self.stacks.open.push((node.left, span));
-            }
         }
-        if self.stacks.halves.len() > halves && self.halves_blocked(swept, halves) {
+        if self.stacks.halves.len() > halves && self.halves_blocked(node, chord.span, halves, base)
+        {
             return true;
         }
-        if self.stacks.children.len() > children {
-            for child in [moving.left, moving.left + 1] {
-                let swept = self.swept(child, swept.chord);
-                let Stacks { open, children: list, .. } = &mut *self.stacks;
-                open.extend_from_slice(&list[children..]);
-                if self.blocked(&swept, base) {
-                    return true;
-                }
-            }
-            self.stacks.children.truncate(children);
-        }
-        false
+        self.stacks.children.len() > children && self.children_blocked(node, chord, children, base)
     }
 
     /// [`Sweep::blocked`] over shorter chords, of the nodes in the list of halves from `list` on.
-    fn halves_blocked(&mut self, swept: &SweptBox, list: usize) -> bool {
-        let chord = swept.chord;
+    #[inline(never)]
+    fn halves_blocked(
+        &mut self,
+        node: u32,
+        chord: Span,
+        list: usize,
+        base: (usize, usize),
+    ) -> bool {
         let spans = self.stacks.halves[list..].iter().map(|(_, span)| *span);
-        let whole = spans
-            .reduce(|all, span| Span { from: all.from.min(span.from), to: all.to.max(span.to) });
-        let whole = whole.unwrap_or(chord);
+        let whole = spans.reduce(Span::with).unwrap_or(chord);
         let middle = chord.from + chord.length() / 2;
         // What is left, if that is less than half; else one half after the other.
         let (parts, count) = if 2 * whole.length() <= chord.length() {
@@ -256,24 +321,92 @@ impl<'a, 'c> Sweep<'a, 'c> {
             ([(first, first), (second, Span { from: middle + 1, ..chord })], 2)
         };
         for (chord, asked) in &parts[..count] {
-            let base = self.stacks.open.len();
             let Stacks { open, halves, .. } = &mut *self.stacks;
             open.extend(halves[list..].iter().filter_map(|(still, span)| {
                 let span = Span { from: span.from.max(asked.from), to: span.to.min(asked.to) };
                 (span.from <= span.to).then_some((*still, span))
             }));
-            if open.len() > base {
-                let swept = self.swept(swept.node, *chord);
-                if self.blocked(&swept, base) {
-                    return true;
-                }
+            if open.len() > base.1 && self.blocked(node, *chord, base) {
+                return true;
             }
         }
         self.stacks.halves.truncate(list);
         false
     }
 
+    /// [`Sweep::blocked`] of the children of a box, with the nodes in the list of children from `list` on.
+    #[inline(always)]
+    fn children_blocked(
+        &mut self,
+        node: u32,
+        chord: &Chord<S>,
+        list: usize,
+        base: (usize, usize),
+    ) -> bool {
+        let simd = self.simd;
+        let Meeting { mover, still: other, .. } = self.meeting;
+        let tree = &mover.tree;
+        let nodes = tree.children(node);
+        let own = Four::new(simd, tree.gathered(nodes));
+        let swept = SweptBoxes::new(simd, &self.course, chord, &own);
+        self.stacks.work.count(|work| work.placed += nodes.len() as u64);
+        let Stacks { children, found, work, .. } = &mut *self.stacks;
+        let first = found.len();
+        for (still, span) in &children[list..] {
+            let four = Four::same(simd, &other.tree.boxes[*still as usize]);
+            let met = swept.meets(simd, &four);
+            work.count(|work| work.boxes += nodes.len() as u64);
+            for lane in lanes(met.lanes, nodes.len()) {
+                let span = met.samples(lane, chord.span, *span);
+                found.extend(span.map(|span| (lane as u32, *still, span)));
+            }
+        }
+        let tests = nodes.len() * (children.len() - list);
+        children.truncate(list);
+        if self.tires(tests) {
+            return true;
+        }
+        for (lane, child) in nodes.iter().enumerate() {
+            let Stacks { near, found, .. } = &mut *self.stacks;
+            let of_child = found[first..].iter().filter(|(of, ..)| *of == lane as u32);
+            near.extend(of_child.map(|(_, still, span)| (*still, *span)));
+            if near.len() > base.0 && self.child_blocked(*child, chord, &swept, lane, base) {
+                return true;
+            }
+        }
+        self.stacks.found.truncate(first);
+        false
+    }
+
+    #[inline(never)]
+    fn child_blocked(
+        &mut self,
+        node: u32,
+        chord: &Chord<S>,
+        swept: &SweptBoxes<S>,
+        lane: usize,
+        base: (usize, usize),
+    ) -> bool {
+        let simd = self.simd;
+        simd.vectorize(
+            #[inline(always)]
+            || self.comes_near(node, chord, &swept.only(simd, lane), base),
+        )
+    }
+
+    /// Whether, after so many more tests of boxes, it is time to look at a sample, and surfaces meet there.
+    #[inline(always)]
+    fn tires(&mut self, tests: usize) -> bool {
+        let tests = u32::try_from(tests).unwrap_or(u32::MAX);
+        if self.patience > tests {
+            self.patience -= tests;
+            return false;
+        }
+        self.meets_at_a_sample()
+    }
+
     /// Whether surfaces meet at one sample, the next of those that halve the gaps between the ones before.
+    #[inline(never)]
     fn meets_at_a_sample(&mut self) -> bool {
         self.looks += 1;
         // 1/2, 1/4, 3/4, 1/8, …: what is in the way is often so half way.
@@ -288,4 +421,15 @@ impl<'a, 'c> Sweep<'a, 'c> {
         self.meets = self.meeting.surfaces_meet(self.clock.at(sample), &mut self.stacks.pairs);
         self.meets
     }
+}
+
+/// The lanes of a mask, of the first so many.
+#[inline(always)]
+fn lanes(mask: u32, count: usize) -> impl Iterator<Item = usize> {
+    let mut rest = mask & ((1 << count) - 1);
+    std::iter::from_fn(move || {
+        let lane = rest.trailing_zeros();
+        rest &= rest.wrapping_sub(1);
+        (lane < u32::BITS).then_some(lane as usize)
+    })
 }
