@@ -9,20 +9,53 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x8};
 use parry3d_f64::math::Vector;
 
-/// A stretch of samples.
+/// A stretch of time, in shares of the motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
-    pub from: u64,
-    pub to: u64,
+    pub from: f32,
+    pub to: f32,
 }
 
 impl Span {
-    pub fn length(self) -> u64 {
+    pub const ALL: Span = Span { from: 0.0, to: 1.0 };
+
+    pub fn length(self) -> f32 {
         self.to - self.from
     }
 
     pub fn with(self, other: Span) -> Span {
         Span { from: self.from.min(other.from), to: self.to.max(other.to) }
+    }
+
+    /// Whether any sample is in it.
+    pub fn holds_any(self, last: u64) -> bool {
+        let [from, to] = self.within(last);
+        from.ceil() <= to.floor()
+    }
+
+    /// In samples.
+    fn within(self, last: u64) -> [f64; 2] {
+        [self.from, self.to].map(|time| f64::from(time) * last as f64)
+    }
+}
+
+/// A stretch of samples.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Samples {
+    pub from: u64,
+    pub to: u64,
+}
+
+impl Samples {
+    pub fn length(self) -> u64 {
+        self.to - self.from
+    }
+
+    /// Those of so many that hold a span, the last one being the end of the motion.
+    pub fn around(span: Span, last: u64) -> Samples {
+        let [from, to] = span.within(last);
+        // Samples fit signed integers, to which conversion is one instruction.
+        Samples { from: from.max(0.0) as i64 as u64, to: (to as i64 as u64 + 1).min(last) }
     }
 }
 
@@ -55,6 +88,8 @@ pub(super) struct Course {
 
 /// A share of the motion between two samples.
 pub(super) struct Chord<S: Simd> {
+    pub samples: Samples,
+    /// In shares of the motion.
     pub span: Span,
     frames: Frames<f32x8<S>>,
     /// How far points leave the straight lines.
@@ -70,10 +105,11 @@ impl<S: Simd> Chord<S> {
     pub fn new(
         simd: S,
         course: &Course,
-        (span, time): (Span, f64),
+        (samples, step): (Samples, f64),
         frames: [&Frame; 2],
     ) -> Chord<S> {
         let Course { rates, spare, slack, grain } = course;
+        let time = samples.length() as f64 * step;
         let (eighth, turn_bend) = (time * time / 8.0, rates.turn_bend());
         let slack = slack + f64::from(*grain);
         let bend = (rates.bend * eighth, turn_bend * eighth);
@@ -82,7 +118,12 @@ impl<S: Simd> Chord<S> {
         // What stands still, as seen from the box: near it at one sample, and then carried away.
         let away = (margin.0 + rates.speed * time, 1.0 + margin.1);
         let own = rates.bend + turn_bend * away.0 + 2.0 * rates.spin * rates.speed;
+        let span = Span {
+            from: (samples.from as f64 * step) as f32,
+            to: (samples.to as f64 * step) as f32,
+        };
         Chord {
+            samples,
             span,
             frames: Frames::new(simd, frames),
             bend: Linear::new(bend.0, bend.1),
@@ -137,7 +178,7 @@ impl<S: Simd> SweptBoxes<S> {
 
     /// When the boxes may be within the margin of those that stand still, each of that of its lane.
     #[inline(always)]
-    pub fn meets(&self, simd: S, still: &Four<S>) -> Met {
+    pub fn meets(&self, simd: S, still: &Four<S>, chord: Span, spans: &[Span; 4]) -> Met {
         let across = self.stands.across(still);
         let first = turned(self.stands.along_still(still, &across, self.still_room));
         let overlap = least(&first);
@@ -161,7 +202,7 @@ impl<S: Simd> SweptBoxes<S> {
         clip.cut_all(&first);
         clip.cut_all(&own);
         clip.cut(&crossing);
-        clip.met(!apart)
+        clip.met(simd, !apart, chord, spans)
     }
 
     /// The product of the longest axes half way, which tells crossing boxes apart.
@@ -217,7 +258,7 @@ impl<S: Simd> SweptBall<S> {
 
     /// When the ball may meet boxes that stand still.
     #[inline(always)]
-    pub fn meets(&self, simd: S, still: &Four<S>) -> Met {
+    pub fn meets(&self, simd: S, still: &Four<S>, asked: Span) -> Met {
         let [x, y, z] = all_times::<S, f32x8<S>>(&still.centre);
         let between = [x - self.ends[0], y - self.ends[1], z - self.ends[2]];
         let gaps = three(
@@ -233,7 +274,7 @@ impl<S: Simd> SweptBall<S> {
         }
         let mut clip = Clip::whole(simd);
         clip.cut_all(&gaps);
-        clip.met(!apart)
+        clip.met(simd, !apart, Span::ALL, &[asked; 4])
     }
 }
 
@@ -274,13 +315,31 @@ fn apart<S: Simd>(overlap: f32x8<S>) -> u32 {
     (sides | sides >> 4) & 15
 }
 
-/// Shares of a chord in which boxes may meet, those of each lane.
+/// When boxes may meet.
 #[derive(Clone, Copy)]
 pub(super) struct Met {
-    /// A bit for each lane in which there is any.
-    pub lanes: u32,
-    low: [f32; 4],
-    high: [f32; 4],
+    /// A bit for each lane in which they may.
+    lanes: u32,
+    from: [f32; 4],
+    to: [f32; 4],
+}
+
+impl Met {
+    const NOTHING: Met = Met { lanes: 0, from: [0.0; 4], to: [0.0; 4] };
+
+    /// The lanes among the first so many in which they may, and when.
+    #[inline(always)]
+    pub fn spans(&self, count: usize) -> impl Iterator<Item = (usize, Span)> {
+        let mut rest = self.lanes & ((1 << count) - 1);
+        std::iter::from_fn(
+            #[inline(always)]
+            move || {
+                let lane = rest.trailing_zeros() as usize;
+                rest &= rest.wrapping_sub(1);
+                (lane < 4).then(|| (lane, Span { from: self.from[lane], to: self.to[lane] }))
+            },
+        )
+    }
 }
 
 /// A share of a chord for each lane, as cut from either side.
@@ -289,8 +348,10 @@ struct Clip<S: Simd> {
     high: f32x8<S>,
 }
 
-/// Outweighs the rounding of times.
-const MOMENT: f64 = 1e-6;
+/// Outweighs the rounding of times, in shares of a chord.
+const CHORD_MOMENT: f32 = 1e-6;
+/// The same in shares of the motion.
+const MOMENT: f32 = 3e-7;
 
 impl<S: Simd> Clip<S> {
     #[inline(always)]
@@ -313,33 +374,19 @@ impl<S: Simd> Clip<S> {
         self.cut(c);
     }
 
+    /// What is left of spans, the share being one of a chord.
     #[inline(always)]
-    fn met(self, lanes: u32) -> Met {
-        let ((a, b), (c, d)) = (self.low.split(), self.high.split());
-        let (low, high) = (a.max(b), c.min(d));
-        let left = (low - 2.0 * MOMENT as f32).simd_le(high).to_bitmask() as u32;
-        Met { lanes: lanes & left, low: low.to_array(), high: high.to_array() }
-    }
-}
-
-impl Met {
-    const NOTHING: Met = Met { lanes: 0, low: [0.0; 4], high: [0.0; 4] };
-
-    /// The samples of a chord within the share of a lane that are in the span, too.
-    #[inline(always)]
-    pub fn samples(&self, lane: usize, chord: Span, span: Span) -> Option<Span> {
-        let low = f64::from(self.low[lane]) - MOMENT;
-        let high = f64::from(self.high[lane]) + MOMENT;
-        let length = chord.length() as f64;
-        let slack = 1e-7 + 1e-9 * length;
-        // Samples fit signed integers, to which conversion is one instruction.
-        let (low, high) = (low * length - slack, high * length + slack);
-        let floor = low.max(0.0) as i64;
-        let first = (floor + i64::from((floor as f64) < low)) as u64;
-        let last = high.max(0.0) as i64 as u64;
-        let from = span.from.max(chord.from + first);
-        let to = span.to.min(chord.from + last);
-        (from <= to).then_some(Span { from, to })
+    fn met(self, simd: S, lanes: u32, chord: Span, [a, b, c, d]: &[Span; 4]) -> Met {
+        let (low, high) = (self.low.split(), self.high.split());
+        let (low, high) = (low.0.max(low.1), high.0.min(high.1));
+        let length = f32x4::splat(simd, chord.length());
+        let slack = chord.length() * CHORD_MOMENT + MOMENT;
+        let low = low.mul_add(length, f32x4::splat(simd, chord.from - slack));
+        let high = high.mul_add(length, f32x4::splat(simd, chord.from + slack));
+        let from = low.max(f32x4::load_array(simd, [a.from, b.from, c.from, d.from]));
+        let to = high.min(f32x4::load_array(simd, [a.to, b.to, c.to, d.to]));
+        let left = from.simd_le(to).to_bitmask() as u32;
+        Met { lanes: lanes & left, from: from.to_array(), to: to.to_array() }
     }
 }
 
@@ -351,5 +398,6 @@ pub(in crate::validity) fn misses<S: Simd>(
     (radius, grain): (f64, f32),
     still: &LightBox,
 ) -> bool {
-    SweptBall::new(simd, ends, radius, grain).meets(simd, &Four::same(simd, still)).lanes == 0
+    let ball = SweptBall::new(simd, ends, radius, grain);
+    ball.meets(simd, &Four::same(simd, still), Span::ALL).lanes == 0
 }

@@ -1,6 +1,6 @@
 //! Two elements during a stretch of samples.
 
-use super::clip::Span;
+use super::clip::{Samples, Span};
 use super::{Asks, Sweep};
 use crate::validity::element::Element;
 use crate::validity::triangles::separating_axis;
@@ -34,11 +34,13 @@ impl<S: Simd> Sweep<'_, '_, S> {
         // A sample is cut off by far less than rounding could move it.
         let samples = self.clock.samples as f64 * (1.0 - 1e-9);
         self.stacks.work.count(|work| work.pairs += 1);
-        let mut open = [span; 64];
-        let mut count = 1;
+        let Samples { from, to } = Samples::around(span, self.clock.samples);
+        let (from, to) = (from.max(self.asked.from), to.min(self.asked.to));
+        let mut open = [Samples { from, to }; 64];
+        let mut count = usize::from(from <= to);
         while count > 0 {
             count -= 1;
-            let Span { from, to } = open[count];
+            let Samples { from, to } = open[count];
             let middle = from + (to - from) / 2;
             self.stacks.work.count(|work| work.advances += 1);
             let frame = self.frame(middle);
@@ -78,13 +80,13 @@ impl<S: Simd> Sweep<'_, '_, S> {
                 let held = first as i64 as u64;
                 let held = if (held as f64) < first { held + 1 } else { held };
                 if held.min(middle) > from {
-                    open[count] = Span { from, to: held.min(middle) - 1 };
+                    open[count] = Samples { from, to: held.min(middle) - 1 };
                     count += 1;
                 }
             }
             let last = middle as f64 + after * samples;
             if last < to as f64 {
-                open[count] = Span { from: (last as i64 as u64).max(middle) + 1, to };
+                open[count] = Samples { from: (last as i64 as u64).max(middle) + 1, to };
                 count += 1;
             }
         }

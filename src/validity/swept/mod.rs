@@ -21,7 +21,7 @@ use super::meet::Meeting;
 use super::work::Work;
 use crate::lanes::with_lanes;
 use crate::robot::Rates;
-use clip::{Chord, Course, Span, SweptBall, SweptBoxes};
+use clip::{Chord, Course, Samples, Span, SweptBall, SweptBoxes};
 use fearless_simd::Simd;
 
 /// A chord is halved while its points leave it by more than this share of the larger box.
@@ -35,7 +35,7 @@ const OFTEN: (u32, u32) = (14, 2);
 #[cfg(test)]
 mod tests;
 
-/// Nodes of the tree that stands still, each with the samples at which it may be met.
+/// Nodes of the tree that stands still, each with the time in which it may be met.
 type Open = Vec<(u32, Span)>;
 
 /// Memory for the recursion.
@@ -52,6 +52,8 @@ pub(super) struct Stacks {
     /// Not told apart from one of these, the first, the second, …
     found: Vec<(u32, u32, Span)>,
     pub pairs: Vec<(u32, u32)>,
+    /// Of the bounds: nodes, and when they are to be looked at.
+    inside: Vec<(u32, Samples)>,
     /// A bit for each of the last searches, set where something was in the way.
     blocked: u32,
     pub work: Work,
@@ -60,7 +62,7 @@ pub(super) struct Stacks {
 impl Stacks {
     /// Rubbish, see [`Scratch::poison`](crate::validity::Scratch::poison).
     pub fn poison(&mut self, rubbish: u64) {
-        let span = Span { from: 0, to: rubbish };
+        let span = Span { from: 0.0, to: rubbish as f32 };
         let entry = (u32::MAX, span);
         self.open = vec![entry; rubbish as usize % 3];
         self.near = vec![entry; rubbish as usize % 7];
@@ -68,6 +70,7 @@ impl Stacks {
         self.children = vec![entry; rubbish as usize % 2];
         self.found = vec![(7, u32::MAX, span); rubbish as usize % 4];
         self.pairs = vec![(u32::MAX, 7); rubbish as usize % 3];
+        self.inside = vec![(u32::MAX, Samples { from: 7, to: rubbish }); rubbish as usize % 6];
         self.blocked = rubbish as u32;
     }
 }
@@ -80,6 +83,14 @@ pub(super) enum Asks {
     AllTimes,
     /// That no surfaces meet at the samples between the ends.
     Samples,
+}
+
+impl Asks {
+    /// Whether it is about any time within a span.
+    #[inline(always)]
+    fn about(self, span: Span, last: u64) -> bool {
+        self == Asks::AllTimes || span.holds_any(last)
+    }
 }
 
 /// What is found.
@@ -110,6 +121,7 @@ struct Sweep<'a, 'c, S: Simd> {
     meeting: Meeting<'a>,
     course: Course,
     asks: Asks,
+    asked: Samples,
     clock: &'c mut Clock<'a>,
     stacks: &'c mut Stacks,
     /// Surfaces were found to meet at a sample between the ends.
@@ -135,26 +147,30 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let patience = if stacks.blocked.count_ones() >= often { few } else { PATIENCE };
         let Meeting { slack, grain, .. } = meeting;
         let course = Course { rates, spare, slack, grain };
-        Sweep { simd, meeting, course, asks, clock, stacks, meets: false, patience, looks: 0 }
+        let samples = clock.samples;
+        let asked = match asks {
+            Asks::AllTimes => Samples { from: 0, to: samples },
+            Asks::Samples => Samples { from: 1, to: samples - 1 },
+        };
+        let (meets, looks) = (false, 0);
+        Sweep { simd, meeting, course, asks, asked, clock, stacks, meets, patience, looks }
     }
 
     /// Whether it is as asked.
     fn finds(&mut self) -> Finds {
-        let samples = self.clock.samples;
-        let asked = match self.asks {
-            Asks::AllTimes => Span { from: 0, to: samples },
-            _ if samples < 2 => return Finds::Free,
-            _ => Span { from: 1, to: samples - 1 },
-        };
+        let last = self.clock.samples;
+        if self.asked.from > self.asked.to {
+            return Finds::Free;
+        }
         self.stacks.near.clear();
         self.stacks.halves.clear();
         self.stacks.children.clear();
         self.stacks.found.clear();
-        let Some(mut span) = self.near_the_ball(asked) else { return Finds::Free };
-        if 2 * span.length() > samples {
-            span = Span { from: 0, to: samples };
-        }
-        let blocked = self.blocked(0, span, (0, 0));
+        let Some(span) = self.near_the_ball() else { return Finds::Free };
+        let part = Samples::around(span, last);
+        let all = 2 * part.length() > last;
+        let samples = if all { Samples { from: 0, to: last } } else { part };
+        let blocked = self.blocked(0, samples, (0, 0));
         self.stacks.blocked = self.stacks.blocked << 1 | u32::from(blocked);
         match (blocked, self.meets) {
             (false, _) => Finds::Free,
@@ -165,17 +181,17 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
 
     /// Opens the nodes, no larger than the ball around what moves, that the ball may meet, and says which
     /// samples they span.
-    fn near_the_ball(&mut self, asked: Span) -> Option<Span> {
+    fn near_the_ball(&mut self) -> Option<Span> {
         let simd = self.simd;
         let frames = [self.frame(0), self.frame(self.clock.samples)];
         simd.vectorize(
             #[inline(always)]
-            || self.near_the_ball_at(asked, frames),
+            || self.near_the_ball_at(frames),
         )
     }
 
     #[inline(always)]
-    fn near_the_ball_at(&mut self, asked: Span, frames: [Frame; 2]) -> Option<Span> {
+    fn near_the_ball_at(&mut self, frames: [Frame; 2]) -> Option<Span> {
         let (simd, course) = (self.simd, &self.course);
         let Meeting { mover, still, slack, grain, .. } = self.meeting;
         let space = &mover.tree.nodes[0].space;
@@ -186,15 +202,12 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let ball = SweptBall::new(simd, ends, room, grain);
         let radius = mover.tree.boxes[0].radius();
         let tree = &still.tree;
-        let all = Span { from: 0, to: self.clock.samples };
+        let (asks, last) = (self.asks, self.clock.samples);
         let Stacks { open, near: todo, work, .. } = &mut *self.stacks;
         open.clear();
         work.count(|work| work.balls += 1);
-        let met = ball.meets(simd, &Four::same(simd, &tree.boxes[0]));
-        if met.lanes == 0 {
-            return None;
-        }
-        todo.extend(met.samples(0, all, asked).map(|span| (0, span)));
+        let met = ball.meets(simd, &Four::same(simd, &tree.boxes[0]), Span::ALL);
+        todo.extend(met.spans(1).map(|(_, span)| (0, span)));
         let mut whole: Option<Span> = None;
         while let Some((at, span)) = todo.pop() {
             if tree.boxes[at as usize].radius() <= radius || tree.is_leaf(at) {
@@ -204,10 +217,9 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             }
             let children = tree.children(at);
             work.count(|work| work.balls += children.len() as u64);
-            let met = ball.meets(simd, &Four::new(simd, tree.gathered(children)));
-            for lane in lanes(met.lanes, children.len()) {
-                todo.extend(met.samples(lane, all, asked).map(|span| (children[lane], span)));
-            }
+            let met = ball.meets(simd, &Four::new(simd, tree.gathered(children)), span);
+            let met = met.spans(children.len()).filter(|(_, span)| asks.about(*span, last));
+            todo.extend(met.map(|(lane, span)| (children[lane], span)));
         }
         whole
     }
@@ -223,18 +235,18 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
 
     /// Whether anything in a box comes near anything below the nodes that are open, at a sample of theirs
     /// within the chord.
-    fn blocked(&mut self, node: u32, span: Span, base: (usize, usize)) -> bool {
+    fn blocked(&mut self, node: u32, samples: Samples, base: (usize, usize)) -> bool {
         let simd = self.simd;
-        let frames = [self.frame(span.from), self.frame(span.to)];
-        let time = span.length() as f64 * self.step();
+        let frames = [self.frame(samples.from), self.frame(samples.to)];
+        let step = self.step();
         simd.vectorize(
             #[inline(always)]
             || {
-                let chord = Chord::new(simd, &self.course, (span, time), [&frames[0], &frames[1]]);
+                let chord = Chord::new(simd, &self.course, (samples, step), [&frames[0], &frames[1]]);
                 self.stacks.work.count(|work| work.placed += 1);
                 let own = Four::same(simd, &self.meeting.mover.tree.boxes[node as usize]);
                 let swept = SweptBoxes::new(simd, &self.course, &chord, &own);
-                self.comes_near(node, &chord, &swept, base)
+                self.comes_near(node, &chord, (&swept, None), base)
             },
         )
     }
@@ -245,14 +257,16 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         &mut self,
         node: u32,
         chord: &Chord<S>,
-        swept: &SweptBoxes<S>,
+        (swept, lane): (&SweptBoxes<S>, Option<usize>),
         base: (usize, usize),
     ) -> bool {
         let simd = self.simd;
+        let (asks, last) = (self.asks, self.clock.samples);
         let Meeting { mover, still: other, .. } = self.meeting;
         let (own, other) = (&mover.tree, &other.tree);
         let (leaf, radius) = (own.is_leaf(node), own.boxes[node as usize].radius());
-        let bend = swept.bend(0);
+        let bend = swept.bend(lane.unwrap_or(0));
+        let mut alone = None;
         let (halves, children) = (self.stacks.halves.len(), self.stacks.children.len());
         loop {
             while self.stacks.near.len() > base.0 {
@@ -263,7 +277,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
                         return true;
                     }
                     continue;
-                } else if chord.span.length() > 1 && bend > BEND as f32 * radius.max(size) {
+                } else if chord.samples.length() > 1 && bend > BEND as f32 * radius.max(size) {
                     &mut self.stacks.halves
                 } else if !leaf && (end || radius > size) {
                     &mut self.stacks.children
@@ -280,21 +294,25 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             }
             let Stacks { open, near, work, .. } = &mut *self.stacks;
             let rest = open.len() - count;
-            let mut nodes = [0; 4];
-            open[rest..].iter().zip(&mut nodes).for_each(|((still, _), node)| *node = *still);
-            let four = Four::new(simd, other.gathered(&nodes[..count]));
-            let met = swept.meets(simd, &four);
+            let mut batch = [(0, Span::ALL); 4];
+            batch[..count].copy_from_slice(&open[rest..]);
+            let [a, b, c, d] = &batch;
+            let four = Four::new(simd, other.gathered(&[a.0, b.0, c.0, d.0]));
+            let swept = match (lane, &alone) {
+                (None, _) => swept,
+                (_, Some(alone)) => alone,
+                (Some(lane), None) => alone.insert(swept.only(simd, lane)),
+            };
+            let met = swept.meets(simd, &four, chord.span, &[a.1, b.1, c.1, d.1]);
             work.count(|work| work.boxes += count as u64);
-            for lane in lanes(met.lanes, count) {
-                let (still, span) = open[rest + lane];
-                near.extend(met.samples(lane, chord.span, span).map(|span| (still, span)));
-            }
+            let met = met.spans(count).filter(|(_, span)| asks.about(*span, last));
+            near.extend(met.map(|(lane, span)| (batch[lane].0, span)));
             open.truncate(rest);
             if self.tires(count) {
                 return true;
             }
         }
-        if self.stacks.halves.len() > halves && self.halves_blocked(node, chord.span, halves, base)
+        if self.stacks.halves.len() > halves && self.halves_blocked(node, chord, halves, base)
         {
             return true;
         }
@@ -306,19 +324,25 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
     fn halves_blocked(
         &mut self,
         node: u32,
-        chord: Span,
+        chord: &Chord<S>,
         list: usize,
         base: (usize, usize),
     ) -> bool {
         let spans = self.stacks.halves[list..].iter().map(|(_, span)| *span);
-        let whole = spans.reduce(Span::with).unwrap_or(chord);
-        let middle = chord.from + chord.length() / 2;
+        let whole = spans.reduce(Span::with).unwrap_or(chord.span);
+        let last = self.clock.samples;
+        let Samples { from, to } = chord.samples;
+        let middle = from + (to - from) / 2;
         // What is left, if that is less than half; else one half after the other.
-        let (parts, count) = if 2 * whole.length() <= chord.length() {
-            ([(whole, whole), (whole, whole)], 1)
+        let (parts, count) = if 2.0 * whole.length() <= chord.span.length() {
+            let part = Samples::around(whole, last);
+            let part = Samples { from: part.from.max(from), to: part.to.min(to) };
+            ([(part, whole); 2], 1)
         } else {
-            let (first, second) = (Span { to: middle, ..chord }, Span { from: middle, ..chord });
-            ([(first, first), (second, Span { from: middle + 1, ..chord })], 2)
+            let half = (middle as f64 / last as f64) as f32;
+            let first = (Samples { from, to: middle }, Span { to: half, ..chord.span });
+            let second = (Samples { from: middle, to }, Span { from: half, ..chord.span });
+            ([first, second], 2)
         };
         for (chord, asked) in &parts[..count] {
             let Stacks { open, halves, .. } = &mut *self.stacks;
@@ -344,6 +368,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         base: (usize, usize),
     ) -> bool {
         let simd = self.simd;
+        let (asks, last) = (self.asks, self.clock.samples);
         let Meeting { mover, still: other, .. } = self.meeting;
         let tree = &mover.tree;
         let nodes = tree.children(node);
@@ -354,12 +379,10 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let first = found.len();
         for (still, span) in &children[list..] {
             let four = Four::same(simd, &other.tree.boxes[*still as usize]);
-            let met = swept.meets(simd, &four);
+            let met = swept.meets(simd, &four, chord.span, &[*span; 4]);
             work.count(|work| work.boxes += nodes.len() as u64);
-            for lane in lanes(met.lanes, nodes.len()) {
-                let span = met.samples(lane, chord.span, *span);
-                found.extend(span.map(|span| (lane as u32, *still, span)));
-            }
+            let met = met.spans(nodes.len()).filter(|(_, span)| asks.about(*span, last));
+            found.extend(met.map(|(lane, span)| (lane as u32, *still, span)));
         }
         let tests = nodes.len() * (children.len() - list);
         children.truncate(list);
@@ -390,7 +413,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let simd = self.simd;
         simd.vectorize(
             #[inline(always)]
-            || self.comes_near(node, chord, &swept.only(simd, lane), base),
+            || self.comes_near(node, chord, (swept, Some(lane)), base),
         )
     }
 
@@ -421,15 +444,4 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         self.meets = self.meeting.surfaces_meet(self.clock.at(sample), &mut self.stacks.pairs);
         self.meets
     }
-}
-
-/// The lanes of a mask, of the first so many.
-#[inline(always)]
-fn lanes(mask: u32, count: usize) -> impl Iterator<Item = usize> {
-    let mut rest = mask & ((1 << count) - 1);
-    std::iter::from_fn(move || {
-        let lane = rest.trailing_zeros();
-        rest &= rest.wrapping_sub(1);
-        (lane < u32::BITS).then_some(lane as usize)
-    })
 }

@@ -1,6 +1,6 @@
 //! How much room bodies have inside the bounds, and whether they stay inside during a motion.
 
-use super::clip::Span;
+use super::clip::Samples;
 use super::clock::Clock;
 use super::{BEND, Stacks};
 use crate::robot::Rates;
@@ -59,12 +59,12 @@ pub(in crate::validity) fn stays_inside(
     (tree, link): (&Tree, usize),
     rates: &Rates,
     clock: &mut Clock,
-    Stacks { open, .. }: &mut Stacks,
+    Stacks { inside: open, .. }: &mut Stacks,
 ) -> bool {
     let time = 1.0 / clock.samples as f64;
     let least = bend_of(&tree.nodes[0], rates) * time * time / 8.0;
     open.clear();
-    open.push((0, Span { from: 0, to: clock.samples }));
+    open.push((0, Samples { from: 0, to: clock.samples }));
     while let Some((at, span)) = open.pop() {
         let node = &tree.nodes[at as usize];
         let mut room = |sample: u64| walls.room(tree, node, &clock.at(sample).frames[link]);
@@ -79,8 +79,8 @@ pub(in crate::validity) fn stays_inside(
         }
         if span.length() > 1 && (node.is_leaf() || bend > BEND * node.space.radius) {
             let middle = span.from + span.length() / 2;
-            open.push((at, Span { from: middle, ..span }));
-            open.push((at, Span { to: middle, ..span }));
+            open.push((at, Samples { from: middle, ..span }));
+            open.push((at, Samples { to: middle, ..span }));
         } else if !node.is_leaf() {
             open.push((node.left + 1, span));
             open.push((node.left, span));
