@@ -1,11 +1,11 @@
 //! Whether the bodies of two groups meet where they stand.
 
 use super::element::{Element, elements};
+use super::directions::triangles_meet;
 use super::frame::{Frame, Stance};
 use super::light::{Four, Frames, Stands, above};
 use super::piece::Piece;
 use super::tree::{Node, Tree};
-use super::triangles::triangles_meet;
 use crate::lanes::{Lanes, with_lanes};
 use crate::scene::Body;
 use fearless_simd::{Simd, f32x4};
@@ -92,7 +92,7 @@ impl Meeting<'_> {
         let first = &self.mover.tree.elements[mover.element as usize];
         let second = &self.still.tree.elements[still.element as usize];
         if !first.primitive && !second.primitive {
-            return triangles_meet(&first.corners.map(|p| frame.point(p)), &second.corners);
+            return triangles_meet(self.lanes, &first.corners.map(|p| frame.point(p)), &second.corners);
         }
         let (one, other) = (self.mover.piece(first), self.still.piece(second));
         let at = stance.pose(Some(self.mover_link));

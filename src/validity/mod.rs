@@ -2,6 +2,7 @@
 
 mod bodies;
 mod clearance;
+mod directions;
 mod element;
 mod frame;
 mod inside;

@@ -41,7 +41,7 @@ impl Meeting<'_> {
         other: &Element,
         stance: &Stance,
     ) -> ShortestWay {
-        let nearest = nearest_points(corners, &other.corners);
+        let nearest = nearest_points(self.lanes, corners, &other.corners);
         let round = ShortestWay::between(nearest, element.radius, other.radius);
         if element.flat || other.flat {
             self.nearest_flat(element, other, stance, round)

@@ -4,7 +4,7 @@ use super::frame::{Frame, Stance};
 use super::light::grain;
 use super::meet::{Group, Meeting};
 use super::tests::{cuboid, cuboid_mesh, solid};
-use super::triangles::triangles_meet;
+use super::directions::triangles_meet;
 use super::{BodyValidity, Bounds, BoundsMeaning, Edges, Scratch, Validity};
 use crate::lanes::Lanes;
 use crate::robot::rates_tests::drawn_pose;
@@ -52,7 +52,7 @@ proptest! {
             let frame = stance.frames[0];
             let any = mover.tree.elements.iter().any(|first| {
                 let corners = first.corners.map(|corner| frame.point(corner));
-                still.tree.elements.iter().any(|second| triangles_meet(&corners, &second.corners))
+                still.tree.elements.iter().any(|second| triangles_meet(Lanes::widest(), &corners, &second.corners))
             });
             prop_assert_eq!(meeting.surfaces_meet(&stance, &mut Vec::new()), any);
         }

@@ -1,77 +1,26 @@
-//! Triangles, exactly: whether two meet, along which direction they are apart, and how far.
+//! The nearest points of triangles, segments and points.
 
+use super::directions::triangles_meet;
+use crate::lanes::Lanes;
 use parry3d_f64::math::Vector;
 
-type Triangle = [Vector; 3];
-
-/// Whether two triangles meet, by the separating axis theorem: two triangles are apart exactly if they
-/// are so along one of 17 directions, the normals, the products of edges, and, for those in one plane,
-/// the normals of the edges within it. Touching counts.
-pub(super) fn triangles_meet(first: &Triangle, second: &Triangle) -> bool {
-    let mut found = false;
-    directions(first, second, |gap, _| {
-        found = gap > 0.0;
-        found
-    });
-    !found
-}
-
-/// A unit vector from the second towards the first along which they are more than `margin` apart, and by
-/// how much; one of the 17 directions, so that two which are so apart may have none.
-pub(super) fn separating_axis(
-    first: &Triangle,
-    second: &Triangle,
-    margin: f64,
-) -> Option<(Vector, f64)> {
-    let mut found = None;
-    directions(first, second, |gap, axis| {
-        if gap > 0.0 {
-            let length = axis.length();
-            if gap > margin * length && length > 1e-140 {
-                found = Some((axis / length, gap / length));
-            }
-        }
-        found.is_some()
-    });
-    found
-}
-
-/// Shows `done` the gap along one direction after the other, in units of the vector's length, with the
-/// vector turned from the second to the first, until it has seen enough.
-#[inline(always)]
-fn directions(first: &Triangle, second: &Triangle, mut done: impl FnMut(f64, Vector) -> bool) {
-    // Near the origin, where differences are exact to more digits.
-    let origin = second[0];
-    let first = first.map(|corner| corner - origin);
-    let second = second.map(|corner| corner - origin);
-    let mut shown = |axis: Vector| {
-        let [a, b, c] = first.map(|corner| axis.dot(corner));
-        let [d, e, f] = second.map(|corner| axis.dot(corner));
-        let above = a.min(b).min(c) - d.max(e).max(f);
-        let below = d.min(e).min(f) - a.max(b).max(c);
-        if above >= below { done(above, axis) } else { done(below, -axis) }
-    };
-    let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
-    let (edges1, edges2) = (edges(&first), edges(&second));
-    let (normal1, normal2) = (edges1[0].cross(edges1[1]), edges2[0].cross(edges2[1]));
-    let _ = shown(normal2)
-        || shown(normal1)
-        || edges1.iter().any(|edge1| edges2.iter().any(|edge2| shown(edge1.cross(*edge2))))
-        || edges1.iter().any(|edge| shown(edge.cross(normal1)))
-        || edges2.iter().any(|edge| shown(edge.cross(normal2)));
-}
+pub(super) type Triangle = [Vector; 3];
 
 /// The nearest points of two hulls of three corners that may coincide, on the first and on the second:
 /// the same, if they meet. Among equally near ones the first is given: edges before faces, in the order
 /// of corners.
-pub(super) fn nearest_points(first: &Triangle, second: &Triangle) -> (Vector, Vector) {
+pub(super) fn nearest_points(
+    lanes: Lanes,
+    first: &Triangle,
+    second: &Triangle,
+) -> (Vector, Vector) {
     let flat = |t: &Triangle| {
         let (u, v) = (t[1] - t[0], t[2] - t[0]);
         u.cross(v).length() <= 1e-14 * u.length() * v.length()
     };
     let (flat1, flat2) = (flat(first), flat(second));
     // Without an area on either side only edges and corners meet, and their distance says so.
-    let meet = !(flat1 && flat2) && hulls_meet(first, second, flat1, flat2);
+    let meet = !(flat1 && flat2) && hulls_meet(lanes, first, second, (flat1, flat2));
     if meet && let Some(point) = pierced(first, second, flat2).or(pierced(second, first, flat1)) {
         return (point, point);
     }
@@ -119,9 +68,14 @@ fn pierced(first: &Triangle, second: &Triangle, flat: bool) -> Option<Vector> {
     })
 }
 
-fn hulls_meet(first: &Triangle, second: &Triangle, flat1: bool, flat2: bool) -> bool {
+fn hulls_meet(
+    lanes: Lanes,
+    first: &Triangle,
+    second: &Triangle,
+    (flat1, flat2): (bool, bool),
+) -> bool {
     if !flat1 && !flat2 {
-        return triangles_meet(first, second);
+        return triangles_meet(lanes, first, second);
     }
     // A segment or a point against a triangle: all directions but those of the segment's own plane are
     // among the seventeen; these are its products with the triangle's normal.
@@ -179,6 +133,7 @@ fn nearest_on_segments(a: Vector, b: Vector, c: Vector, d: Vector) -> (Vector, V
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::validity::directions::separating_axis;
     use parry3d_f64::math::Pose;
     use parry3d_f64::query::{self, PointQuery};
     use parry3d_f64::shape;
