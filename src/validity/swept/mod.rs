@@ -41,7 +41,7 @@ type Open = Vec<(u32, Span)>;
 /// Memory for the recursion.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stacks {
-    /// To be tested against the box at hand.
+    /// To be tested against the next box.
     open: Open,
     /// Not told apart from it.
     near: Open,
@@ -170,7 +170,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let part = Samples::around(span, last);
         let all = 2 * part.length() > last;
         let samples = if all { Samples { from: 0, to: last } } else { part };
-        let blocked = self.blocked(0, samples, (0, 0));
+        let blocked = self.blocked(0, samples);
         self.stacks.blocked = self.stacks.blocked << 1 | u32::from(blocked);
         match (blocked, self.meets) {
             (false, _) => Finds::Free,
@@ -235,7 +235,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
 
     /// Whether anything in a box comes near anything below the nodes that are open, at a sample of theirs
     /// within the chord.
-    fn blocked(&mut self, node: u32, samples: Samples, base: (usize, usize)) -> bool {
+    fn blocked(&mut self, node: u32, samples: Samples) -> bool {
         let simd = self.simd;
         let frames = [self.frame(samples.from), self.frame(samples.to)];
         let step = self.step();
@@ -246,19 +246,42 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
                 self.stacks.work.count(|work| work.placed += 1);
                 let own = Four::same(simd, &self.meeting.mover.tree.boxes[node as usize]);
                 let swept = SweptBoxes::new(simd, &self.course, &chord, &own);
-                self.comes_near(node, &chord, (&swept, None), base)
+                let base = self.stacks.near.len();
+                self.find_near(&chord, &swept) || self.comes_near(node, &chord, (&swept, None), base)
             },
         )
     }
 
-    /// [`Sweep::blocked`] of a box in all lanes, from `base` on of what is near and what is open.
+    /// Tests a box in all lanes against what is open. Whether meanwhile a look at a sample found that surfaces
+    /// meet.
+    #[inline(always)]
+    fn find_near(&mut self, chord: &Chord<S>, swept: &SweptBoxes<S>) -> bool {
+        let simd = self.simd;
+        let (asks, last) = (self.asks, self.clock.samples);
+        let tree = &self.meeting.still.tree;
+        let Stacks { open, near, work, .. } = &mut *self.stacks;
+        let tests = open.len();
+        for batch in open.chunks(4) {
+            let end = batch.len() - 1;
+            let [a, b, c, d] = [batch[0], batch[end.min(1)], batch[end.min(2)], batch[end]];
+            let four = Four::new(simd, tree.gathered(&[a.0, b.0, c.0, d.0]));
+            let met = swept.meets(simd, &four, chord.span, &[a.1, b.1, c.1, d.1]);
+            work.count(|work| work.boxes += batch.len() as u64);
+            let met = met.spans(batch.len()).filter(|(_, span)| asks.about(*span, last));
+            near.extend(met.map(|(lane, span)| (batch[lane].0, span)));
+        }
+        open.clear();
+        self.tires(tests)
+    }
+
+    /// The same of nodes that are near, from `base` on, and a box, which may have a lane among others.
     #[inline(always)]
     fn comes_near(
         &mut self,
         node: u32,
         chord: &Chord<S>,
         (swept, lane): (&SweptBoxes<S>, Option<usize>),
-        base: (usize, usize),
+        base: usize,
     ) -> bool {
         let simd = self.simd;
         let (asks, last) = (self.asks, self.clock.samples);
@@ -268,55 +291,39 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let bend = swept.bend(lane.unwrap_or(0));
         let mut alone = None;
         let (halves, children) = (self.stacks.halves.len(), self.stacks.children.len());
-        loop {
-            while self.stacks.near.len() > base.0 {
-                let (still, span) = self.stacks.near.pop().expect("more than the base");
-                let (end, size) = (other.is_leaf(still), other.boxes[still as usize].radius());
-                let list = if leaf && end {
-                    if self.touches(node, still, span) {
-                        return true;
-                    }
-                    continue;
-                } else if chord.samples.length() > 1 && bend > BEND as f32 * radius.max(size) {
-                    &mut self.stacks.halves
-                } else if !leaf && (end || radius > size) {
-                    &mut self.stacks.children
-                } else {
-                    let nodes = other.children(still).iter().rev();
-                    self.stacks.open.extend(nodes.map(|child| (*child, span)));
-                    continue;
+        while self.stacks.near.len() > base {
+            let (still, span) = self.stacks.near.pop().expect("more than the base");
+            let (end, size) = (other.is_leaf(still), other.boxes[still as usize].radius());
+            if leaf && end {
+                if self.touches(node, still, span) {
+                    return true;
+                }
+            } else if chord.samples.length() > 1 && bend > BEND as f32 * radius.max(size) {
+                self.stacks.halves.push((still, span));
+            } else if !leaf && (end || radius > size) {
+                self.stacks.children.push((still, span));
+            } else {
+                let nodes = other.children(still);
+                let four = Four::new(simd, other.gathered(nodes));
+                let swept = match (lane, &alone) {
+                    (None, _) => swept,
+                    (_, Some(alone)) => alone,
+                    (Some(lane), None) => alone.insert(swept.only(simd, lane)),
                 };
-                list.push((still, span));
-            }
-            let count = (self.stacks.open.len() - base.1).min(4);
-            if count == 0 {
-                break;
-            }
-            let Stacks { open, near, work, .. } = &mut *self.stacks;
-            let rest = open.len() - count;
-            let mut batch = [(0, Span::ALL); 4];
-            batch[..count].copy_from_slice(&open[rest..]);
-            let [a, b, c, d] = &batch;
-            let four = Four::new(simd, other.gathered(&[a.0, b.0, c.0, d.0]));
-            let swept = match (lane, &alone) {
-                (None, _) => swept,
-                (_, Some(alone)) => alone,
-                (Some(lane), None) => alone.insert(swept.only(simd, lane)),
-            };
-            let met = swept.meets(simd, &four, chord.span, &[a.1, b.1, c.1, d.1]);
-            work.count(|work| work.boxes += count as u64);
-            let met = met.spans(count).filter(|(_, span)| asks.about(*span, last));
-            near.extend(met.map(|(lane, span)| (batch[lane].0, span)));
-            open.truncate(rest);
-            if self.tires(count) {
-                return true;
+                let met = swept.meets(simd, &four, chord.span, &[span; 4]);
+                let Stacks { near, work, .. } = &mut *self.stacks;
+                work.count(|work| work.boxes += nodes.len() as u64);
+                let met = met.spans(nodes.len()).filter(|(_, span)| asks.about(*span, last));
+                near.extend(met.map(|(lane, span)| (nodes[lane], span)));
+                if self.tires(nodes.len()) {
+                    return true;
+                }
             }
         }
-        if self.stacks.halves.len() > halves && self.halves_blocked(node, chord, halves, base)
-        {
+        if self.stacks.halves.len() > halves && self.halves_blocked(node, chord, halves) {
             return true;
         }
-        self.stacks.children.len() > children && self.children_blocked(node, chord, children, base)
+        self.stacks.children.len() > children && self.children_blocked(node, chord, children)
     }
 
     /// [`Sweep::blocked`] over shorter chords, of the nodes in the list of halves from `list` on.
@@ -326,7 +333,6 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         node: u32,
         chord: &Chord<S>,
         list: usize,
-        base: (usize, usize),
     ) -> bool {
         let spans = self.stacks.halves[list..].iter().map(|(_, span)| *span);
         let whole = spans.reduce(Span::with).unwrap_or(chord.span);
@@ -350,7 +356,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
                 let span = Span { from: span.from.max(asked.from), to: span.to.min(asked.to) };
                 (span.from <= span.to).then_some((*still, span))
             }));
-            if open.len() > base.1 && self.blocked(node, *chord, base) {
+            if !open.is_empty() && self.blocked(node, *chord) {
                 return true;
             }
         }
@@ -365,7 +371,6 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         node: u32,
         chord: &Chord<S>,
         list: usize,
-        base: (usize, usize),
     ) -> bool {
         let simd = self.simd;
         let (asks, last) = (self.asks, self.clock.samples);
@@ -391,9 +396,10 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         }
         for (lane, child) in nodes.iter().enumerate() {
             let Stacks { near, found, .. } = &mut *self.stacks;
+            let base = near.len();
             let of_child = found[first..].iter().filter(|(of, ..)| *of == lane as u32);
             near.extend(of_child.map(|(_, still, span)| (*still, *span)));
-            if near.len() > base.0 && self.child_blocked(*child, chord, &swept, lane, base) {
+            if near.len() > base && self.child_blocked(*child, chord, &swept, lane, base) {
                 return true;
             }
         }
@@ -408,7 +414,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         chord: &Chord<S>,
         swept: &SweptBoxes<S>,
         lane: usize,
-        base: (usize, usize),
+        base: usize,
     ) -> bool {
         let simd = self.simd;
         simd.vectorize(
