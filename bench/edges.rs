@@ -70,7 +70,7 @@ fn main() {
             if !cfg!(feature = "counts") {
                 panic!("--counts takes --features counts");
             }
-            "| scene | list | settled | motions | balls | placed | boxes | near | looks | pairs | advances | ns |"
+            "| scene | list | settled | motions | balls | placed | boxes | batches | looks | pairs | advances | ns |"
         }
         Mode::Swept => "| scene | list | motions | | swept/s |",
         Mode::All => {
@@ -170,8 +170,8 @@ fn counted(cx: &Context, name: &str, configs: &Configs, pairs: &[(usize, usize)]
             })
             .collect();
         let each = |count: f64| count / pairs.len().max(1) as f64;
-        let Work { balls, placed, boxes, near, looks, pairs: met, advances } = work;
-        let counts = [balls, placed, boxes, near, looks, met, advances];
+        let Work { balls, placed, boxes, batches, looks, pairs: met, advances } = work;
+        let counts = [balls, placed, boxes, batches, looks, met, advances];
         let counts = counts.map(|count| format!("{:.1}", each(count as f64))).join(" | ");
         println!(
             "| {name} | {class} | {} | {counts} | {:.0} |",

@@ -10,8 +10,8 @@ pub struct Work {
     pub placed: u64,
     /// Tests of such a box against one that stands still.
     pub boxes: u64,
-    /// Those that did not tell the two apart.
-    pub near: u64,
+    /// How often such tests were done, up to four at once.
+    pub batches: u64,
     /// Looks at where the robot stands at one sample.
     pub looks: u64,
     /// Pairs of elements.
@@ -27,6 +27,12 @@ impl Work {
             note(self);
         }
     }
+
+    /// So many tests of boxes at once.
+    pub(super) fn tested(&mut self, boxes: usize) {
+        self.boxes += boxes as u64;
+        self.batches += 1;
+    }
 }
 
 impl std::ops::AddAssign for Work {
@@ -34,7 +40,7 @@ impl std::ops::AddAssign for Work {
         self.balls += other.balls;
         self.placed += other.placed;
         self.boxes += other.boxes;
-        self.near += other.near;
+        self.batches += other.batches;
         self.looks += other.looks;
         self.pairs += other.pairs;
         self.advances += other.advances;

@@ -266,7 +266,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             let [a, b, c, d] = [batch[0], batch[end.min(1)], batch[end.min(2)], batch[end]];
             let four = Four::new(simd, tree.gathered(&[a.0, b.0, c.0, d.0]));
             let met = swept.meets(simd, &four, chord.span, &[a.1, b.1, c.1, d.1]);
-            work.count(|work| work.boxes += batch.len() as u64);
+            work.count(|work| work.tested(batch.len()));
             let met = met.spans(batch.len()).filter(|(_, span)| asks.about(*span, last));
             near.extend(met.map(|(lane, span)| (batch[lane].0, span)));
         }
@@ -312,7 +312,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
                 };
                 let met = swept.meets(simd, &four, chord.span, &[span; 4]);
                 let Stacks { near, work, .. } = &mut *self.stacks;
-                work.count(|work| work.boxes += nodes.len() as u64);
+                work.count(|work| work.tested(nodes.len()));
                 let met = met.spans(nodes.len()).filter(|(_, span)| asks.about(*span, last));
                 near.extend(met.map(|(lane, span)| (nodes[lane], span)));
                 if self.tires(nodes.len()) {
@@ -385,7 +385,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         for (still, span) in &children[list..] {
             let four = Four::same(simd, &other.tree.boxes[*still as usize]);
             let met = swept.meets(simd, &four, chord.span, &[*span; 4]);
-            work.count(|work| work.boxes += nodes.len() as u64);
+            work.count(|work| work.tested(nodes.len()));
             let met = met.spans(nodes.len()).filter(|(_, span)| asks.about(*span, last));
             found.extend(met.map(|(lane, span)| (lane as u32, *still, span)));
         }
