@@ -5,8 +5,8 @@
 
 use super::triangles::Triangle;
 use crate::lanes::{Lanes, with_lanes};
-use fearless_simd::prelude::*;
 use fearless_simd::f64x4;
+use fearless_simd::prelude::*;
 use parry3d_f64::math::Vector;
 
 /// Whether two triangles meet, by the separating axis theorem: two triangles are apart exactly if they

@@ -1,7 +1,7 @@
 //! Whether the bodies of two groups meet where they stand.
 
-use super::element::{Element, elements};
 use super::directions::triangles_meet;
+use super::element::{Element, elements};
 use super::frame::{Frame, Stance};
 use super::light::{Four, Frames, Stands, above};
 use super::piece::Piece;
@@ -39,17 +39,23 @@ impl Meeting<'_> {
     /// Whether a surface of one meets a surface of the other; a primitive is solid and meets what lies
     /// inside it, too. Touching counts. That a mesh may enclose the other is not looked at.
     pub fn surfaces_meet(&self, stance: &Stance, stack: &mut Vec<(u32, u32)>) -> bool {
+        self.any_meet((0, 0), stance, stack)
+    }
+
+    /// The same of what lies below one node and another.
+    pub fn any_meet(&self, pair: (u32, u32), stance: &Stance, stack: &mut Vec<(u32, u32)>) -> bool {
         let frame = stance.seen(self.mover_link, self.still_link);
         with_lanes!(self.lanes, simd => simd.vectorize(
             #[inline(always)]
-            || self.surfaces_meet_at(simd, &frame, stance, stack),
+            || self.any_meet_at(simd, pair, &frame, stance, stack),
         ))
     }
 
     #[inline(always)]
-    fn surfaces_meet_at<S: Simd>(
+    fn any_meet_at<S: Simd>(
         &self,
         simd: S,
+        pair: (u32, u32),
         frame: &Frame,
         stance: &Stance,
         stack: &mut Vec<(u32, u32)>,
@@ -60,10 +66,10 @@ impl Meeting<'_> {
         let place = |four: &Four<S>| Stands::new(&frames, four);
         let same = |tree: &'_ Tree, node: u32| Four::same(simd, &tree.boxes[node as usize]);
         let gathered = |tree: &'_ Tree, nodes: &[u32]| Four::new(simd, tree.gathered(nodes));
-        let mut held = (0, place(&same(own, 0)));
+        let mut held = (pair.0, place(&same(own, pair.0)));
         stack.clear();
-        if held.1.may_meet(simd, &same(other, 0), room) != 0 {
-            stack.push((0, 0));
+        if held.1.may_meet(simd, &same(other, pair.1), room) != 0 {
+            stack.push(pair);
         }
         while let Some((i, j)) = stack.pop() {
             let (mover, still) = (&own.nodes[i as usize], &other.nodes[j as usize]);
@@ -92,7 +98,11 @@ impl Meeting<'_> {
         let first = &self.mover.tree.elements[mover.element as usize];
         let second = &self.still.tree.elements[still.element as usize];
         if !first.primitive && !second.primitive {
-            return triangles_meet(self.lanes, &first.corners.map(|p| frame.point(p)), &second.corners);
+            return triangles_meet(
+                self.lanes,
+                &first.corners.map(|p| frame.point(p)),
+                &second.corners,
+            );
         }
         let (one, other) = (self.mover.piece(first), self.still.piece(second));
         let at = stance.pose(Some(self.mover_link));

@@ -1,10 +1,10 @@
 //! Trees against looking at every pair.
 
+use super::directions::triangles_meet;
 use super::frame::{Frame, Stance};
 use super::light::grain;
 use super::meet::{Group, Meeting};
 use super::tests::{cuboid, cuboid_mesh, solid};
-use super::directions::triangles_meet;
 use super::{BodyValidity, Bounds, BoundsMeaning, Edges, Scratch, Validity};
 use crate::lanes::Lanes;
 use crate::robot::rates_tests::drawn_pose;

@@ -2,8 +2,8 @@
 
 use super::clip::{Samples, Span};
 use super::{Asks, Sweep};
-use crate::validity::element::Element;
 use crate::validity::directions::separating_axis;
+use crate::validity::element::Element;
 use fearless_simd::Simd;
 use parry3d_f64::math::Vector;
 
@@ -104,7 +104,9 @@ impl<S: Simd> Sweep<'_, '_, S> {
         margin: f64,
     ) -> Option<Apart> {
         let thick = element.radius + other.radius;
-        if let Some((axis, gap)) = separating_axis(self.meeting.lanes, corners, &other.corners, margin + thick) {
+        if let Some((axis, gap)) =
+            separating_axis(self.meeting.lanes, corners, &other.corners, margin + thick)
+        {
             return Some(Apart::Along(axis, gap - thick));
         }
         // Two may be farther apart than along any of the axes.

@@ -26,11 +26,12 @@ use fearless_simd::Simd;
 
 /// A chord is halved while its points leave it by more than this share of the larger box.
 const BEND: f64 = 0.01;
-/// After so many tests of boxes without an answer the whole robot is looked at where it stands at one sample,
-/// and each time after so many times more.
-const PATIENCE: u32 = 32;
-/// Where of the last 32 searches so many found something in the way, the first look comes after so many tests.
-const OFTEN: (u32, u32) = (14, 2);
+/// After so many tests of boxes without an answer it is looked whether surfaces meet at one sample, and each
+/// time after half as many times more.
+const PATIENCE: f64 = 48.0;
+/// Where of the last 32 searches so many found something in the way, the first look comes after so many tests,
+/// and is at all of the robot.
+const OFTEN: (u32, f64) = (4, 2.0);
 
 #[cfg(test)]
 mod tests;
@@ -126,10 +127,12 @@ struct Sweep<'a, 'c, S: Simd> {
     stacks: &'c mut Stacks,
     /// Surfaces were found to meet at a sample between the ends.
     meets: bool,
+    /// Of the last searches many found something in the way.
+    often: bool,
     /// Tests of boxes until a sample is looked at.
-    patience: u32,
-    /// The samples looked at so far, halving the gaps between them.
-    looks: u64,
+    patience: f64,
+    /// Looks so far.
+    looks: i32,
 }
 
 impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
@@ -143,8 +146,8 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
     ) -> Sweep<'a, 'c, S> {
         let half_step = 0.5 / clock.samples as f64;
         let spare = if asks == Asks::Samples { 0.0 } else { half_step };
-        let (often, few) = OFTEN;
-        let patience = if stacks.blocked.count_ones() >= often { few } else { PATIENCE };
+        let often = stacks.blocked.count_ones() >= OFTEN.0;
+        let patience = if often { OFTEN.1 } else { PATIENCE };
         let Meeting { slack, grain, .. } = meeting;
         let course = Course { rates, spare, slack, grain };
         let samples = clock.samples;
@@ -153,7 +156,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             Asks::Samples => Samples { from: 1, to: samples - 1 },
         };
         let (meets, looks) = (false, 0);
-        Sweep { simd, meeting, course, asks, asked, clock, stacks, meets, patience, looks }
+        Sweep { simd, meeting, course, asks, asked, clock, stacks, meets, often, patience, looks }
     }
 
     /// Whether it is as asked.
@@ -242,12 +245,14 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         simd.vectorize(
             #[inline(always)]
             || {
-                let chord = Chord::new(simd, &self.course, (samples, step), [&frames[0], &frames[1]]);
+                let chord =
+                    Chord::new(simd, &self.course, (samples, step), [&frames[0], &frames[1]]);
                 self.stacks.work.count(|work| work.placed += 1);
                 let own = Four::same(simd, &self.meeting.mover.tree.boxes[node as usize]);
                 let swept = SweptBoxes::new(simd, &self.course, &chord, &own);
                 let base = self.stacks.near.len();
-                self.find_near(&chord, &swept) || self.comes_near(node, &chord, (&swept, None), base)
+                self.find_near(node, &chord, &swept)
+                    || self.comes_near(node, &chord, (&swept, None), base)
             },
         )
     }
@@ -255,7 +260,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
     /// Tests a box in all lanes against what is open. Whether meanwhile a look at a sample found that surfaces
     /// meet.
     #[inline(always)]
-    fn find_near(&mut self, chord: &Chord<S>, swept: &SweptBoxes<S>) -> bool {
+    fn find_near(&mut self, node: u32, chord: &Chord<S>, swept: &SweptBoxes<S>) -> bool {
         let simd = self.simd;
         let (asks, last) = (self.asks, self.clock.samples);
         let tree = &self.meeting.still.tree;
@@ -270,8 +275,9 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             let met = met.spans(batch.len()).filter(|(_, span)| asks.about(*span, last));
             near.extend(met.map(|(lane, span)| (batch[lane].0, span)));
         }
+        let first = open.first().map_or((0, Span::ALL), |first| *first);
         open.clear();
-        self.tires(tests)
+        self.tires(tests, (node, first.0, first.1))
     }
 
     /// The same of nodes that are near, from `base` on, and a box, which may have a lane among others.
@@ -315,7 +321,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
                 work.count(|work| work.tested(nodes.len()));
                 let met = met.spans(nodes.len()).filter(|(_, span)| asks.about(*span, last));
                 near.extend(met.map(|(lane, span)| (nodes[lane], span)));
-                if self.tires(nodes.len()) {
+                if self.tires(nodes.len(), (node, still, span)) {
                     return true;
                 }
             }
@@ -328,21 +334,16 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
 
     /// [`Sweep::blocked`] over shorter chords, of the nodes in the list of halves from `list` on.
     #[inline(never)]
-    fn halves_blocked(
-        &mut self,
-        node: u32,
-        chord: &Chord<S>,
-        list: usize,
-    ) -> bool {
+    fn halves_blocked(&mut self, node: u32, chord: &Chord<S>, list: usize) -> bool {
         let spans = self.stacks.halves[list..].iter().map(|(_, span)| *span);
         let whole = spans.reduce(Span::with).unwrap_or(chord.span);
         let last = self.clock.samples;
         let Samples { from, to } = chord.samples;
         let middle = from + (to - from) / 2;
+        let part = Samples::around(whole, last);
+        let part = Samples { from: part.from.max(from), to: part.to.min(to) };
         // What is left, if that is less than half; else one half after the other.
-        let (parts, count) = if 2.0 * whole.length() <= chord.span.length() {
-            let part = Samples::around(whole, last);
-            let part = Samples { from: part.from.max(from), to: part.to.min(to) };
+        let (parts, count) = if 2 * part.length() <= to - from {
             ([(part, whole); 2], 1)
         } else {
             let half = (middle as f64 / last as f64) as f32;
@@ -366,12 +367,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
 
     /// [`Sweep::blocked`] of the children of a box, with the nodes in the list of children from `list` on.
     #[inline(always)]
-    fn children_blocked(
-        &mut self,
-        node: u32,
-        chord: &Chord<S>,
-        list: usize,
-    ) -> bool {
+    fn children_blocked(&mut self, node: u32, chord: &Chord<S>, list: usize) -> bool {
         let simd = self.simd;
         let (asks, last) = (self.asks, self.clock.samples);
         let Meeting { mover, still: other, .. } = self.meeting;
@@ -390,8 +386,9 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             found.extend(met.map(|(lane, span)| (lane as u32, *still, span)));
         }
         let tests = nodes.len() * (children.len() - list);
+        let (still, span) = children[list];
         children.truncate(list);
-        if self.tires(tests) {
+        if self.tires(tests, (node, still, span)) {
             return true;
         }
         for (lane, child) in nodes.iter().enumerate() {
@@ -423,31 +420,31 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         )
     }
 
-    /// Whether, after so many more tests of boxes, it is time to look at a sample, and surfaces meet there.
+    /// Whether, after so many more tests of boxes, it is time to look at one sample, and surfaces meet there:
+    /// any, or those of two nodes that may meet during a span.
     #[inline(always)]
-    fn tires(&mut self, tests: usize) -> bool {
-        let tests = u32::try_from(tests).unwrap_or(u32::MAX);
-        if self.patience > tests {
-            self.patience -= tests;
-            return false;
-        }
-        self.meets_at_a_sample()
+    fn tires(&mut self, tests: usize, near: (u32, u32, Span)) -> bool {
+        self.patience -= tests as f64;
+        self.patience <= 0.0 && self.meets_at_a_sample(near)
     }
 
-    /// Whether surfaces meet at one sample, the next of those that halve the gaps between the ones before.
     #[inline(never)]
-    fn meets_at_a_sample(&mut self) -> bool {
-        self.looks += 1;
-        // 1/2, 1/4, 3/4, 1/8, …: what is in the way is often so half way.
-        let pieces = (self.looks + 1).next_power_of_two();
-        let odd = 2 * (self.looks - pieces / 2) + 1;
-        self.patience = PATIENCE << self.looks.min(16);
-        if pieces >= self.clock.samples {
+    fn meets_at_a_sample(&mut self, (node, still, span): (u32, u32, Span)) -> bool {
+        let last = self.clock.samples;
+        if last < 2 {
             return false;
         }
-        let sample = self.clock.samples / pieces * odd;
+        // What is in the way is often so half way, else where the search is.
+        let (pair, sample) = if self.often && self.looks == 0 {
+            ((0, 0), last / 2)
+        } else {
+            let Samples { from, to } = Samples::around(span, last);
+            ((node, still), (from + (to - from) / 2).clamp(1, last - 1))
+        };
+        self.patience = PATIENCE * 1.5f64.powi(self.looks);
+        self.looks += 1;
         self.stacks.work.count(|work| work.looks += 1);
-        self.meets = self.meeting.surfaces_meet(self.clock.at(sample), &mut self.stacks.pairs);
+        self.meets = self.meeting.any_meet(pair, self.clock.at(sample), &mut self.stacks.pairs);
         self.meets
     }
 }
