@@ -1,7 +1,7 @@
 //! Which instructions do several numbers at once, chosen when the program runs.
 //!
-//! No result depends on them: they either do the same operations in the same order, or tests that only
-//! say where to look closer.
+//! No result depends on them: lanes either do the same operations in the same order, or tests that only say
+//! where to look closer.
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) use fearless_simd::Fallback as Baseline;

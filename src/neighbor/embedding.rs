@@ -1,6 +1,6 @@
 //! Configurations as points whose Euclidean distance never exceeds the space's by more than rounding.
 
-use super::lanes::Lanes;
+use crate::lanes::Lanes;
 use crate::math;
 use crate::space::{PartKind, Space};
 

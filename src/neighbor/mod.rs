@@ -8,7 +8,6 @@ mod embedding;
 mod farthest;
 mod graph;
 mod index;
-mod lanes;
 mod layout;
 mod measure;
 mod places;

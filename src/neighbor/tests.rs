@@ -1,6 +1,6 @@
 use super::embedding::{Embedding, FAN, length};
-use super::lanes::Lanes;
 use super::*;
+use crate::lanes::Lanes;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::shelf::tests::Flaky;
 use crate::shelf::{BlockName, Shelf};
@@ -284,8 +284,8 @@ proptest! {
                     };
                     for lanes in Lanes::all() {
                         let found = [
-                            lanes.points(&embedding, point, &leaf, limit),
-                            lanes.boxes(&embedding, point, &sides, limit),
+                            embedding.points_by(lanes, point, &leaf, limit),
+                            embedding.boxes_by(lanes, point, &sides, limit),
                         ];
                         for ((squares, within), expected) in found.iter().zip(&expected) {
                             prop_assert_eq!(squares.map(f32::to_bits), expected.map(f32::to_bits));

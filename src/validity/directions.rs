@@ -158,3 +158,51 @@ fn gaps<S: Simd>(
     ];
     (upright.select(above, below), turned)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::validity::triangles::tests::{parry, point};
+    use parry3d_f64::math::Pose;
+    use parry3d_f64::query;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Against parry's test of convex shapes; all lanes find the same axis.
+        #[test]
+        fn triangles_meet_when_parry_says_so(
+            corners in proptest::collection::vec(point(), 6), margin in 0.0f64..0.3,
+        ) {
+            let first = [corners[0], corners[1], corners[2]];
+            let second = [corners[3], corners[4], corners[5]];
+            let still = Pose::IDENTITY;
+            let expected = query::intersection_test(&still, &parry(&first), &still, &parry(&second));
+            let expected = expected.unwrap().intersecting;
+            let mut axes = Vec::new();
+            for lanes in Lanes::all() {
+                prop_assert_eq!(triangles_meet(lanes, &first, &second), expected);
+                prop_assert_eq!(triangles_meet(lanes, &second, &first), expected);
+                prop_assert_eq!(separating_axis(lanes, &first, &second, 0.0).is_none(), expected);
+                // Triangles that share a corner or an edge meet.
+                prop_assert!(triangles_meet(lanes, &first, &[corners[0], corners[4], corners[5]]));
+                prop_assert!(triangles_meet(lanes, &first, &[corners[0], corners[1], corners[5]]));
+                let found = separating_axis(lanes, &first, &second, margin);
+                axes.push(found.map(|(axis, gap)| (axis.to_array().map(f64::to_bits), gap.to_bits())));
+            }
+            prop_assert!(axes.windows(2).all(|pair| pair[0] == pair[1]));
+        }
+
+        #[test]
+        fn triangles_in_one_plane_are_told_apart(x in -4.0f64..4.0, y in -4.0f64..4.0) {
+            let first = [Vector::ZERO, Vector::X, Vector::Y];
+            let second = first.map(|corner| corner + Vector::new(x, y, 0.0));
+            // Two equal triangles shifted in their plane overlap where |shift| is small in the norm of
+            // the hexagon that their difference spans.
+            let norm = x.abs().max(y.abs()).max((x + y).abs());
+            prop_assume!((norm - 1.0).abs() > 1e-9);
+            for lanes in Lanes::all() {
+                prop_assert_eq!(triangles_meet(lanes, &first, &second), norm < 1.0);
+            }
+        }
+    }
+}

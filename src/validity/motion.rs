@@ -1,11 +1,9 @@
 //! Whether motions of a robot of rigid links are valid.
 
 use super::bodies::{BodyValidity, Edges};
-use super::swept::{Asks, Clock, Finds, find, misses, stays_inside};
+use super::swept::{Asks, Clock, Finds, find, stays_inside};
 use super::{Scratch, State, Validity};
-use crate::lanes::with_lanes;
 use crate::space::Motion;
-use fearless_simd::Simd;
 use parry3d_f64::math::Vector;
 
 /// A swept motion that is found not to be free comes, at some time, nearer to something than the
@@ -67,11 +65,7 @@ impl BodyValidity {
         let planar = self.robot.motion.translations() == 2;
         let origin = |q: &[f64]| Vector::new(q[0], q[1], if planar { 0.0 } else { q[2] });
         let room = self.reach + room + self.slack;
-        let (ends, still) = ([origin(a), origin(b)], &obstacles.tree.boxes[0]);
-        with_lanes!(self.lanes, simd => simd.vectorize(
-            #[inline(always)]
-            || misses(simd, ends, (room, self.grain), still),
-        ))
+        obstacles.tree.nodes[0].space.misses([origin(a), origin(b)], room)
     }
 
     /// What is found of a motion of valid ends, by looking at so many equal steps: what no surface meets

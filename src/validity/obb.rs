@@ -47,6 +47,19 @@ impl Obb {
         best
     }
 
+    /// Whether a ball of a radius that goes straight from one point to another is seen to miss the box along
+    /// one of its axes.
+    #[inline]
+    pub fn misses(&self, [from, to]: [Vector; 2], radius: f64) -> bool {
+        let (first, last) = (from - self.centre, to - self.centre);
+        let apart = |axis: Vector, half: f64| {
+            let (begin, end, reach) = (axis.dot(first), axis.dot(last), half + radius);
+            begin > reach && end > reach || begin < -reach && end < -reach
+        };
+        let ([a, b, c], half) = (self.axes, self.half);
+        apart(a, half.x) || apart(b, half.y) || apart(c, half.z)
+    }
+
     fn along(axes: [Vector; 3], elements: &[&Element]) -> Obb {
         let mut sides = axes.map(|axis| (0.0, axis));
         let mut centre = Vector::ZERO;

@@ -131,7 +131,7 @@ fn nearest_on_segments(a: Vector, b: Vector, c: Vector, d: Vector) -> (Vector, V
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::validity::directions::separating_axis;
     use parry3d_f64::math::Pose;
@@ -139,42 +139,15 @@ mod tests {
     use parry3d_f64::shape;
     use proptest::prelude::*;
 
-    fn point() -> impl Strategy<Value = Vector> {
+    pub(in crate::validity) fn point() -> impl Strategy<Value = Vector> {
         (-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0).prop_map(|(x, y, z)| Vector::new(x, y, z))
     }
 
-    fn parry(t: &Triangle) -> shape::Triangle {
+    pub(in crate::validity) fn parry(t: &Triangle) -> shape::Triangle {
         shape::Triangle::new(t[0], t[1], t[2])
     }
 
     proptest! {
-        /// Against parry's test of convex shapes, and against moving one triangle along the axis.
-        #[test]
-        fn triangles_meet_when_parry_says_so(corners in proptest::collection::vec(point(), 6)) {
-            let first = [corners[0], corners[1], corners[2]];
-            let second = [corners[3], corners[4], corners[5]];
-            let still = Pose::IDENTITY;
-            let expected = query::intersection_test(&still, &parry(&first), &still, &parry(&second));
-            let expected = expected.unwrap().intersecting;
-            prop_assert_eq!(triangles_meet(&first, &second), expected);
-            prop_assert_eq!(triangles_meet(&second, &first), expected);
-            prop_assert_eq!(separating_axis(&first, &second, 0.0).is_none(), expected);
-            // Triangles that share a corner or an edge meet.
-            prop_assert!(triangles_meet(&first, &[corners[0], corners[4], corners[5]]));
-            prop_assert!(triangles_meet(&first, &[corners[0], corners[1], corners[5]]));
-        }
-
-        #[test]
-        fn triangles_in_one_plane_are_told_apart(x in -4.0f64..4.0, y in -4.0f64..4.0) {
-            let first = [Vector::ZERO, Vector::X, Vector::Y];
-            let second = first.map(|corner| corner + Vector::new(x, y, 0.0));
-            // Two equal triangles shifted in their plane overlap where |shift| is small in the norm of
-            // the hexagon that their difference spans.
-            let norm = x.abs().max(y.abs()).max((x + y).abs());
-            prop_assume!((norm - 1.0).abs() > 1e-9);
-            prop_assert_eq!(triangles_meet(&first, &second), norm < 1.0);
-        }
-
         /// Against parry's distance, of triangles, segments and points.
         #[test]
         fn the_nearest_points_are_as_far_apart_as_parry_says(
@@ -190,13 +163,13 @@ mod tests {
             let second = hull(3, b).map(|corner| corner + shift);
             let still = Pose::IDENTITY;
             let expected = query::distance(&still, &parry(&first), &still, &parry(&second)).unwrap();
-            let found = nearest_points(&first, &second);
+            let found = nearest_points(Lanes::widest(), &first, &second);
             let inside = |p: Vector, t: &Triangle| parry(t).distance_to_local_point(p, true) < 1e-6;
             prop_assert!(inside(found.0, &first) && inside(found.1, &second));
             let expected = expected.distance;
             let distance = (found.0 - found.1).length();
             prop_assert!((distance - expected).abs() < 1e-6, "{} not {}", distance, expected);
-            if let Some((axis, gap)) = separating_axis(&first, &second, 0.0) {
+            if let Some((axis, gap)) = separating_axis(Lanes::widest(), &first, &second, 0.0) {
                 prop_assert!(gap <= distance + 1e-12);
                 prop_assert!((axis.length() - 1.0).abs() < 1e-12);
             }

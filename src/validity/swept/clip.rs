@@ -3,7 +3,7 @@
 use crate::robot::Rates;
 use crate::validity::frame::Frame;
 use crate::validity::light::{
-    Four, Frames, Gaps, LightBox, Stands, Three, above, all_times, dot, points, three,
+    Four, Frames, Gaps, Stands, Three, above, all_times, dot, points, three,
 };
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x8};
@@ -388,16 +388,4 @@ impl<S: Simd> Clip<S> {
         let left = from.simd_le(to).to_bitmask() as u32;
         Met { lanes: lanes & left, from: from.to_array(), to: to.to_array() }
     }
-}
-
-/// Whether a ball of a radius that goes straight misses a box.
-#[inline(always)]
-pub(in crate::validity) fn misses<S: Simd>(
-    simd: S,
-    ends: [Vector; 2],
-    (radius, grain): (f64, f32),
-    still: &LightBox,
-) -> bool {
-    let ball = SweptBall::new(simd, ends, radius, grain);
-    ball.meets(simd, &Four::same(simd, still), Span::ALL).lanes == 0
 }

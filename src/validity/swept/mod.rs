@@ -11,7 +11,6 @@ mod clock;
 mod contact;
 mod room;
 
-pub(super) use clip::misses;
 pub(super) use clock::{Clock, Timeline};
 pub(super) use room::{Walls, stays_inside};
 

@@ -4,6 +4,7 @@ use super::super::meet::Group;
 use super::super::tests::{chain, cuboid, cuboid_mesh, solid};
 use super::super::{BodyValidity, Bounds, BoundsMeaning, Edges, Scratch, TOLERANCE, Validity};
 use super::{Clock, Walls};
+use crate::lanes::Lanes;
 use crate::robot::{Joint, JointKind, Limits, Link, Rates, Robot};
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::seed::{Purpose, Seed, Stream};
@@ -231,6 +232,32 @@ proptest! {
                 poisoned.poison(ordinal.wrapping_add(i as u64));
                 prop_assert_eq!(validity.clearance(&a, &mut poisoned), cold);
             }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn all_lanes_judge_alike(ordinal in any::<u64>()) {
+        let mut scenes = scenes();
+        let at = ordinal as usize % scenes.len();
+        let scene = &mut scenes[at];
+        let mut stream = Seed::of_set(5, "lanes", ordinal).stream(Purpose::Sampling);
+        let motions = motions(scene, &mut stream, 20);
+        let scratch = &mut Scratch::new();
+        let mut judged = Lanes::all().into_iter().map(|lanes| {
+            (scene.swept.lanes, scene.sampled.lanes) = (lanes, lanes);
+            let mut judge = |(a, b): &(Vec<f64>, Vec<f64>)| {
+                let [swept, sampled] =
+                    [&scene.swept, &scene.sampled].map(|validity| validity.motion(a, b, 1, scratch));
+                (swept, sampled, scene.swept.state(a, scratch), scene.swept.clearance(a, scratch))
+            };
+            motions.iter().map(&mut judge).collect::<Vec<_>>()
+        });
+        let first = judged.next();
+        for other in judged {
+            prop_assert_eq!(Some(&other), first.as_ref());
         }
     }
 }
