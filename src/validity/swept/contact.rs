@@ -1,7 +1,8 @@
 //! Two elements during a stretch of samples.
 
-use super::clip::{Samples, Span};
-use super::{Asks, Sweep};
+use super::Asks;
+use super::search::Sweep;
+use super::span::{Samples, Span};
 use crate::validity::directions::separating_axis;
 use crate::validity::element::Element;
 use fearless_simd::Simd;

@@ -1,7 +1,7 @@
 //! How much room bodies have inside the bounds, and whether they stay inside during a motion.
 
-use super::clip::Samples;
 use super::clock::Clock;
+use super::span::Samples;
 use super::{BEND, Stacks};
 use crate::robot::Rates;
 use crate::validity::frame::Frame;
