@@ -34,8 +34,12 @@ impl Obb {
                 }
             }
         };
-        offer(principal(elements, false));
-        offer(principal(elements, true));
+        // Of one or two triangles the edges say as much, for half of what building a tree takes.
+        let edges = elements.len() <= 2 && elements.iter().all(|one| one.normal != Vector::ZERO);
+        if !edges {
+            offer(principal(elements, false));
+            offer(principal(elements, true));
+        }
         if elements.len() <= FEW {
             for element in elements {
                 let [a, b, c] = element.corners;

@@ -78,7 +78,7 @@ pub(super) struct Clip<S: Simd> {
 /// Outweighs the rounding of times, in shares of a chord.
 const CHORD_MOMENT: f32 = 1e-6;
 /// The same in shares of the motion.
-const MOMENT: f32 = 3e-7;
+pub(super) const MOMENT: f32 = 3e-7;
 
 impl<S: Simd> Clip<S> {
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! The recursion.
 
 use super::chord::{Chord, Course, SweptBoxes};
+use super::clip::MOMENT;
 use super::clock::Clock;
 use super::span::{Samples, Span};
 use super::{Asks, BEND, Finds, Stacks};
@@ -203,8 +204,10 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             ([(part, whole); 2], 1)
         } else {
             let half = (middle as f64 / last as f64) as f32;
-            let first = (Samples { from, to: middle }, Span { to: half, ..chord.span });
-            let second = (Samples { from: middle, to }, Span { from: half, ..chord.span });
+            let first = Span { to: half + MOMENT, ..chord.span };
+            let second = Span { from: half - MOMENT, ..chord.span };
+            let (first, second) =
+                ((Samples { from, to: middle }, first), (Samples { from: middle, to }, second));
             ([first, second], 2)
         };
         for (chord, asked) in &parts[..count] {
