@@ -3,11 +3,13 @@
 //! Every lane does the same operations of double precision in the same order, none of them fused, so that what
 //! is found has the same bits whatever the instructions.
 
-use super::triangles::Triangle;
 use crate::lanes::{Lanes, with_lanes};
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 use parry3d_f64::math::Vector;
+
+/// Its corners.
+pub(super) type Triangle = [Vector; 3];
 
 /// Whether two triangles meet, by the separating axis theorem: two triangles are apart exactly if they
 /// are so along one of 17 directions, the normals, the products of edges, and, for those in one plane,

@@ -1,10 +1,8 @@
 //! The nearest points of triangles, segments and points.
 
-use super::directions::triangles_meet;
+use super::directions::{Triangle, triangles_meet};
 use crate::lanes::Lanes;
 use parry3d_f64::math::Vector;
-
-pub(super) type Triangle = [Vector; 3];
 
 /// The nearest points of two hulls of three corners that may coincide, on the first and on the second:
 /// the same, if they meet. Among equally near ones the first is given: edges before faces, in the order

@@ -68,7 +68,7 @@ fn within(at: Vector) -> Vector {
 
 /// Numbers in lanes: of four boxes at one time, or at both ends of a chord, those of the one end first.
 pub(super) trait Many<S: Simd>:
-    SimdFloat<S, Element = f32, Block = f32x4<S>> + std::ops::Neg
+    SimdFloat<S, Element = f32, Block = f32x4<S>>
 {
     /// From those at one time, or at the other.
     fn times(first: f32x4<S>, last: f32x4<S>) -> Self;
@@ -158,10 +158,10 @@ pub(super) struct Four<S: Simd> {
 impl<S: Simd> Four<S> {
     #[inline(always)]
     pub fn new(simd: S, [a, b, c, d]: [&LightBox; 4]) -> Four<S> {
-        let first = lanes(simd, [&a.axes[0], &b.axes[0], &c.axes[0], &d.axes[0]]);
-        let second = lanes(simd, [&a.axes[1], &b.axes[1], &c.axes[1], &d.axes[1]]);
-        let third = lanes(simd, [&a.axes[2], &b.axes[2], &c.axes[2], &d.axes[2]]);
-        let centre = lanes(simd, [&a.centre, &b.centre, &c.centre, &d.centre]);
+        let first = columns(simd, [&a.axes[0], &b.axes[0], &c.axes[0], &d.axes[0]]);
+        let second = columns(simd, [&a.axes[1], &b.axes[1], &c.axes[1], &d.axes[1]]);
+        let third = columns(simd, [&a.axes[2], &b.axes[2], &c.axes[2], &d.axes[2]]);
+        let centre = columns(simd, [&a.centre, &b.centre, &c.centre, &d.centre]);
         Four::of([first, second, third], centre)
     }
 
@@ -186,7 +186,7 @@ fn splat<S: Simd>(simd: S, [x, y, z, w]: &[f32; 4]) -> [f32x4<S>; 4] {
 
 /// Rows turned to columns.
 #[inline(always)]
-fn lanes<S: Simd>(simd: S, [a, b, c, d]: [&[f32; 4]; 4]) -> [f32x4<S>; 4] {
+fn columns<S: Simd>(simd: S, [a, b, c, d]: [&[f32; 4]; 4]) -> [f32x4<S>; 4] {
     let (a, c) = (f32x4::load_array_ref(simd, a), f32x4::load_array_ref(simd, c));
     let (b, d) = (f32x4::load_array_ref(simd, b), f32x4::load_array_ref(simd, d));
     let (odd, even) = (a.zip_low(c), b.zip_low(d));
