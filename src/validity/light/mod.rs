@@ -67,9 +67,7 @@ fn within(at: Vector) -> Vector {
 }
 
 /// Numbers in lanes: of four boxes at one time, or at both ends of a chord, those of the one end first.
-pub(super) trait Many<S: Simd>:
-    SimdFloat<S, Element = f32, Block = f32x4<S>>
-{
+pub(super) trait Many<S: Simd>: SimdFloat<S, Element = f32, Block = f32x4<S>> {
     /// From those at one time, or at the other.
     fn times(first: f32x4<S>, last: f32x4<S>) -> Self;
 }

@@ -29,12 +29,12 @@ pub(super) struct Sweep<'a, 'c, S: Simd> {
     pub(super) stacks: &'c mut Stacks,
     /// Surfaces were found to meet at a sample between the ends.
     pub(super) meets: bool,
-    /// Of the last searches many found something in the way.
-    often: bool,
+    /// The next look is at all of the robot.
+    whole: bool,
     /// Tests of boxes until a sample is looked at.
     patience: f64,
-    /// Looks so far.
-    looks: i32,
+    /// From then to the next look.
+    rest: f64,
 }
 
 impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
@@ -48,8 +48,8 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
     ) -> Sweep<'a, 'c, S> {
         let half_step = 0.5 / clock.samples as f64;
         let spare = if asks == Asks::Samples { 0.0 } else { half_step };
-        let often = stacks.blocked.count_ones() >= OFTEN.0;
-        let patience = if often { OFTEN.1 } else { PATIENCE };
+        let whole = stacks.blocked.count_ones() >= OFTEN.0;
+        let patience = if whole { OFTEN.1 } else { PATIENCE };
         let Meeting { slack, grain, .. } = meeting;
         let course = Course { rates, spare, slack, grain };
         let samples = clock.samples;
@@ -57,8 +57,8 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             Asks::AllTimes => Samples { from: 0, to: samples },
             Asks::Samples => Samples { from: 1, to: samples - 1 },
         };
-        let (meets, looks) = (false, 0);
-        Sweep { simd, meeting, course, asks, asked, clock, stacks, meets, often, patience, looks }
+        let (meets, rest) = (false, PATIENCE);
+        Sweep { simd, meeting, course, asks, asked, clock, stacks, meets, whole, patience, rest }
     }
 
     /// Whether it is as asked.
@@ -294,14 +294,14 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             return false;
         }
         // What is in the way is often so half way, else where the search is.
-        let (pair, sample) = if self.often && self.looks == 0 {
+        let (pair, sample) = if std::mem::take(&mut self.whole) {
             ((0, 0), last / 2)
         } else {
             let Samples { from, to } = Samples::around(span, last);
             ((node, still), (from + (to - from) / 2).clamp(1, last - 1))
         };
-        self.patience = PATIENCE * 1.5f64.powi(self.looks);
-        self.looks += 1;
+        self.patience = self.rest;
+        self.rest *= 1.5;
         self.stacks.work.count(|work| work.looks += 1);
         self.meets = self.meeting.any_meet(pair, self.clock.at(sample), &mut self.stacks.pairs);
         self.meets
