@@ -4,7 +4,7 @@
 //! squares have the same bits whatever the instructions.
 
 use super::embedding::{Embedding, FAN};
-use crate::lanes::{Lanes, with_lanes};
+use crate::lanes::with_lanes;
 use fearless_simd::f32x16;
 use fearless_simd::prelude::*;
 
@@ -15,38 +15,16 @@ impl Embedding {
     /// Squares of the distances between a point and those of a leaf, and which are within a limit.
     #[inline]
     pub(super) fn near_points(&self, point: &[f32], leaf: &[f32], limit: f32) -> Measured {
-        self.points_by(self.lanes, point, leaf, limit)
-    }
-
-    /// The same for boxes: along each axis their least coordinates, then their largest.
-    #[inline]
-    pub(super) fn near_boxes(&self, point: &[f32], sides: &[f32], limit: f32) -> Measured {
-        self.boxes_by(self.lanes, point, sides, limit)
-    }
-
-    #[inline]
-    pub(super) fn points_by(
-        &self,
-        lanes: Lanes,
-        point: &[f32],
-        leaf: &[f32],
-        limit: f32,
-    ) -> Measured {
-        with_lanes!(lanes, simd => simd.vectorize(
+        with_lanes!(self.lanes, simd => simd.vectorize(
             #[inline(always)]
             || within(simd, self.squares(point, leaf), limit),
         ))
     }
 
+    /// The same for boxes: along each axis their least coordinates, then their largest.
     #[inline]
-    pub(super) fn boxes_by(
-        &self,
-        lanes: Lanes,
-        point: &[f32],
-        sides: &[f32],
-        limit: f32,
-    ) -> Measured {
-        with_lanes!(lanes, simd => simd.vectorize(
+    pub(super) fn near_boxes(&self, point: &[f32], sides: &[f32], limit: f32) -> Measured {
+        with_lanes!(self.lanes, simd => simd.vectorize(
             #[inline(always)]
             || within(simd, self.box_squares(point, sides), limit),
         ))

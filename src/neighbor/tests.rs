@@ -263,7 +263,7 @@ proptest! {
         let mut stream = Seed::of_set(1, "lanes", ordinal).stream(Purpose::Sampling);
         for space in spaces().into_iter().filter(|space| !space.is_empty()) {
             let configs = configs(&space, &mut stream, 3 * FAN);
-            let embedding = Embedding::new(&space);
+            let mut embedding = Embedding::new(&space);
             let (leaf, points) = leaf(&embedding, &configs);
             // Any two points are the corners of a box.
             let ends = |index: usize| [points[index].as_slice(), points[index + FAN].as_slice()];
@@ -283,9 +283,10 @@ proptest! {
                         (0..FAN).filter(|at| squares[*at] <= limit).fold(0, |bits, at| bits | 1 << at)
                     };
                     for lanes in Lanes::all() {
+                        embedding.lanes = lanes;
                         let found = [
-                            embedding.points_by(lanes, point, &leaf, limit),
-                            embedding.boxes_by(lanes, point, &sides, limit),
+                            embedding.near_points(point, &leaf, limit),
+                            embedding.near_boxes(point, &sides, limit),
                         ];
                         for ((squares, within), expected) in found.iter().zip(&expected) {
                             prop_assert_eq!(squares.map(f32::to_bits), expected.map(f32::to_bits));
