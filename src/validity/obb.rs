@@ -34,7 +34,7 @@ impl Obb {
                 }
             }
         };
-        // Of one or two triangles the edges say as much, for half of what building a tree takes.
+        // Of one or two triangles the edges say as much, and most nodes hold no more.
         let edges = elements.len() <= 2 && elements.iter().all(|one| one.normal != Vector::ZERO);
         if !edges {
             offer(principal(elements, false));

@@ -27,6 +27,7 @@ use span::{Samples, Span};
 
 /// A chord is halved while its points leave it by more than this share of the larger box.
 const BEND: f64 = 0.01;
+
 #[cfg(test)]
 mod tests;
 
