@@ -194,4 +194,4 @@ fn columns<S: Simd>(simd: S, [a, b, c, d]: [&[f32; 4]; 4]) -> [f32x4<S>; 4] {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -17,21 +17,25 @@ fn drawn(stream: &mut Stream, size: f64) -> (Obb, Frame) {
     (Obb { centre, axes, half, radius: half.length() }, frame)
 }
 
+/// Two boxes of some power of ten, and where the first has a corner on a corner of the second.
+pub(in crate::validity) fn touching(ordinal: u64, power: i32) -> (LightBox, LightBox, Frame, f64) {
+    let mut stream = Seed::of_set(5, "light", ordinal).stream(Purpose::Sampling);
+    let size = math::exp(f64::from(power) * std::f64::consts::LN_10);
+    let (mover, mut frame) = drawn(&mut stream, size);
+    let (still, _) = drawn(&mut stream, size);
+    let corner = |space: &Obb, at: u64| {
+        let sign = |axis: u64| if at >> axis & 1 == 1 { 1.0 } else { -1.0 };
+        let along = |axis: usize| space.axes[axis] * (space.half[axis] * sign(axis as u64));
+        space.centre + along(0) + along(1) + along(2)
+    };
+    frame.shift = corner(&still, ordinal >> 3) - frame.direction(corner(&mover, ordinal));
+    (LightBox::new(&mover), LightBox::new(&still), frame, size)
+}
+
 proptest! {
-    /// A corner of one is put onto a corner of the other.
     #[test]
     fn boxes_that_touch_are_never_told_apart(ordinal in any::<u64>(), size in -38i32..38) {
-        let mut stream = Seed::of_set(5, "light", ordinal).stream(Purpose::Sampling);
-        let size = math::exp(f64::from(size) * std::f64::consts::LN_10);
-        let (mover, mut frame) = drawn(&mut stream, size);
-        let (still, _) = drawn(&mut stream, size);
-        let corner = |space: &Obb, at: u64| {
-            let sign = |axis: u64| if at >> axis & 1 == 1 { 1.0 } else { -1.0 };
-            let along = |axis: usize| space.axes[axis] * (space.half[axis] * sign(axis as u64));
-            space.centre + along(0) + along(1) + along(2)
-        };
-        frame.shift = corner(&still, ordinal >> 3) - frame.direction(corner(&mover, ordinal));
-        let [own, other] = [&mover, &still].map(LightBox::new);
+        let (own, other, frame, size) = touching(ordinal, size);
         let room = grain(4.0 * size);
         let met = |frame: &Frame, lanes: Lanes| {
             with_lanes!(lanes, simd => {

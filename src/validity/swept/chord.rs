@@ -190,3 +190,44 @@ fn reach<S: Simd>(simd: S, course: &Course, own: &Four<S>) -> f32x4<S> {
     // Nothing is as far, and no product with it is not a number.
     reach.min(f32x4::splat(simd, 1e35))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::{Lanes, with_lanes};
+    use crate::validity::light::grain;
+    use crate::validity::light::tests::touching;
+    use parry3d_f64::math::Vector;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Whatever the scale, and with what bounds so ever on the motion.
+        #[test]
+        fn boxes_that_touch_at_both_ends_meet(
+            ordinal in any::<u64>(), power in -38i32..38, spin in 0.0f64..60.0, speed in 0.0f64..4.0,
+        ) {
+            let (own, other, frame, size) = touching(ordinal, power);
+            let still = Rates::default();
+            let moves = Rates { speed: speed * size, bend: spin * size, spin, twist: spin, steady: None };
+            let met = |rates: Rates, frame: &Frame, lanes: Lanes| {
+                let grain = grain(4.0 * size);
+                let course = Course { rates, spare: 1e-7, slack: 1e-12 * size, grain };
+                with_lanes!(lanes, simd => {
+                    let samples = Samples { from: 0, to: 1 << 20 };
+                    let step = 1.0 / f64::from(1 << 20);
+                    let chord = Chord::new(simd, &course, (samples, step), [frame, frame]);
+                    let swept = SweptBoxes::new(simd, &course, &chord, &Four::same(simd, &own));
+                    let met = swept.meets(simd, &Four::new(simd, [&other; 4]), Span::ALL, &[Span::ALL; 4]);
+                    met.spans(4).filter(|(_, span)| span.from <= 0.0 && span.to >= 1.0).count()
+                })
+            };
+            let apart = Frame { shift: frame.shift + Vector::X * (20.0 * size), ..frame };
+            for lanes in Lanes::all() {
+                prop_assert_eq!(met(still, &frame, lanes), 4);
+                prop_assert_eq!(met(moves, &frame, lanes), 4);
+                // Where single precision ends nothing is told apart.
+                prop_assert!(met(still, &apart, lanes) == 0 || !(-30..27).contains(&power));
+            }
+        }
+    }
+}
