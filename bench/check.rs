@@ -20,12 +20,14 @@
 mod support;
 
 use roadmill::Context;
+use roadmill::model::Scratch;
+use roadmill::model::bodies::BodyValidity;
+use roadmill::model::bodies::validity::{Edges, TOLERANCE};
 use roadmill::problem::Problem;
 use roadmill::roadmap::Configs;
-use roadmill::validity::{Edges, Scratch, TOLERANCE};
 use std::path::Path;
 use support::brute::Brute;
-use support::peer::{empty, pairs_text, run, scene_text, suits, surfaces, verdicts};
+use support::peer::{empty, pairs_text, run, scene_text, suits, surfaces, verdicts, with_edges};
 use support::{cpu_seconds, lists, sample};
 
 /// How much finer motions are looked at than the resolution asks for.
@@ -80,11 +82,11 @@ fn check(path: &Path, count: usize) {
         Judge::Brute(Box::new(Brute::new(&problem)))
     };
     let [swept, sampled] =
-        [Edges::Swept, Edges::Sampled].map(|edges| Problem { edges, ..problem.clone() }.context());
+        [Edges::Swept, Edges::Sampled].map(|edges| with_edges(problem.clone(), edges).context());
     let motions = motions(&problem, &swept, count);
     let scratch = &mut Scratch::new();
     let mut decide = |cx: &Context| -> Vec<bool> {
-        motions.iter().map(|(a, b)| cx.validity.motion(a, b, 1, scratch)).collect()
+        motions.iter().map(|(a, b)| cx.model.motion(a, b, 1, scratch).is_some()).collect()
     };
     let (accepted, at_steps) = (decide(&swept), decide(&sampled));
     let coarse = judge.free(&swept, &motions, 1);
@@ -95,20 +97,26 @@ fn check(path: &Path, count: usize) {
     let missed = [&coarse, &finer].map(|free| count(&|i| accepted[i] && !free[i]));
     let refused: Vec<usize> = (0..motions.len()).filter(|i| finer[*i] && !accepted[*i]).collect();
     // The links of a pair may both move.
-    let moving = if problem.robot.links.len() == 1 { 1.0 } else { 2.0 };
-    let tolerance = moving * problem.resolution / TOLERANCE as f64;
+    let moving =
+        if problem.model.bodies().expect("bodies").robot.links.len() == 1 { 1.0 } else { 2.0 };
+    let tolerance = moving * problem.model.bodies().expect("bodies").resolution / TOLERANCE as f64;
     let approaches: Vec<_> = refused
         .iter()
         .filter_map(|i| {
             let (a, b) = &motions[*i];
-            let fastest = moving * problem.resolution * swept.validity.steps(a, b, 1) as f64;
+            let fastest = moving
+                * problem.model.bodies().expect("bodies").resolution
+                * BodyValidity::of(&*swept.model).expect("bodies").steps(a, b, 1) as f64;
             let apart = |q: &[f64]| judge.apart(&swept, q, scratch);
             nearest_approach(&swept, (a, b), fastest, tolerance, apart)
         })
         .collect();
     let farthest = approaches.iter().fold(0.0f64, |most, (distance, _)| most.max(*distance));
     let there: Vec<Vec<f64>> = approaches.into_iter().map(|(_, q)| q).collect();
-    let steps: u64 = motions.iter().map(|(a, b)| swept.validity.steps(a, b, 1)).sum();
+    let steps: u64 = motions
+        .iter()
+        .map(|(a, b)| BodyValidity::of(&*swept.model).expect("bodies").steps(a, b, 1))
+        .sum();
     println!(
         "| {} | {} | {} | {:.1} | {:.1} % | {} | {}, {} | {} | {:.3} % | {} | {:.2} | {} |",
         problem.name,
@@ -160,7 +168,9 @@ impl Judge {
     /// Which motions are free at so many times the steps of the resolution.
     fn free(&self, cx: &Context, motions: &Motions, finer: u64) -> Vec<bool> {
         let ends = motions.iter().map(|(a, b)| (&a[..], &b[..]));
-        let steps = ends.clone().map(|(a, b)| finer * cx.validity.steps(a, b, 1));
+        let steps = ends
+            .clone()
+            .map(|(a, b)| finer * BodyValidity::of(&*cx.model).expect("bodies").steps(a, b, 1));
         match self {
             Judge::Peer { peer, folder } => {
                 let [scene, pairs, out] = ["scene", "pairs", "verdicts"]
@@ -192,7 +202,7 @@ impl Judge {
     fn apart(&self, cx: &Context, q: &[f64], scratch: &mut Scratch) -> f64 {
         match self {
             Judge::Peer { .. } => {
-                let clearance = cx.validity.clearance(q, scratch);
+                let clearance = cx.model.clearances().expect("bodies").clearance(q, scratch);
                 clearance.map_or(f64::INFINITY, |clearance| clearance.distance)
             }
             Judge::Brute(brute) => brute.apart(q),

@@ -17,9 +17,11 @@
 mod support;
 
 use roadmill::Context;
+use roadmill::model::bodies::BodyValidity;
+use roadmill::model::bodies::validity::{BodyScratch, Edges, Work};
+use roadmill::model::{Scratch, Validity};
 use roadmill::problem::Problem;
 use roadmill::roadmap::Configs;
-use roadmill::validity::{Edges, Scratch, State, Work};
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use support::lists::List;
@@ -89,7 +91,7 @@ type Verdict<'a> = dyn Fn(&[f64], &[f64], &mut Scratch) -> bool + 'a;
 fn measure(path: &Path, list: List, mode: Mode) {
     let mut problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
     let [swept, sampled] = [Edges::Swept, Edges::Sampled].map(|edges| {
-        problem.edges = edges;
+        problem.model.bodies_mut().expect("bodies").edges = edges;
         problem.context()
     });
     let (configs, pairs) = list.draw(&problem, &swept);
@@ -103,7 +105,7 @@ fn measure(path: &Path, list: List, mode: Mode) {
         return counted(&swept, &format!("{} | {}", problem.name, list.name()), &configs, &pairs);
     }
     if mode == Mode::Swept {
-        let count = |_| decide(&|a, b, scratch| swept.validity.motion(a, b, 1, scratch)).0;
+        let count = |_| decide(&|a, b, scratch| swept.model.motion(a, b, 1, scratch).is_some()).0;
         let mut times: Vec<f64> = (0..20).map(count).collect();
         let rate = pairs.len() as f64 / median(&mut times);
         println!("| {} | {} | {} | | {rate:.0} |", problem.name, list.name(), pairs.len());
@@ -112,10 +114,12 @@ fn measure(path: &Path, list: List, mode: Mode) {
     let mut seconds = [const { Vec::new() }; 3];
     let (mut free, mut sampled_free, mut stepped) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
-        let (time, verdicts) = decide(&|a, b, scratch| swept.validity.motion(a, b, 1, scratch));
+        let (time, verdicts) =
+            decide(&|a, b, scratch| swept.model.motion(a, b, 1, scratch).is_some());
         seconds[0].push(time);
         free = verdicts;
-        let (time, verdicts) = decide(&|a, b, scratch| sampled.validity.motion(a, b, 1, scratch));
+        let (time, verdicts) =
+            decide(&|a, b, scratch| sampled.model.motion(a, b, 1, scratch).is_some());
         seconds[1].push(time);
         sampled_free = verdicts;
         let (time, verdicts) = decide(&|a, b, scratch| step_by_step(&sampled, a, b, 1, scratch));
@@ -150,13 +154,13 @@ fn measure(path: &Path, list: List, mode: Mode) {
 fn counted(cx: &Context, name: &str, configs: &Configs, pairs: &[(usize, usize)]) {
     let scratch = &mut Scratch::new();
     let motion = |(a, b): &(usize, usize), scratch: &mut Scratch| {
-        cx.validity.motion(configs.get(*a), configs.get(*b), 1, scratch)
+        cx.model.motion(configs.get(*a), configs.get(*b), 1, scratch).is_some()
     };
     let mut classes: [Vec<(usize, usize)>; 3] = [const { Vec::new() }; 3];
     let mut work = [Work::default(); 3];
     for pair in pairs {
         let free = motion(pair, scratch);
-        let steps = scratch.take_work();
+        let steps = scratch.of_model::<BodyScratch>().take_work();
         let class = if steps.placed + steps.looks == 0 { 0 } else { 1 + usize::from(free) };
         classes[class].push(*pair);
         work[class] += steps;
@@ -189,14 +193,14 @@ fn step_by_step(
     refinement: u32,
     scratch: &mut Scratch,
 ) -> bool {
-    let steps = cx.validity.steps(a, b, refinement);
+    let steps = BodyValidity::of(&*cx.model).expect("bodies").steps(a, b, refinement);
     let mut q = vec![0.0; a.len()];
     let mut stride = steps.next_power_of_two();
     while stride > 1 {
         stride /= 2;
         for i in (stride..steps).step_by(2 * stride as usize) {
             cx.space.interpolate(a, b, i as f64 / steps as f64, &mut q);
-            if cx.validity.state(&q, scratch) != State::Free {
+            if cx.model.validity(&q, scratch) != Validity::Valid {
                 return false;
             }
         }

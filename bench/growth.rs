@@ -17,10 +17,11 @@ mod support;
 
 use roadmill::Context;
 use roadmill::img::{Job, Joined, Outcome, Replica, Setup};
+use roadmill::model::{Cost, Model, Scratch, Validity};
 use roadmill::problem::Problem;
 use roadmill::query::Attachment;
 use roadmill::seed::{Purpose, Seed};
-use roadmill::validity::{Clearance, Scratch, State, Validity};
+use roadmill::space::Space;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -31,7 +32,7 @@ use support::cpu_seconds;
 const SIZES: [u64; 7] = [1_000, 3_000, 10_000, 30_000, 100_000, 300_000, 1_000_000];
 
 /// The problem's validity, timed.
-struct Timed(Box<dyn Validity>);
+struct Timed(Box<dyn Model>);
 
 /// So long no single verdict takes.
 const OTHERS_HAVE_THE_CORE: Duration = Duration::from_millis(2);
@@ -49,21 +50,21 @@ fn timed<T>(work: impl FnOnce() -> T) -> T {
     result
 }
 
-impl Validity for Timed {
-    fn state(&self, q: &[f64], scratch: &mut Scratch) -> State {
-        timed(|| self.0.state(q, scratch))
+impl Model for Timed {
+    fn space(&self) -> &Space {
+        self.0.space()
     }
-    fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> bool {
+    fn validity(&self, q: &[f64], scratch: &mut Scratch) -> Validity {
+        timed(|| self.0.validity(q, scratch))
+    }
+    fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> Option<Cost> {
         timed(|| self.0.motion(a, b, refinement, scratch))
     }
-    fn obstructed(&self) -> bool {
-        self.0.obstructed()
+    fn invalidity(&self) -> &'static str {
+        self.0.invalidity()
     }
-    fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64 {
-        self.0.steps(a, b, refinement)
-    }
-    fn clearance(&self, q: &[f64], scratch: &mut Scratch) -> Option<Clearance> {
-        self.0.clearance(q, scratch)
+    fn is_obstructed(&self) -> bool {
+        self.0.is_obstructed()
     }
 }
 
@@ -81,7 +82,7 @@ fn main() {
     if wanted("sparse") {
         let mut sparse = walls.clone();
         sparse.name = "sparse".to_owned();
-        sparse.resolution *= 20.0;
+        sparse.model.bodies_mut().expect("bodies").resolution *= 20.0;
         grow(sparse, nodes, set);
     }
     if wanted("walls") {
@@ -117,7 +118,7 @@ fn grow(mut problem: Problem, nodes: u64, set: u64) {
     );
     let mut setup = Setup::new(problem);
     let plain: Context = setup.problem.context();
-    setup.cx.validity = Box::new(Timed(std::mem::replace(&mut setup.cx, plain).validity));
+    setup.cx.model = Box::new(Timed(std::mem::replace(&mut setup.cx, plain).model));
     let before = resident_bytes();
     let mut replica = Replica::new(&setup);
     let mut scratch = Scratch::new();

@@ -15,10 +15,10 @@ mod cage;
 
 use cage::cage;
 use roadmill::img::{Executor, Joined, Round, RoundSet, Setup, Threads};
+use roadmill::model::Asked;
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Configs, Edge, Increment, Roadmap};
 use roadmill::seed::{Purpose, Seed, Stream};
-use roadmill::validity::Asked;
 use roadmill_coordinator::run::{Ledger, LedgerWriter, Replay, RunLock, Scan, Told};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -126,10 +126,10 @@ fn increment(space: &roadmill::space::Space, stream: &mut Stream) -> Increment {
     let edge = |index: u32, stream: &mut Stream| {
         let low = index % (SET_NODES - 1);
         let high = low + 1 + below(SET_NODES - 1 - low, stream);
-        Edge { low, high, planner: 0, weight: stream.unit() }
+        Edge::metric(low, high, 0, stream.unit())
     };
     let edges = (0..SET_NODES * EDGES_PER_NODE).map(|index| edge(index, stream)).collect();
-    Increment { configs, edges, asked: Asked::default() }
+    Increment { configs, edges, ..Increment::empty(0) }
 }
 
 /// Edges from a set to what came before it.
@@ -137,7 +137,7 @@ fn joined(first: u32, stream: &mut Stream) -> Joined {
     let mut edges = Vec::new();
     for index in 0..JOINS_PER_SET.min(first) {
         let low = (stream.unit() * f64::from(first)) as u32;
-        edges.push(Edge { low, high: first + index, planner: 0, weight: stream.unit() });
+        edges.push(Edge::metric(low, first + index, 0, stream.unit()));
     }
     Joined { edges, asked: Asked::default() }
 }

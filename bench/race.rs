@@ -22,13 +22,15 @@ mod support;
 
 use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
+use roadmill::model::Scratch;
+use roadmill::model::bodies::BodyValidity;
+use roadmill::model::bodies::validity::Edges;
 use roadmill::problem::Problem;
 use roadmill::seed::Seed;
-use roadmill::validity::{Edges, Scratch};
 use std::collections::BTreeMap;
 use std::path::Path;
 use support::lists::{List, NEIGHBORS, coarse, refinement};
-use support::peer::{pairs_text, run, scene_text, surfaces, verdicts};
+use support::peer::{pairs_text, run, scene_text, surfaces, verdicts, with_edges};
 use support::{cpu_seconds, median, sample};
 
 const ROUNDS: usize = 5;
@@ -127,7 +129,7 @@ struct Track<'a> {
 
 impl Track<'_> {
     fn new<'a>(path: &Path, peer: &'a str) -> Track<'a> {
-        let problem = Problem { edges: Edges::Swept, ..surfaces(path) };
+        let problem = with_edges(surfaces(path), Edges::Swept);
         let folder = tempfile::tempdir().expect("a temporary folder");
         let track = Track { peer, problem, folder };
         track.write("scene", scene_text(&track.problem));
@@ -145,21 +147,26 @@ impl Track<'_> {
     /// Prints a line; how many times faster swept motions are than FCL's.
     fn edges(&self, list: List, counted: Steps) -> f64 {
         let resolution = match counted {
-            Steps::Resolution => self.problem.resolution,
+            Steps::Resolution => self.problem.model.bodies().expect("bodies").resolution,
             Steps::Ompl => coarse(&self.problem),
         };
-        let [swept_cx, sampled_cx] = [Edges::Swept, Edges::Sampled]
-            .map(|edges| Problem { edges, resolution, ..self.problem.clone() }.context());
+        let [swept_cx, sampled_cx] = [Edges::Swept, Edges::Sampled].map(|edges| {
+            let mut problem = with_edges(self.problem.clone(), edges);
+            problem.model.bodies_mut().expect("bodies").resolution = resolution;
+            problem.context()
+        });
         let (configs, pairs) = list.draw(&self.problem, &self.problem.context());
         let ends = || pairs.iter().map(|(a, b)| (configs.get(*a), configs.get(*b)));
-        let steps_of = |a: &[f64], b: &[f64]| swept_cx.validity.steps(a, b, 1);
+        let steps_of = |a: &[f64], b: &[f64]| {
+            BodyValidity::of(&*swept_cx.model).expect("bodies").steps(a, b, 1)
+        };
         let mut steps: Vec<u64> = ends().map(|(a, b)| steps_of(a, b)).collect();
         let mut refinements = vec![1; steps.len()];
         if counted == Steps::Ompl {
             self.write("pairs", pairs_text(ends(), steps.iter().copied()));
             let counts = run(self.peer, &["count", &self.file("scene"), &self.file("pairs")]);
             steps = counts.iter().map(|count| *count as u64).collect();
-            let refine = |((a, b), count): (_, &u64)| refinement(&*swept_cx.validity, a, b, *count);
+            let refine = |((a, b), count): (_, &u64)| refinement(&*swept_cx.model, a, b, *count);
             refinements = ends().zip(&steps).map(refine).collect();
         }
         self.write("pairs", pairs_text(ends(), steps.iter().copied()));
@@ -167,8 +174,9 @@ impl Track<'_> {
         let decide = |cx: &Context, seconds: &mut Vec<f64>| -> Vec<bool> {
             let begun = cpu_seconds();
             let scratch = &mut Scratch::new();
-            let motion =
-                |((a, b), refinement): (_, &u32)| cx.validity.motion(a, b, *refinement, scratch);
+            let motion = |((a, b), refinement): (_, &u32)| {
+                cx.model.motion(a, b, *refinement, scratch).is_some()
+            };
             let verdicts = ends().zip(&refinements).map(motion).collect();
             seconds.push(cpu_seconds() - begun);
             verdicts

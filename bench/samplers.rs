@@ -15,11 +15,11 @@ mod support;
 
 use roadmill::Context;
 use roadmill::img::Setup;
+use roadmill::model::Scratch;
 use roadmill::problem::Problem;
 use roadmill::roadmap::Configs;
 use roadmill::sampler::SamplerKind;
 use roadmill::seed::Seed;
-use roadmill::validity::Scratch;
 use std::path::Path;
 use std::sync::Arc;
 use support::{Solved, arguments, cpu_seconds, median, method, solve};
@@ -37,7 +37,9 @@ fn main() {
         for text in &samplers {
             let sampler: SamplerKind = method(text);
             let cost = cost(&problem.context(), &sampler);
-            problem.strategies.iter_mut().for_each(|strategy| strategy.sampler = sampler.clone());
+            for strategy in &mut problem.strategies {
+                strategy.generator.as_sample_mut().expect("it samples").sampler = sampler.clone();
+            }
             let builds: Vec<Solved> = (1..=arguments.seeds)
                 .map(|seed| {
                     let setup = Setup::new(Problem { seed, ..problem.clone() });

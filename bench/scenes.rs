@@ -28,7 +28,9 @@ fn main() {
         problem.limits.nodes = u64::from(u32::MAX / 2);
         problem.limits.sets = problem.limits.nodes;
         for strategy in &mut problem.strategies {
-            strategy.sampler = arguments.sampler.clone().unwrap_or(strategy.sampler.clone());
+            if let Some(sampler) = &arguments.sampler {
+                strategy.generator.as_sample_mut().expect("it samples").sampler = sampler.clone();
+            }
             strategy.among = arguments.among.clone().unwrap_or(strategy.among.clone());
         }
         let builds: Vec<Solved> = (1..=seeds)

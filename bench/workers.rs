@@ -29,9 +29,9 @@ mod support;
 mod virtual_pool;
 
 use roadmill::img::{Core, Job, Joined, Observer, Outcome, Replica, Setup, Task, drive};
+use roadmill::model::Scratch;
 use roadmill::problem::{Limits, Problem};
 use roadmill::roadmap::Increment;
-use roadmill::validity::Scratch;
 use roadmill::wire;
 use std::convert::Infallible;
 use std::path::Path;
@@ -224,7 +224,7 @@ fn run(
     sets_per_round: u32,
 ) -> (f64, &'static str) {
     let mut problem = Problem { sets_per_round, ..problem.clone() };
-    problem.obstacles.clear();
+    problem.model.bodies_mut().expect("bodies").obstacles.clear();
     problem.evaluators.truncate(1);
     problem.limits = Limits { nodes: u64::MAX, sets: u64::MAX, seconds: None };
     problem.strategies.iter_mut().for_each(|strategy| strategy.nodes = 1);

@@ -1,13 +1,13 @@
+use crate::model::{Model, Scratch, Validity};
 use crate::space::{PartKind, Space, stored_form};
-use crate::validity::{Scratch, Validity};
 use bincode::{Decode, Encode};
 
 /// A problem made ready for work: what everything that samples, joins and evaluates shares.
 pub struct Context {
     /// The configuration space.
     pub space: Space,
-    /// What makes configurations and motions valid.
-    pub validity: Box<dyn Validity>,
+    /// What is valid, and what motions cost.
+    pub model: Box<dyn Model>,
     /// The base seed of the program's random numbers.
     pub base_seed: u64,
     /// The query to be solved, if there is one.
@@ -15,11 +15,11 @@ pub struct Context {
 }
 
 impl Context {
-    /// Brings a configuration that came from outside into stored form.
+    /// Brings a configuration that came from outside into stored form, and checks it.
     ///
     /// # Errors
     /// Says what is wrong with it: the number of values, a value, or that it is not valid.
-    pub fn settle(&self, q: &mut [f64]) -> Result<(), String> {
+    pub fn accept(&self, q: &mut [f64]) -> Result<(), String> {
         let space = &self.space;
         if q.len() != space.len() {
             let names: Vec<_> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
@@ -37,11 +37,9 @@ impl Context {
         if !space.within_bounds(q) {
             return Err(format!("{q:?} found, a configuration within the bounds expected"));
         }
-        if !self.validity.valid(q, &mut Scratch::new()) {
-            let expected = "a valid configuration expected";
-            return Err(format!(
-                "{q:?} found, where the robot collides or leaves the bounds; {expected}"
-            ));
+        if self.model.validity(q, &mut Scratch::new()) != Validity::Valid {
+            let (why, expected) = (self.model.invalidity(), "a valid configuration expected");
+            return Err(format!("{q:?} found, where {why}; {expected}"));
         }
         Ok(())
     }

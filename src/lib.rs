@@ -36,24 +36,26 @@ mod lanes;
 pub mod connect;
 pub mod evaluate;
 pub mod export;
-pub mod foreign;
+pub mod generator;
 pub mod img;
 pub mod local;
 pub mod math;
 pub mod methods;
+pub mod model;
 pub mod neighbor;
 pub mod problem;
 pub mod query;
 pub mod roadmap;
-pub mod robot;
+
 pub mod sampler;
 pub mod scene;
 pub mod schedule;
 pub mod seed;
 pub mod shelf;
+mod source;
 pub mod space;
 mod strategy;
-pub mod validity;
+
 pub mod wire;
 
 pub use context::{Context, Ends};

@@ -1,44 +1,48 @@
-use crate::connect::{AmongKind, WithinKind};
+use crate::connect::AmongKind;
 use crate::context::Context;
-use crate::roadmap::{Configs, Increment};
-use crate::sampler::{GaveUp, SamplerKind};
+use crate::generator::GeneratorKind;
+use crate::model::Scratch;
+use crate::roadmap::{Increment, Roadmap};
+use crate::sampler::GaveUp;
 use crate::seed::Seed;
-use crate::validity::Scratch;
-use bincode::{Decode, Encode};
 
 /// How the node sets of one label are made and joined to the roadmap.
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Strategy {
     /// Its name, unique in the problem: part of the seed of each of its sets.
     pub label: String,
     /// Milestones per set (TR05-007: *n*).
     pub nodes: u32,
-    /// How milestones are sampled.
-    pub sampler: SamplerKind,
-    /// How the milestones of a set are connected with one another.
-    pub within: WithinKind,
+    /// What makes its sets.
+    pub generator: GeneratorKind,
     /// How a set is connected with what came before it.
     pub among: AmongKind,
 }
 
 impl Strategy {
-    /// Makes the set `ordinal` of this strategy: a pure function of the problem, the base seed,
-    /// the label and the ordinal.
+    /// Makes the set `ordinal` of this strategy: a pure function of the problem, the base seed, the label, the
+    /// ordinal and, where the generator grows the roadmap, the roadmap at the start of the set's round,
+    /// `frozen`.
     ///
     /// # Errors
-    /// When the sampler gives up.
+    /// When the generator gives up.
     pub fn generate(
         &self,
         cx: &Context,
         ordinal: u64,
+        frozen: Option<&Roadmap>,
         scratch: &mut Scratch,
     ) -> Result<Increment, GaveUp> {
         scratch.take_asked();
         let seed = Seed::of_set(cx.base_seed, &self.label, ordinal);
-        let mut configs = Configs::new(cx.space.len());
-        let sampler = self.sampler.method();
-        sampler.sample(cx, &seed, self.nodes as usize, scratch, &mut configs)?;
-        let edges = self.within.method().connect(cx, &seed, &configs, scratch);
-        Ok(Increment { configs, edges, asked: scratch.take_asked() })
+        let generator = self.generator.method();
+        let mut increment = generator.generate(cx, &seed, self.nodes as usize, frozen, scratch)?;
+        if !cx.model.node_values().is_empty() {
+            for q in increment.configs.iter() {
+                cx.model.values(q, &mut increment.values, scratch);
+            }
+        }
+        increment.asked = scratch.take_asked();
+        Ok(increment)
     }
 }

@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn what_holds_its_own_kind_is_decoded_as_deep_as_problems_are_and_no_deeper() {
         use crate::evaluate::{EvaluatorKind, Not, Query, Verdict};
-        use crate::validity::Asked;
+        use crate::model::Asked;
         let nest = |depth: u32| {
             let query = EvaluatorKind::Query(Query::default());
             (0..depth).fold(query, |inner, _| EvaluatorKind::Not(Not(Box::new(inner))))

@@ -1,8 +1,9 @@
 //! Once a scratch is warm, what decides configurations and motions asks for no memory.
 
+use roadmill::model::Scratch;
+use roadmill::model::bodies::validity::Edges;
 use roadmill::problem::Problem;
 use roadmill::seed::{Purpose, Seed};
-use roadmill::validity::{Edges, Scratch};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::path::Path;
@@ -43,7 +44,7 @@ fn nothing_is_allocated_once_the_scratch_is_warm() {
         let path = Path::new("problems").join(name).with_extension("toml");
         let mut problem = Problem::load(&path).unwrap();
         for edges in [Edges::Swept, Edges::Sampled] {
-            problem.edges = edges;
+            problem.model.bodies_mut().expect("bodies").edges = edges;
             let cx = problem.context();
             let scratch = &mut Scratch::new();
             let mut stream = Seed::of_set(5, name, 0).stream(Purpose::Sampling);
@@ -51,16 +52,18 @@ fn nothing_is_allocated_once_the_scratch_is_warm() {
             while valid.len() < 40 {
                 let mut q = vec![0.0; cx.space.len()];
                 cx.space.sample_uniform(&mut stream, &mut q);
-                if cx.validity.valid(&q, scratch) {
+                if cx.model.is_valid(&q, scratch) {
                     valid.push(q);
                 }
             }
             let mut verdicts = || -> [usize; 3] {
                 let mut counts = [0; 3];
                 for (a, b) in valid.iter().zip(valid.iter().cycle().skip(1)) {
-                    counts[0] += usize::from(cx.validity.motion(a, b, 1, scratch));
-                    counts[1] += usize::from(cx.validity.valid(a, scratch));
-                    counts[2] += usize::from(cx.validity.clearance(a, scratch).is_some());
+                    counts[0] += usize::from(cx.model.motion(a, b, 1, scratch).is_some());
+                    counts[1] += usize::from(cx.model.is_valid(a, scratch));
+                    counts[2] += usize::from(
+                        cx.model.clearances().expect("bodies").clearance(a, scratch).is_some(),
+                    );
                 }
                 counts
             };

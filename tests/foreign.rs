@@ -7,13 +7,13 @@
 #[path = "support/scenes.rs"]
 mod scenes;
 
-use roadmill::foreign::{
+use roadmill::model::bodies::foreign::{
     Base, ForeignBody, ForeignJointKind, ForeignScene, SceneOptions, read_ompl, read_parasol,
 };
+use roadmill::model::bodies::validity::BoundsMeaning;
 use roadmill::problem::Problem;
 use roadmill::scene::{Pose, Shape};
 use roadmill::space::Motion;
-use roadmill::validity::BoundsMeaning;
 use scenes::{Expected, TABLE, data};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

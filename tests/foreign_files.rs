@@ -1,7 +1,7 @@
 //! Scene files that are no good: every error names its file and line, and nothing panics.
 
 use proptest::prelude::*;
-use roadmill::foreign::{
+use roadmill::model::bodies::foreign::{
     DhOrder, ForeignError, ForeignJointKind, ForeignScene, SceneOptions, Unit, read_ompl,
     read_parasol,
 };

@@ -13,7 +13,7 @@ fn again(problem: &Problem) -> Problem {
     let written = problem.to_toml("own meshes");
     let meshes = folder.path().join("own meshes");
     std::fs::create_dir(&meshes).expect("a folder can be made");
-    for (name, text) in &written.meshes {
+    for (name, text) in &written.files {
         std::fs::write(meshes.join(name), text).expect("a mesh can be written");
     }
     let file = folder.path().join("again.toml");

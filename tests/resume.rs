@@ -4,10 +4,10 @@ use roadmill::img::{
     Build, Core, Cut, Executor, Judgement, Memo, Observer, Past, Progress, Round, Serial, Setup,
     Simulated, Stop, build, drive, resume_with,
 };
+use roadmill::model::bodies::validity::Edges;
 use roadmill::problem::Problem;
 use roadmill::roadmap::Tally;
 use roadmill::schedule::Adaptive;
-use roadmill::validity::Edges;
 use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
@@ -219,10 +219,19 @@ fn a_chapter_changes_nothing_that_sets_depend_on() {
         problem.continued(&changed, 3).unwrap_err()
     };
     assert!(refused(|p| p.seed += 1).contains("the seed is"));
-    assert!(refused(|p| p.resolution *= 2.0).contains("resolution"));
-    assert!(refused(|p| p.edges = Edges::Sampled).contains("what is promised of edges"));
-    assert!(refused(|p| p.bounds.max[0] += 1.0).contains("bounds"));
-    assert!(refused(|p| p.obstacles.clear()).contains("obstacle"));
+    assert!(
+        refused(|p| p.model.bodies_mut().expect("bodies").resolution *= 2.0).contains("resolution")
+    );
+    assert!(
+        refused(|p| p.model.bodies_mut().expect("bodies").edges = Edges::Sampled)
+            .contains("what is promised of edges")
+    );
+    assert!(
+        refused(|p| p.model.bodies_mut().expect("bodies").bounds.max[0] += 1.0).contains("bounds")
+    );
+    assert!(
+        refused(|p| p.model.bodies_mut().expect("bodies").obstacles.clear()).contains("obstacle")
+    );
     let label = &problem.strategies[0].label;
     assert!(refused(|p| p.strategies[0].nodes += 1).contains(&format!("`{label}` is not what")));
 

@@ -1,8 +1,8 @@
 //! The same roadmap, bit for bit, whatever does the work.
 
 use roadmill::img::{Build, Memo, Setup, Simulated, Stop, build, build_in_threads, build_with};
+use roadmill::model::bodies::validity::Edges;
 use roadmill::problem::Problem;
-use roadmill::validity::Edges;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -53,7 +53,8 @@ fn sampled_edges_have_golden_digests_too() {
             "judged" => "f3804ce9aa28c8aa346f10dbdfacc118baf774d06c8f93eae1eeb7c8633439ea",
             _ => swept,
         };
-        let sampled = Problem { edges: Edges::Sampled, ..problem(name) };
+        let mut sampled = problem(name);
+        sampled.model.bodies_mut().expect("bodies").edges = Edges::Sampled;
         let found = build(&Arc::new(Setup::new(sampled))).roadmap.digest().to_string();
         assert_eq!(found, expected, "{name}");
     }

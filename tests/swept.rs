@@ -12,9 +12,11 @@ mod scenes;
 
 use brute::Brute;
 use roadmill::Context;
+use roadmill::model::bodies::BodyValidity;
+use roadmill::model::bodies::validity::{Edges, TOLERANCE};
+use roadmill::model::{Scratch, Validity};
 use roadmill::problem::Problem;
 use roadmill::seed::{Purpose, Seed};
-use roadmill::validity::{Edges, Scratch, State, TOLERANCE};
 use scenes::data;
 use std::path::Path;
 
@@ -43,7 +45,7 @@ fn real_scenes_are_judged_as_step_by_step() {
     for (scene, count) in [("ompl/cubicles.cfg", 1200), ("parasol/SerialWalls/serial.env", 1200)] {
         let mut problem = Problem::load(&data.join("scenes").join(scene)).unwrap();
         let [swept, sampled] = [Edges::Swept, Edges::Sampled].map(|edges| {
-            problem.edges = edges;
+            problem.model.bodies_mut().expect("bodies").edges = edges;
             problem.context()
         });
         let scratch = &mut Scratch::new();
@@ -52,30 +54,34 @@ fn real_scenes_are_judged_as_step_by_step() {
         let (mut motions, mut free, mut refused) = (0, 0, 0);
         while motions < count {
             swept.space.sample_uniform(&mut stream, &mut a);
-            let far = 40.0 * problem.resolution * stream.unit();
+            let far = 40.0 * problem.model.bodies().expect("bodies").resolution * stream.unit();
             swept.space.step(&a, far, &mut stream, &mut b);
-            if !(swept.validity.valid(&a, scratch) && swept.validity.valid(&b, scratch)) {
+            if !(swept.model.is_valid(&a, scratch) && swept.model.is_valid(&b, scratch)) {
                 continue;
             }
             motions += 1;
-            let accepted = swept.validity.motion(&a, &b, 1, scratch);
+            let accepted = swept.model.motion(&a, &b, 1, scratch).is_some();
             let mut look = |refinement: u32| {
-                let steps = swept.validity.steps(&a, &b, refinement);
-                let free = |q: &[f64]| swept.validity.state(q, scratch) == State::Free;
+                let steps =
+                    BodyValidity::of(&*swept.model).expect("bodies").steps(&a, &b, refinement);
+                let free = |q: &[f64]| swept.model.validity(q, scratch) == Validity::Valid;
                 at_steps(&swept, (&a, &b), steps, free)
             };
             let (coarse, finer) = (look(1), look(FINER));
             assert!(!accepted || coarse && finer, "{scene}: {a:?} to {b:?} is not free");
-            assert_eq!(sampled.validity.motion(&a, &b, 1, scratch), coarse, "{scene}");
+            assert_eq!(sampled.model.motion(&a, &b, 1, scratch).is_some(), coarse, "{scene}");
             free += usize::from(finer);
             if finer && !accepted {
                 refused += 1;
                 // Between two looks nothing moves farther than half of their distance from one of them.
-                let steps = swept.validity.steps(&a, &b, 1) * LOOKS;
-                let between = problem.resolution / (2 * LOOKS) as f64;
-                let near = between + problem.resolution / TOLERANCE as f64;
+                let steps =
+                    BodyValidity::of(&*swept.model).expect("bodies").steps(&a, &b, 1) * LOOKS;
+                let between =
+                    problem.model.bodies().expect("bodies").resolution / (2 * LOOKS) as f64;
+                let near =
+                    between + problem.model.bodies().expect("bodies").resolution / TOLERANCE as f64;
                 let away = at_steps(&swept, (&a, &b), steps, |q| {
-                    let clearance = swept.validity.clearance(q, scratch);
+                    let clearance = swept.model.clearances().expect("bodies").clearance(q, scratch);
                     clearance.is_some_and(|clearance| clearance.distance > near)
                 });
                 assert!(!away, "{scene}: {a:?} to {b:?} keeps away from everything");
@@ -93,7 +99,7 @@ fn linkages_are_judged_as_by_every_pair_of_bodies() {
     for name in ["stick2.toml", "stick4.toml", "gantry.toml"] {
         let mut problem = Problem::load(&problems.join(name)).unwrap();
         let [swept, sampled] = [Edges::Swept, Edges::Sampled].map(|edges| {
-            problem.edges = edges;
+            problem.model.bodies_mut().expect("bodies").edges = edges;
             problem.context()
         });
         let brute = Brute::new(&problem);
@@ -103,22 +109,26 @@ fn linkages_are_judged_as_by_every_pair_of_bodies() {
         let (mut motions, mut free) = (0, 0);
         while motions < 150 {
             swept.space.sample_uniform(&mut stream, &mut a);
-            let far = 60.0 * problem.resolution * stream.unit();
+            let far = 60.0 * problem.model.bodies().expect("bodies").resolution * stream.unit();
             swept.space.step(&a, far, &mut stream, &mut b);
             for q in [&a, &b] {
                 assert_eq!(
-                    swept.validity.valid(q, scratch),
+                    swept.model.is_valid(q, scratch),
                     swept.space.within_bounds(q) && brute.is_free(q)
                 );
             }
-            if !(swept.validity.valid(&a, scratch) && swept.validity.valid(&b, scratch)) {
+            if !(swept.model.is_valid(&a, scratch) && swept.model.is_valid(&b, scratch)) {
                 continue;
             }
             motions += 1;
-            let steps = swept.validity.steps(&a, &b, 1);
+            let steps = BodyValidity::of(&*swept.model).expect("bodies").steps(&a, &b, 1);
             let coarse = at_steps(&swept, (&a, &b), steps, |q| brute.is_free(q));
-            assert_eq!(sampled.validity.motion(&a, &b, 1, scratch), coarse, "{name}: {a:?}, {b:?}");
-            if swept.validity.motion(&a, &b, 1, scratch) {
+            assert_eq!(
+                sampled.model.motion(&a, &b, 1, scratch).is_some(),
+                coarse,
+                "{name}: {a:?}, {b:?}"
+            );
+            if swept.model.motion(&a, &b, 1, scratch).is_some() {
                 free += 1;
                 let finer = at_steps(&swept, (&a, &b), 4 * steps, |q| brute.is_free(q));
                 assert!(coarse && finer, "{name}: {a:?} to {b:?} is not free");

@@ -1,10 +1,10 @@
 //! Robots in URDF: where their links stand, what is refused and where, and a problem with one.
 
 use proptest::prelude::*;
-use roadmill::foreign::{ForeignError, read_urdf};
 use roadmill::img::{Setup, Stop, build_in_threads};
+use roadmill::model::bodies::foreign::{ForeignError, read_urdf};
+use roadmill::model::bodies::robot::{JointKind, Limits, Link, Robot};
 use roadmill::problem::Problem;
-use roadmill::robot::{JointKind, Limits, Link, Robot};
 use roadmill::scene::{Pose, Shape};
 use roadmill::space::Motion;
 use std::fs;

@@ -4,13 +4,14 @@ use super::support::sample;
 use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
 use roadmill::img::{Job, Outcome, Replica, Setup};
+use roadmill::model::Scratch;
+use roadmill::model::bodies::validity::Edges;
 use roadmill::neighbor::{Candidates, Index, k_nearest, k_nearest_graph};
 use roadmill::problem::Problem;
 use roadmill::query::{Attachment, solve};
 use roadmill::roadmap::{Configs, Increment};
 use roadmill::sampler::SamplerKind;
 use roadmill::seed::Seed;
-use roadmill::validity::{Edges, Scratch};
 use roadmill::wire;
 use std::path::Path;
 use std::sync::Arc;
@@ -73,20 +74,26 @@ fn uniform(cx: &Context, count: usize) -> Configs {
     configs
 }
 
+/// The problem with other promises of its edges.
+fn with_edges(mut problem: Problem, edges: Edges) -> Problem {
+    problem.model.bodies_mut().expect("bodies").edges = edges;
+    problem
+}
+
 fn states(name: &str) -> Work {
     let cx = problem(name).context();
     let configs = uniform(&cx, 2000);
     let mut scratch = Scratch::new();
     Box::new(move || {
         (0..configs.len()).for_each(|i| {
-            std::hint::black_box(cx.validity.state(configs.get(i), &mut scratch));
+            std::hint::black_box(cx.model.validity(configs.get(i), &mut scratch));
         });
         configs.len()
     })
 }
 
 fn motions(name: &str, edges: Edges) -> Work {
-    let cx = Problem { edges, ..problem(name) }.context();
+    let cx = with_edges(problem(name), edges).context();
     let configs = sample(&cx, 300, 0);
     let mut pairs = Vec::new();
     for i in 0..configs.len() {
@@ -98,7 +105,7 @@ fn motions(name: &str, edges: Edges) -> Work {
     Box::new(move || {
         for (a, b) in &pairs {
             let (a, b) = (configs.get(*a), configs.get(*b));
-            std::hint::black_box(cx.validity.motion(a, b, 1, &mut scratch));
+            std::hint::black_box(cx.model.motion(a, b, 1, &mut scratch).is_some());
         }
         pairs.len()
     })
@@ -110,7 +117,9 @@ fn clearances() -> Work {
     let mut scratch = Scratch::new();
     Box::new(move || {
         (0..configs.len()).for_each(|i| {
-            std::hint::black_box(cx.validity.clearance(configs.get(i), &mut scratch));
+            std::hint::black_box(
+                cx.model.clearances().expect("bodies").clearance(configs.get(i), &mut scratch),
+            );
         });
         configs.len()
     })

@@ -4,7 +4,7 @@ use crate::support::panels::{Look, Panel, Series, svg};
 use crate::support::plot::COLOURS;
 use roadmill::evaluate::EvaluatorKind;
 use roadmill::img::Setup;
-use roadmill::validity::Scratch;
+use roadmill::model::Scratch;
 use std::sync::Arc;
 
 /// Draws what expansion, information gain and connectivity measure, round by round, of one build each.

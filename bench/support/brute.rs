@@ -4,10 +4,10 @@
 use parry3d_f64::math::{Pose, Rotation, Vector};
 use parry3d_f64::query;
 use parry3d_f64::shape::SharedShape;
+use roadmill::model::bodies::robot::Robot;
+use roadmill::model::bodies::validity::{Bounds, BoundsMeaning};
 use roadmill::problem::Problem;
-use roadmill::robot::Robot;
 use roadmill::scene::{self, Body, Shape};
-use roadmill::validity::{Bounds, BoundsMeaning};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Convex shapes with their poses in a link's frame or the world's.
@@ -24,11 +24,11 @@ pub struct Brute {
 
 impl Brute {
     pub fn new(problem: &Problem) -> Brute {
-        let robot = problem.robot.clone();
+        let robot = problem.model.bodies().expect("bodies").robot.clone();
         Brute {
-            bounds: problem.bounds,
+            bounds: problem.model.bodies().expect("bodies").bounds,
             links: robot.links.iter().map(|link| convex(&link.bodies)).collect(),
-            obstacles: convex(&problem.obstacles),
+            obstacles: convex(&problem.model.bodies().expect("bodies").obstacles),
             self_pairs: robot.self_pairs(),
             robot,
         }

@@ -34,7 +34,7 @@ pub fn endless(
     let path = folder.join("scene.toml");
     let write = || -> std::io::Result<()> {
         std::fs::create_dir_all(folder.join("meshes"))?;
-        for (name, text) in &written.meshes {
+        for (name, text) in &written.files {
             std::fs::write(folder.join("meshes").join(name), text)?;
         }
         std::fs::write(&path, &written.text)

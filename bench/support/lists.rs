@@ -2,11 +2,12 @@
 
 use super::{pairs, sample};
 use roadmill::Context;
+use roadmill::model::bodies::BodyValidity;
+use roadmill::model::{Model, Scratch};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Components, Configs};
 use roadmill::sampler::{Gaussian, Sampler};
 use roadmill::seed::{Purpose, Seed};
-use roadmill::validity::{Scratch, Validity};
 use std::collections::BTreeSet;
 
 /// Which motions.
@@ -64,7 +65,7 @@ impl List {
 
 /// Gaussian milestones, half the robot's radius as deviation.
 pub fn near_obstacles(problem: &Problem, cx: &Context, count: usize) -> Configs {
-    let deviation = problem.robot.reach() / 2.0;
+    let deviation = problem.model.bodies().expect("bodies").robot.reach() / 2.0;
     let sampler = Gaussian { deviation, bounds: false, attempts: 1_000_000 };
     let mut configs = Configs::new(cx.space.len());
     let seed = Seed::of_set(1, "near obstacles", 0);
@@ -101,13 +102,17 @@ pub fn any(configs: &Configs, count: usize) -> Vec<(usize, usize)> {
 
 /// A resolution so coarse that refining it can cut a motion into any number of steps.
 pub fn coarse(problem: &Problem) -> f64 {
-    let [min, max] = [problem.bounds.min, problem.bounds.max];
+    let [min, max] = [
+        problem.model.bodies().expect("bodies").bounds.min,
+        problem.model.bodies().expect("bodies").bounds.max,
+    ];
     let across: f64 = (0..3).map(|i| max[i] - min[i]).sum();
-    1000.0 * (across + 4.0 * problem.robot.reach())
+    1000.0 * (across + 4.0 * problem.model.bodies().expect("bodies").robot.reach())
 }
 
 /// The refinement of that resolution that cuts a motion into so many steps.
-pub fn refinement(validity: &dyn Validity, a: &[f64], b: &[f64], steps: u64) -> u32 {
+pub fn refinement(model: &dyn Model, a: &[f64], b: &[f64], steps: u64) -> u32 {
+    let validity = BodyValidity::of(model).expect("bodies");
     let (mut low, mut high) = (1, u32::MAX);
     while low < high {
         let middle = low + (high - low).div_ceil(2);

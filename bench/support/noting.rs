@@ -5,10 +5,10 @@ use roadmill::Context;
 use roadmill::evaluate::{Connectivity, Coverage, EvaluatorKind, Samples, Verdict};
 use roadmill::img::{Core, Cut, Observer, Progress, Round, Serial, Setup, Stop, drive};
 use roadmill::local::Planner;
+use roadmill::model::Scratch;
 use roadmill::roadmap::{Configs, Roadmap, Tally};
 use roadmill::sampler::SamplerKind;
 use roadmill::seed::Seed;
-use roadmill::validity::Scratch;
 use std::convert::Infallible;
 use std::sync::Arc;
 

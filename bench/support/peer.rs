@@ -1,9 +1,9 @@
 //! The other side of a race: a program that works on scenes of surfaces.
 
+use roadmill::model::bodies::validity::{BoundsMeaning, Edges};
 use roadmill::problem::Problem;
 use roadmill::scene::{Body, Shape};
 use roadmill::space::Motion;
-use roadmill::validity::BoundsMeaning;
 use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
@@ -12,34 +12,62 @@ use std::process::Command;
 /// race with surfaces and with bounds that hold the reference point.
 pub fn surfaces(path: &Path) -> Problem {
     let mut problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
-    problem.bounds.meaning = BoundsMeaning::Reference;
+    problem.model.bodies_mut().expect("bodies").bounds.meaning = BoundsMeaning::Reference;
     empty(&mut problem);
+    problem
+}
+
+/// The problem with other promises of its edges.
+pub fn with_edges(mut problem: Problem, edges: Edges) -> Problem {
+    problem.model.bodies_mut().expect("bodies").edges = edges;
     problem
 }
 
 /// Makes mere surfaces of all meshes.
 pub fn empty(problem: &mut Problem) {
-    let robot = problem.robot.links.iter_mut().flat_map(|link| &mut link.bodies);
-    robot.chain(&mut problem.obstacles).for_each(|body| body.solid = false);
+    let bodies = problem.model.bodies_mut().expect("bodies");
+    let robot = bodies.robot.links.iter_mut().flat_map(|link| &mut link.bodies);
+    robot.chain(&mut bodies.obstacles).for_each(|body| body.solid = false);
 }
 
 /// Whether the peer knows robots and obstacles of this kind: meshes, of which one moves freely.
 pub fn suits(problem: &Problem) -> bool {
-    let mut bodies = problem.robot.bodies().chain(&problem.obstacles);
-    problem.robot.links.len() == 1
-        && problem.robot.motion == Motion::Rigid3d
+    let mut bodies = problem
+        .model
+        .bodies()
+        .expect("bodies")
+        .robot
+        .bodies()
+        .chain(&problem.model.bodies().expect("bodies").obstacles);
+    problem.model.bodies().expect("bodies").robot.links.len() == 1
+        && problem.model.bodies().expect("bodies").robot.motion == Motion::Rigid3d
         && bodies.all(|body| matches!(body.shape, Shape::Mesh(_)))
 }
 
 /// The scene as text for the peer.
 pub fn scene_text(problem: &Problem) -> String {
     let mut text = String::new();
-    for value in problem.bounds.min.iter().chain(&problem.bounds.max) {
+    for value in problem
+        .model
+        .bodies()
+        .expect("bodies")
+        .bounds
+        .min
+        .iter()
+        .chain(&problem.model.bodies().expect("bodies").bounds.max)
+    {
         write!(text, "{value} ").expect("memory");
     }
-    writeln!(text, "{} {}", problem.resolution, problem.robot.reach()).expect("memory");
-    let robot: Vec<Body> = problem.robot.bodies().cloned().collect();
-    for bodies in [&problem.obstacles, &robot] {
+    writeln!(
+        text,
+        "{} {}",
+        problem.model.bodies().expect("bodies").resolution,
+        problem.model.bodies().expect("bodies").robot.reach()
+    )
+    .expect("memory");
+    let robot: Vec<Body> =
+        problem.model.bodies().expect("bodies").robot.bodies().cloned().collect();
+    for bodies in [&problem.model.bodies().expect("bodies").obstacles, &robot] {
         let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
         for body in bodies {
             let Shape::Mesh(mesh) = &body.shape else { panic!("a scene of meshes expected") };

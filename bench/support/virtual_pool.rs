@@ -2,8 +2,8 @@
 
 use roadmill::evaluate::Verdict;
 use roadmill::img::{Cut, Event, Executor, Finished, Job, Joined, Outcome, Round, Setup};
+use roadmill::model::Asked;
 use roadmill::roadmap::{Configs, Increment, Roadmap, Tally};
-use roadmill::validity::Asked;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, VecDeque};
 use std::sync::Arc;
@@ -186,7 +186,7 @@ impl<'a> VirtualPool<'a> {
                 let mut configs = Configs::new(self.dofs);
                 configs.push(&vec![0.0; self.dofs]);
                 let (edges, asked) = (Vec::new(), Asked::default());
-                Outcome::Increment(Ok(Increment { configs, edges, asked }))
+                Outcome::Increment(Ok(Increment { configs, edges, asked, ..Increment::empty(0) }))
             }
             Job::Join { .. } => {
                 Outcome::Joined(Joined { edges: Vec::new(), asked: Asked::default() })

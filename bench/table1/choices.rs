@@ -4,6 +4,7 @@ use super::environments::{Environment, STRATEGIES};
 use crate::support::noting::{Attaching, Cap, listed};
 use roadmill::connect::{AmongKind, ComponentPairs, Nearest, WithinKind};
 use roadmill::evaluate::Samples;
+use roadmill::generator::{GeneratorKind, Sample};
 use roadmill::local::Planner;
 use roadmill::problem::Problem;
 use roadmill::sampler::SamplerKind;
@@ -86,8 +87,10 @@ impl Choices {
         Some(Strategy {
             label: label.to_owned(),
             nodes,
-            sampler: self.sampler(environment, label)?,
-            within: WithinKind::Nearest(Nearest { planners, ..Nearest::default() }),
+            generator: GeneratorKind::Sample(Sample {
+                sampler: self.sampler(environment, label)?,
+                within: WithinKind::Nearest(Nearest { planners, ..Nearest::default() }),
+            }),
             among: self.among.clone().unwrap_or(AmongKind::ComponentPairs(pairs)),
         })
     }

@@ -270,7 +270,9 @@ fn a_torn_tail_is_kept_beside_and_the_build_goes_on_to_the_same_bytes() {
             let scan = Scan::read(&folder).expect("whole up to the mark");
             assert_eq!((scan.end.offset, scan.torn_bytes), (end as u64, (length - end) as u64));
             let lock = RunLock::take(&folder, || false).expect("free");
-            let (writer, torn) = LedgerWriter::resume(&scan, lock).expect("it goes on");
+            let (writer, torn) =
+                LedgerWriter::resume(&scan, &scan.problem().expect("it is sound"), lock)
+                    .expect("it goes on");
             drop(writer);
             assert!(fs::read(folder.join(LEDGER)).expect("a ledger") == ledger[..end]);
             match torn {
@@ -305,7 +307,8 @@ fn tails_are_saved_under_names_of_their_own() {
         fs::write(folder.path().join(LEDGER), torn).expect("it can be written");
         let scan = Scan::read(folder.path()).expect("whole");
         let lock = RunLock::take(folder.path(), || false).expect("free");
-        LedgerWriter::resume(&scan, lock).expect("it goes on");
+        LedgerWriter::resume(&scan, &scan.problem().expect("it is sound"), lock)
+            .expect("it goes on");
         let saved = fs::read(folder.path().join(format!("ledger.torn-{number}")));
         assert_eq!(saved.expect("the tail"), [number; 5]);
     }

@@ -3,8 +3,8 @@
 use super::JoinInput;
 use crate::context::Context;
 use crate::local::{self, Planner};
+use crate::model::Scratch;
 use crate::roadmap::{Components, Configs, Edge};
-use crate::validity::Scratch;
 
 /// The roadmap, or an earlier increment of the round.
 pub(super) struct Part<'a> {
@@ -77,11 +77,11 @@ impl<'a> Candidates<'a> {
         scratch: &mut Scratch,
     ) -> Option<Edge> {
         let ends = (self.config(pair.old), self.config(pair.new));
-        local::connect(cx, planners, ends, 1, scratch).map(|(planner, weight)| Edge {
+        local::connect(cx, planners, ends, 1, scratch).map(|(planner, cost)| Edge {
             low: pair.old,
             high: pair.new,
             planner: planner.tag(),
-            weight,
+            cost,
         })
     }
 

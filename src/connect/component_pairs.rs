@@ -3,9 +3,9 @@ use super::{Among, JoinInput, default_planners};
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::neighbor::{Best, Neighbor};
 use crate::roadmap::{Component, Edge};
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 

@@ -33,10 +33,24 @@ pub use until_joined::UntilJoined;
 use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::{Complaint, methods};
+use crate::model::Scratch;
 use crate::roadmap::{Components, Configs, Edge, Increment, Roadmap};
 use crate::seed::Seed;
-use crate::validity::Scratch;
 use std::sync::Arc;
+
+/// The report's: the 10 nearest of each milestone.
+impl Default for WithinKind {
+    fn default() -> WithinKind {
+        WithinKind::Nearest(Nearest::default())
+    }
+}
+
+/// The report's: the closest pairs of near components.
+impl Default for AmongKind {
+    fn default() -> AmongKind {
+        AmongKind::ComponentPairs(ComponentPairs::default())
+    }
+}
 
 /// Connection of a set's milestones with one another.
 pub trait Within {

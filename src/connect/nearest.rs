@@ -2,10 +2,10 @@ use super::{Within, default_planners};
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::neighbor::k_nearest_graph;
 use crate::roadmap::{Configs, Edge};
 use crate::seed::Seed;
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -45,9 +45,13 @@ impl Within for Nearest {
         let mut edges = Vec::new();
         for (low, high) in pairs {
             let ends = (configs.get(low as usize), configs.get(high as usize));
-            if let Some((planner, weight)) = local::connect(cx, &self.planners, ends, 1, scratch) {
-                edges.push(Edge { low, high, planner: planner.tag(), weight });
-            }
+            let joined = local::connect(cx, &self.planners, ends, 1, scratch);
+            edges.extend(joined.map(|(planner, cost)| Edge {
+                low,
+                high,
+                planner: planner.tag(),
+                cost,
+            }));
         }
         edges
     }

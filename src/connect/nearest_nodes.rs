@@ -3,8 +3,8 @@ use super::{Among, JoinInput, default_planners};
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::roadmap::Edge;
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 

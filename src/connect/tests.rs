@@ -1,7 +1,7 @@
 use super::*;
 use crate::img::{Setup, build};
+use crate::model::Asked;
 use crate::problem::Problem;
-use crate::validity::Asked;
 use std::path::Path;
 
 const NEIGHBORS: u32 = 4;
@@ -17,7 +17,7 @@ fn input() -> (Setup, JoinInput) {
     let mut increments = Vec::new();
     for ordinal in 2..5 {
         let strategy = &setup.problem.strategies[1];
-        let increment = strategy.generate(&setup.cx, ordinal, &mut Scratch::new()).unwrap();
+        let increment = strategy.generate(&setup.cx, ordinal, None, &mut Scratch::new()).unwrap();
         increments.push(Arc::new(Built::new(&setup.cx, Arc::new(increment))));
     }
     (setup, JoinInput { roadmap, increments })

@@ -1,8 +1,8 @@
 use super::{Evaluator, EvaluatorKind, Verdict, combined};
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::roadmap::Roadmap;
-use crate::validity::Scratch;
 use crate::wire::decode_nested;
 use bincode::Encode;
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ impl Evaluator for Any {
         self.0.iter().find_map(|part| part.method().complaint())
     }
 
-    fn settle(&mut self, cx: &Context) -> Result<(), String> {
-        self.0.iter_mut().try_for_each(|part| part.method_mut().settle(cx))
+    fn accept(&mut self, cx: &Context) -> Result<(), String> {
+        self.0.iter_mut().try_for_each(|part| part.method_mut().accept(cx))
     }
 }

@@ -3,9 +3,9 @@ use super::{Evaluator, Verdict};
 use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::query::Attachment;
 use crate::roadmap::Roadmap;
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -65,7 +65,7 @@ impl Evaluator for Coverage {
         samples::complaint(&self.samples, self.percent, &self.how())
     }
 
-    fn settle(&mut self, cx: &Context) -> Result<(), String> {
-        self.samples.settle(cx)
+    fn accept(&mut self, cx: &Context) -> Result<(), String> {
+        self.samples.accept(cx)
     }
 }

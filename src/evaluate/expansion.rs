@@ -1,10 +1,10 @@
 use super::{Evaluator, Verdict};
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::{Asked, Scratch};
 use crate::neighbor::farthest_pair;
 use crate::roadmap::{Component, Components, Configs, Roadmap};
 use crate::space::Space;
-use crate::validity::{Asked, Scratch};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;

@@ -1,9 +1,9 @@
 use super::{Evaluator, Verdict};
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::{Asked, Scratch};
 use crate::roadmap::Roadmap;
 use crate::space::Space;
-use crate::validity::{Asked, Scratch};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -4,9 +4,9 @@ use super::{Evaluator, Verdict, samples};
 use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::query::{Attachment, attach};
 use crate::roadmap::{Edge, Roadmap};
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -86,8 +86,8 @@ impl Evaluator for MaxFlow {
         let whole = |weight: f64| (least / weight.max(least) * SCALE).round() as u64;
         let mut network = Network::new(nodes + from.len() + to.len(), 2 * edges.len());
         for edge in &edges {
-            network.add(edge.low, edge.high, whole(edge.weight));
-            network.add(edge.high, edge.low, whole(edge.weight));
+            network.add(edge.low, edge.high, whole(edge.cost.forward()));
+            network.add(edge.high, edge.low, whole(edge.cost.backward()));
         }
         let ids = |first: usize, count: usize| {
             (first..first + count).map(|id| id as u32).collect::<Vec<u32>>()
@@ -98,15 +98,16 @@ impl Evaluator for MaxFlow {
         let real = |capacity: u64| capacity as f64 / SCALE / least;
         let mut cut = Vec::new();
         for edge in &edges {
+            let (there, back) = (edge.cost.forward(), edge.cost.backward());
             let severed = match [edge.low, edge.high].map(|node| near[node as usize]) {
-                [true, false] => Some((edge.low, edge.high)),
-                [false, true] => Some((edge.high, edge.low)),
+                [true, false] => Some((edge.low, edge.high, there)),
+                [false, true] => Some((edge.high, edge.low, back)),
                 _ => None,
             };
-            cut.extend(severed.map(|(from, to)| CutEdge {
+            cut.extend(severed.map(|(from, to, weight)| CutEdge {
                 from,
                 to,
-                capacity: real(whole(edge.weight)),
+                capacity: real(whole(weight)),
             }));
         }
         let asked = scratch.take_asked();
@@ -135,10 +136,10 @@ impl Evaluator for MaxFlow {
         self.how().complaint()
     }
 
-    fn settle(&mut self, cx: &Context) -> Result<(), String> {
+    fn accept(&mut self, cx: &Context) -> Result<(), String> {
         for (key, list) in [("from", &mut self.from), ("to", &mut self.to)] {
             for (index, q) in list.iter_mut().enumerate() {
-                cx.settle(q).map_err(|error| format!("{key}[{index}]: {error}"))?;
+                cx.accept(q).map_err(|error| format!("{key}[{index}]: {error}"))?;
             }
         }
         Ok(())

@@ -45,9 +45,9 @@ pub use verdict::{Bound, CutEdge, Verdict};
 
 use crate::context::Context;
 use crate::methods::{Complaint, methods};
+use crate::model::{Asked, Scratch};
 use crate::query::Attachment;
 use crate::roadmap::Roadmap;
-use crate::validity::{Asked, Scratch};
 
 /// A criterion on roadmaps.
 pub trait Evaluator {
@@ -91,7 +91,7 @@ pub trait Evaluator {
 
     /// Checks what depends on the problem, and brings configurations among the settings into stored
     /// form.
-    fn settle(&mut self, _cx: &Context) -> Result<(), String> {
+    fn accept(&mut self, _cx: &Context) -> Result<(), String> {
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 use super::{Evaluator, EvaluatorKind, Verdict};
 use crate::context::Context;
+use crate::model::Scratch;
 use crate::roadmap::Roadmap;
-use crate::validity::Scratch;
 use crate::wire::decode_nested;
 use bincode::Encode;
 use serde::{Deserialize, Serialize};
@@ -35,7 +35,7 @@ impl Evaluator for Not {
         std::slice::from_ref(&*self.0)
     }
 
-    fn settle(&mut self, cx: &Context) -> Result<(), String> {
-        self.0.method_mut().settle(cx)
+    fn accept(&mut self, cx: &Context) -> Result<(), String> {
+        self.0.method_mut().accept(cx)
     }
 }

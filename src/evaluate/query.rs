@@ -2,9 +2,9 @@ use super::{Evaluator, Verdict, samples};
 use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::query::{Attachment, solve};
 use crate::roadmap::Roadmap;
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 

@@ -4,11 +4,11 @@ use super::Verdict;
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
+use crate::model::{Asked, Scratch};
 use crate::query::Attachment;
 use crate::roadmap::{Configs, Roadmap};
 use crate::sampler::SamplerKind;
 use crate::seed::{Purpose, Seed};
-use crate::validity::{Asked, Scratch};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -76,7 +76,7 @@ impl Samples {
     }
 
     /// Brings listed samples into stored form and checks them, and whether samplers suit the problem.
-    pub(super) fn settle(&mut self, cx: &Context) -> Result<(), String> {
+    pub(super) fn accept(&mut self, cx: &Context) -> Result<(), String> {
         if let Samples::Drawn(parts) = self {
             for (index, part) in parts.iter().enumerate() {
                 let suits = part.sampler.method().suits(cx);
@@ -85,7 +85,7 @@ impl Samples {
         }
         let Samples::Listed(list) = self else { return Ok(()) };
         for (index, q) in list.iter_mut().enumerate() {
-            cx.settle(q).map_err(|error| format!("samples.listed[{index}]: {error}"))?;
+            cx.accept(q).map_err(|error| format!("samples.listed[{index}]: {error}"))?;
         }
         Ok(())
     }
@@ -110,7 +110,7 @@ impl Samples {
                     // Where hardly anything is valid fewer samples are drawn, and they count as missing.
                     for _ in 0..ATTEMPTS_MAX {
                         cx.space.sample_uniform(&mut stream, &mut q);
-                        if cx.validity.valid(&q, scratch) {
+                        if cx.model.is_valid(&q, scratch) {
                             configs.push(&q);
                             break;
                         }

@@ -42,8 +42,8 @@ pub(super) fn hand_made() -> (Space, Roadmap) {
 pub(super) fn grow(space: &Space, roadmap: &mut Roadmap, nodes: &[[f64; 2]], joins: &[(u32, u32)]) {
     let mut configs = Configs::new(2);
     nodes.iter().for_each(|q| configs.push(q));
-    let increment = Increment { configs, edges: Vec::new(), asked: Asked::default() };
-    let edge = |(low, high): &(u32, u32)| Edge { low: *low, high: *high, planner: 0, weight: 1.0 };
+    let increment = Increment { configs, ..Increment::empty(2) };
+    let edge = |(low, high): &(u32, u32)| Edge::metric(*low, *high, 0, 1.0);
     let joins: Vec<Edge> = joins.iter().map(edge).collect();
     roadmap.fold_round(space, [(&increment, &joins[..])]);
 }

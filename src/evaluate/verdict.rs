@@ -1,5 +1,5 @@
+use crate::model::Asked;
 use crate::query::Answer;
-use crate::validity::Asked;
 use crate::wire::decode_nested;
 use bincode::{Decode, Encode};
 use serde::Serialize;

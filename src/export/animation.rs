@@ -15,23 +15,22 @@ const FRAMES: usize = 301;
 /// The robot's links are placed here, at 301 poses evenly along the path by its length in the metric;
 /// the page turns, zooms and plays. Lengths are in the problem's unit, numbers rounded to the 24 bits
 /// that graphics cards draw with.
-pub fn animation(problem: &Problem, path: &Path) -> String {
+///
+/// `None` where the problem's model cannot be drawn.
+pub fn animation(problem: &Problem, path: &Path) -> Option<String> {
     let space = problem.space();
-    let (robot, bounds) = (&problem.robot, &problem.bounds);
-    let planar = robot.motion.bounded_axes() == 2;
+    let figure = problem.model.description().figure()?;
+    let (planar, [min, max]) = (figure.is_planar(), figure.bounds());
     let sampled = path.sampled(&space, FRAMES);
-    let diagonal: f64 = (0..robot.motion.bounded_axes())
-        .map(|i| (bounds.max[i] - bounds.min[i]) * (bounds.max[i] - bounds.min[i]))
-        .sum::<f64>()
-        .sqrt();
+    let square = |i: usize| (max[i] - min[i]) * (max[i] - min[i]);
+    let diagonal = (0..3).map(square).sum::<f64>().sqrt();
     let dot = diagonal / 150.0;
 
     let dofs = space.dofs().iter().map(|dof| format!("[{},\"{}\"]", quoted(&dof.name), dof.unit));
-    let links = robot.links.iter().map(|link| surfaces(&link.bodies, dot));
-    let mut placed = Vec::new();
+    let links = figure.links().into_iter().map(|bodies| surfaces(bodies, dot));
     let frames: Vec<String> = (sampled.iter())
         .map(|q| {
-            robot.place(q, &mut placed);
+            let placed = figure.place(q).poses;
             let values =
                 placed.iter().flat_map(|pose| pose.translation.into_iter().chain(pose.rotation));
             numbers(values)
@@ -44,17 +43,18 @@ pub fn animation(problem: &Problem, path: &Path) -> String {
     };
     put("name", &quoted(&problem.name));
     put("planar", if planar { "true" } else { "false" });
-    put("min", &numbers(bounds.min));
-    put("max", &numbers(bounds.max));
+    put("min", &numbers(min));
+    put("max", &numbers(max));
     put("length", &number(path.length));
     put("dofs", &list(dofs));
-    put("obstacles", &surfaces(&problem.obstacles, dot));
+    put("obstacles", &surfaces(figure.obstacles(), dot));
     put("links", &list(links));
     put("frames", &list(frames));
     put("configs", &list(sampled.iter().map(|q| numbers(q.iter().copied()))));
-    put("way", &list(sampled.iter().map(|q| numbers(robot.marker(q)))));
+    put("way", &list(sampled.iter().map(|q| numbers(figure.marker(q)))));
     data.push('}');
-    PAGE.replacen("ROADMILL_NAME", &html(&problem.name), 1).replacen("ROADMILL_DATA", &data, 1)
+    let page = PAGE.replacen("ROADMILL_NAME", &html(&problem.name), 1);
+    Some(page.replacen("ROADMILL_DATA", &data, 1))
 }
 
 /// Bodies in the frame of their owner, each as its vertices and triangles.

@@ -29,7 +29,7 @@ pub fn edges_csv(roadmap: &Roadmap) -> String {
     let mut csv = "low,high,weight [length],planner,planner_tag\n".to_owned();
     for edge in roadmap.edges().iter() {
         let (tag, name) = (edge.planner, planner_name(edge.planner));
-        put(&mut csv, format_args!("{},{},{},{name},{tag}\n", edge.low, edge.high, edge.weight));
+        put(&mut csv, format_args!("{},{},{},{name},{tag}\n", edge.low, edge.high, edge.weight()));
     }
     csv
 }

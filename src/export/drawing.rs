@@ -1,6 +1,7 @@
 //! What every part of a picture is drawn with.
 
 use super::view::View;
+use crate::model::Figure;
 use crate::problem::Problem;
 use std::fmt::Write;
 
@@ -17,6 +18,7 @@ pub(super) const WAY: &str = "#9d1f41";
 /// A picture in the making.
 pub(super) struct Drawing<'a> {
     pub problem: &'a Problem,
+    pub figure: &'a dyn Figure,
     pub view: View,
     pub planar: bool,
     pub out: String,

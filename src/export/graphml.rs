@@ -66,7 +66,7 @@ pub fn graphml(problem: &Problem, roadmap: &Roadmap) -> String {
              <data key=\"planner\">{}</data><data key=\"planner_tag\">{}</data></edge>",
             edge.low,
             edge.high,
-            edge.weight,
+            edge.weight(),
             planner_name(edge.planner),
             edge.planner
         ));

@@ -40,7 +40,7 @@ fn along(space: &Space, path: &query::Path, fractions: &[f64]) -> Vec<Vec<f64>> 
 
 impl Drawing<'_> {
     pub(super) fn obstacles(&mut self) {
-        for solid in self.stand(&self.problem.obstacles) {
+        for solid in self.stand(self.figure.obstacles()) {
             let text = self.obstacle(&solid);
             self.put(format_args!("{text}"));
         }
@@ -128,7 +128,7 @@ impl Drawing<'_> {
             (false, false) => ("0.5", "0.8"),
         };
         let stroke = if ends { INK } else { &full };
-        let parts = self.stand(&self.problem.robot.bodies_at(q));
+        let parts = self.stand(&self.figure.bodies_at(q));
         parts
             .into_iter()
             .map(|solid| {
@@ -147,7 +147,7 @@ impl Drawing<'_> {
             }
         }
         let Some(path) = path else { return };
-        let line = self.line(path.configs.iter().map(|q| self.problem.robot.marker(q)));
+        let line = self.line(path.configs.iter().map(|q| self.figure.marker(q)));
         for (class, colour, width) in [("casing", PAPER, "6.5"), ("way", WAY, "3.2")] {
             self.put(format_args!(
                 "<path class=\"{class}\" d=\"{line}\" fill=\"none\" stroke=\"{colour}\" \
@@ -161,7 +161,7 @@ impl Drawing<'_> {
         let mut items: Vec<(Solid, String)> = Vec::new();
         // The whole path, faint, on top of what hides it.
         let mut through = String::new();
-        for solid in self.stand(&self.problem.obstacles) {
+        for solid in self.stand(self.figure.obstacles()) {
             let text = self.obstacle(&solid);
             items.push((solid, text));
         }
@@ -172,10 +172,10 @@ impl Drawing<'_> {
             let fractions: Vec<f64> = (0..=CUTS).map(|i| i as f64 / CUTS as f64).collect();
             let way: Vec<[f64; 3]> = along(&self.problem.space(), path, &fractions)
                 .iter()
-                .map(|q| self.problem.robot.marker(q))
+                .map(|q| self.figure.marker(q))
                 .collect();
             // Its shadow on the floor tells how far away it is.
-            let floor = self.problem.bounds.min[2];
+            let floor = self.figure.bounds()[0][2];
             let shadow = self.line(way.iter().map(|p| [p[0], p[1], floor]));
             self.put(format_args!(
                 "<path class=\"shadow\" d=\"{shadow}\" fill=\"none\" stroke=\"{INK}\" \

@@ -35,7 +35,7 @@ pub fn npz(problem: &Problem, roadmap: &Roadmap) -> io::Result<Vec<u8>> {
     let ends = edges.iter().flat_map(|edge| [edge.low, edge.high]);
     archive.add("edges", "<u4", &shape, ends.flat_map(u32::to_le_bytes))?;
     let shape = format!("({},)", edges.len());
-    let bytes = edges.iter().flat_map(|edge| edge.weight.to_le_bytes());
+    let bytes = edges.iter().flat_map(|edge| edge.weight().to_le_bytes());
     archive.add("weights", "<f8", &shape, bytes)?;
     archive.add("planners", "|u1", &shape, edges.iter().map(|edge| edge.planner))?;
     archive.texts("dof_names", &names)?;

@@ -48,7 +48,7 @@ pub fn parasol_map(problem: &Problem, cx: &Context, roadmap: &Roadmap) -> String
             for turn in turns {
                 put(&mut map, format_args!("{} ", line(space, turn)));
             }
-            put(&mut map, format_args!("{}  ", edge.weight));
+            put(&mut map, format_args!("{}  ", edge.weight()));
         }
     }
     map.push_str("\n#####GRAPHSTOP#####\n");

@@ -1,11 +1,10 @@
 use super::drawing::{Drawing, FLOOR, INK, PAPER, RULE, WARM, blend, decimal};
 use super::view::{MARGIN_PX, View};
+use crate::model::Figure;
 use crate::problem::Problem;
 use crate::query;
 use crate::roadmap::Roadmap;
 use crate::scene::Pose;
-use crate::space::Motion;
-use crate::validity::BoundsMeaning;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -30,10 +29,13 @@ const OTHERS: [&str; 8] =
 /// all. Along the path the robot is drawn at 18 poses, evenly by length in the metric, and in 3D
 /// what is nearer to the eye covers what it hides. Meshes of more than 4000 triangles are drawn as
 /// their convex outline.
-pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> String {
-    let planar = problem.robot.motion.bounded_axes() == 2;
-    let view = View::new(planar, &points_to_hold(problem, path));
-    let mut drawing = Drawing { problem, view, planar, out: String::new() };
+///
+/// `None` where the problem's model cannot be drawn.
+pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> Option<String> {
+    let figure = problem.model.description().figure()?;
+    let planar = figure.is_planar();
+    let view = View::new(planar, &points_to_hold(problem, figure, path));
+    let mut drawing = Drawing { problem, figure, view, planar, out: String::new() };
     drawing.head();
     drawing.floor();
     if planar {
@@ -47,17 +49,21 @@ pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> 
     drawing.ends();
     drawing.caption(roadmap, path);
     drawing.out.push_str("</svg>\n");
-    drawing.out
+    Some(drawing.out)
 }
 
 /// The bounds, and the robot wherever it is drawn: bounds may hold its reference point alone.
-fn points_to_hold(problem: &Problem, path: Option<&query::Path>) -> Vec<[f64; 3]> {
-    let mut points = bounds_corners(problem).to_vec();
-    if problem.bounds.meaning == BoundsMeaning::Reference {
-        let axes = problem.robot.motion.bounded_axes();
+fn points_to_hold(
+    problem: &Problem,
+    figure: &dyn Figure,
+    path: Option<&query::Path>,
+) -> Vec<[f64; 3]> {
+    let mut points = bounds_corners(figure).to_vec();
+    if !figure.is_held_by_bounds() {
+        let axes = if figure.is_planar() { 2 } else { 3 };
         let ends = problem.query.iter().flat_map(|ends| [&ends.start[..], &ends.goal[..]]);
         for q in ends.chain(path.iter().flat_map(|path| path.configs.iter())) {
-            for body in problem.robot.bodies_at(q) {
+            for body in figure.bodies_at(q) {
                 let reach = body.shape.reach(&Pose::IDENTITY);
                 for axis in 0..axes {
                     for side in [-reach, reach] {
@@ -74,16 +80,9 @@ fn points_to_hold(problem: &Problem, path: Option<&query::Path>) -> Vec<[f64; 3]
 
 /// Corners of the bounds; bit `axis` of the index chooses the largest value. Planar ones lie at
 /// z = 0.
-fn bounds_corners(problem: &Problem) -> [[f64; 3]; 8] {
-    let bounds = &problem.bounds;
-    let axes = problem.robot.motion.bounded_axes();
-    [0, 1, 2, 3, 4, 5, 6, 7].map(|i: usize| {
-        [0, 1, 2].map(|axis| match (axis < axes, i >> axis & 1) {
-            (false, _) => 0.0,
-            (true, 0) => bounds.min[axis],
-            (true, _) => bounds.max[axis],
-        })
-    })
+fn bounds_corners(figure: &dyn Figure) -> [[f64; 3]; 8] {
+    let corners = figure.bounds();
+    [0, 1, 2, 3, 4, 5, 6, 7].map(|i: usize| [0, 1, 2].map(|axis| corners[i >> axis & 1][axis]))
 }
 
 impl Drawing<'_> {
@@ -101,7 +100,7 @@ impl Drawing<'_> {
     }
 
     fn floor(&mut self) {
-        let corners = bounds_corners(self.problem);
+        let corners = bounds_corners(self.figure);
         let outline = self.line([0, 1, 3, 2].map(|i| corners[i]));
         self.put(format_args!(
             "<path class=\"bounds\" d=\"{outline}Z\" fill=\"{FLOOR}\" stroke=\"{INK}\" \
@@ -157,7 +156,7 @@ impl Drawing<'_> {
             }
             drawn.insert(node);
         }
-        let place = |node: u32| self.problem.robot.marker(roadmap.configs().get(node as usize));
+        let place = |node: u32| self.figure.marker(roadmap.configs().get(node as usize));
         let mut layers = vec![(String::new(), String::new()); ranked.len()];
         let rank_of = |node: u32| {
             let component = components.of_node(node);
@@ -199,14 +198,13 @@ impl Drawing<'_> {
             return;
         };
         for (name, q, share) in [("start", &ends.start, 0.0), ("goal", &ends.goal, 1.0)] {
-            let [x, y] = self.view.px(self.problem.robot.marker(q));
+            let [x, y] = self.view.px(self.figure.marker(q));
             // Of a linkage that stands, the word belongs to what is marked, not to the highest link.
-            let (robot, bodies) = (&self.problem.robot, self.problem.robot.bodies_at(q));
-            let own = match (robot.motion, robot.links.last()) {
-                (Motion::Fixed, Some(last)) => last.bodies.len(),
-                _ => bodies.len(),
+            let bodies = match self.figure.place(q).marked {
+                Some(link) => self.figure.bodies_of_link(link, q),
+                None => self.figure.bodies_at(q),
             };
-            let standing = self.stand(&bodies[bodies.len() - own..]);
+            let standing = self.stand(&bodies);
             let points = standing.iter().flat_map(|solid| &solid.points);
             let top = points.map(|point| self.view.px(*point)[1]).fold(y - 6.0, f64::min);
             let (x, y, above) = (decimal(x), decimal(y), decimal(top - 8.0));

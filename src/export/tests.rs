@@ -66,12 +66,12 @@ fn a_planar_picture_holds_everything_once() {
     let (setup, build) = built("maze.toml", include_str!("../../problems/maze.toml"));
     let path = path_of(&build);
     assert!(path.is_some());
-    let picture = svg(&setup.problem, &build.roadmap, path);
+    let picture = svg(&setup.problem, &build.roadmap, path).expect("bodies can be drawn");
     assert_well_formed(&picture);
-    assert_eq!(picture, svg(&setup.problem, &build.roadmap, path));
+    assert_eq!(picture, svg(&setup.problem, &build.roadmap, path).expect("bodies can be drawn"));
     for (class, expected) in [
         ("bounds", 1),
-        ("obstacle", setup.problem.obstacles.len()),
+        ("obstacle", setup.problem.model.bodies().map_or(0, |bodies| bodies.obstacles.len())),
         ("component", build.roadmap.components().count()),
         ("robot", 18),
         ("way", 1),
@@ -86,7 +86,8 @@ fn a_planar_picture_holds_everything_once() {
 #[test]
 fn a_spatial_picture_holds_every_shape() {
     let (setup, build) = built("shapes.toml", SHAPES);
-    let picture = svg(&setup.problem, &build.roadmap, path_of(&build));
+    let picture =
+        svg(&setup.problem, &build.roadmap, path_of(&build)).expect("bodies can be drawn");
     assert_well_formed(&picture);
     for (class, expected) in [("obstacle", 2), ("robot", 36), ("way", 1), ("shadow", 1)] {
         assert_eq!(count(&picture, class), expected, "{class}");
@@ -96,7 +97,7 @@ fn a_spatial_picture_holds_every_shape() {
 #[test]
 fn without_a_path_only_the_ends_are_drawn() {
     let (setup, build) = built("sealed.toml", include_str!("../../problems/sealed.toml"));
-    let picture = svg(&setup.problem, &build.roadmap, None);
+    let picture = svg(&setup.problem, &build.roadmap, None).expect("bodies can be drawn");
     assert_well_formed(&picture);
     assert_eq!((count(&picture, "robot"), count(&picture, "way")), (2, 0));
     assert!(count(&picture, "component") >= 2);
@@ -112,5 +113,5 @@ fn an_empty_roadmap_of_a_point_is_drawn_too() {
     let mut named = problem.clone();
     named.name = "a<b>&c".to_owned();
     let empty = crate::roadmap::Roadmap::new(&problem.space());
-    assert_well_formed(&svg(&named, &empty, None));
+    assert_well_formed(&svg(&named, &empty, None).expect("bodies can be drawn"));
 }

@@ -5,7 +5,7 @@ use crate::evaluate::Verdict;
 use crate::problem::Limits;
 use crate::roadmap::{Digest, Edge, Increment};
 use crate::sampler::GaveUp;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -174,7 +174,11 @@ impl Past {
 pub struct Core {
     plan: Plan,
     dofs: usize,
+    /// How many numbers the model gives every milestone.
+    values: usize,
     set_nodes: Vec<u64>,
+    /// Per strategy: whether its sets grow from the roadmap at the start of their round.
+    grows: Vec<bool>,
     limits: Limits,
     evaluators: u32,
     lookahead: u64,
@@ -190,6 +194,8 @@ pub struct Core {
     /// Of a build that goes on: whether its last round has been judged.
     is_judged: bool,
     next_generate: u64,
+    /// Places whose sets grow from a roadmap that is not there yet.
+    waiting: VecDeque<u64>,
     /// Nodes of the roadmap after the round of the last place to be generated.
     nodes_ahead: u64,
     /// Jobs at work, with how often each was lost.
@@ -215,7 +221,9 @@ impl Core {
         Core {
             plan: past.plan,
             dofs: setup.cx.space.len(),
+            values: setup.cx.model.node_values().len(),
             set_nodes: strategies.iter().map(|strategy| u64::from(strategy.nodes)).collect(),
+            grows: strategies.iter().map(|strategy| strategy.generator.grows()).collect(),
             limits: setup.problem.limits,
             evaluators: setup.problem.evaluators.len() as u32,
             lookahead,
@@ -226,6 +234,7 @@ impl Core {
             awaited: None,
             is_judged,
             next_generate: sets,
+            waiting: VecDeque::new(),
             nodes_ahead: past.nodes,
             at_work: BTreeMap::new(),
             done: BTreeMap::new(),
@@ -327,7 +336,10 @@ impl Core {
             (Job::Generate { .. }, Outcome::Increment(Err(_))) => true,
             (Job::Generate { strategy, .. }, Outcome::Increment(Ok(increment))) => {
                 let nodes = self.set_nodes[strategy as usize];
-                increment.is_sound(self.dofs) && increment.configs.len() as u64 == nodes
+                // What does not grow has no links: it may have been made before the round's start.
+                let before = if self.grows[strategy as usize] { self.folded() } else { 0 };
+                increment.is_sound(self.dofs, self.values, before)
+                    && increment.configs.len() as u64 == nodes
             }
             (Job::Join { place, .. }, Outcome::Joined(joined)) => {
                 let offset = (place - self.plan.places_of(self.round).start) as usize;
@@ -338,7 +350,7 @@ impl Core {
                 joined.edges.iter().all(|edge| {
                     u64::from(edge.low) < first
                         && (first..first + own).contains(&u64::from(edge.high))
-                        && edge.weight.is_finite()
+                        && edge.cost.is_sound()
                 })
             }
             (Job::Evaluate { .. }, Outcome::Verdict(_)) => true,
@@ -451,6 +463,10 @@ impl Core {
     /// Hands out sets up to the lookahead, but none past the round that reaches a limit, and none
     /// whose strategy depends on rounds to come.
     fn generate(&mut self, commands: &mut Vec<Command>) {
+        let current = self.current();
+        while let Some(place) = self.waiting.pop_front_if(|place| current.contains(place)) {
+            self.submit_set(place, commands);
+        }
         let end = (self.current().end + self.lookahead).min(self.plan.known_until());
         while self.next_generate < end {
             let place = self.next_generate;
@@ -464,9 +480,18 @@ impl Core {
                 self.nodes_ahead += round.map(nodes).sum::<u64>();
             }
             self.next_generate += 1;
-            let (strategy, ordinal) = self.set_at(place);
-            self.submit(Job::Generate { place, strategy, ordinal }, commands);
+            let grows = self.grows[self.set_at(place).0 as usize];
+            if grows && !self.current().contains(&place) {
+                self.waiting.push_back(place);
+            } else {
+                self.submit_set(place, commands);
+            }
         }
+    }
+
+    fn submit_set(&mut self, place: u64, commands: &mut Vec<Command>) {
+        let (strategy, ordinal) = self.set_at(place);
+        self.submit(Job::Generate { place, strategy, ordinal }, commands);
     }
 
     fn submit(&mut self, job: Job, commands: &mut Vec<Command>) {
@@ -478,6 +503,11 @@ impl Core {
     /// The set at a place of the current round, or of one that was generated ahead.
     fn set_at(&self, place: u64) -> (u32, u64) {
         self.plan.set_at(place).expect("nothing is generated where the schedule is not known")
+    }
+
+    /// Nodes of the roadmap at the start of the current round.
+    fn folded(&self) -> u64 {
+        self.progress.nodes
     }
 
     fn current(&self) -> Range<u64> {

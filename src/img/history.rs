@@ -25,6 +25,9 @@ impl History {
                 let edge = edge.shifted(first);
                 self.forest.unite(edge.low, edge.high);
             }
+            for link in set.increment.links_from(first) {
+                self.forest.unite(link.low, link.high);
+            }
         }
         let mut yields = vec![Yield::default(); self.strategies];
         for set in &round.sets {

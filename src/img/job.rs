@@ -1,14 +1,16 @@
 use super::Setup;
 use crate::connect::JoinInput;
 use crate::evaluate::Verdict;
-use crate::roadmap::{Digest, Edge, Increment, Roadmap};
+use crate::model::{Asked, Scratch};
+use crate::roadmap::{Digest, Edge, Full, Increment, Roadmap};
 use crate::sampler::GaveUp;
-use crate::validity::{Asked, Scratch};
-use bincode::{Decode, Encode};
+use bincode::de::{Decode, Decoder};
+use bincode::enc::{Encode, Encoder};
+use bincode::error::{DecodeError, EncodeError};
 use std::sync::Arc;
 
 /// A piece of work, named by what it makes. The order is that of urgency.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Encode, Decode)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, bincode::Encode, bincode::Decode)]
 pub enum Job {
     /// Judge the roadmap after `round` by one of the problem's evaluators.
     Evaluate {
@@ -38,7 +40,7 @@ pub enum Job {
 }
 
 /// What a job made.
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// Of [`Job::Generate`].
     Increment(Result<Increment, GaveUp>),
@@ -49,13 +51,68 @@ pub enum Outcome {
 }
 
 /// The edges that join a set to what came before it, numbered as in the roadmap after the round.
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq, bincode::Encode, bincode::Decode)]
 pub struct Joined {
     /// The edges in the order in which they were found.
     pub edges: Vec<Edge>,
     /// What the join cost.
     pub asked: Asked,
 }
+
+impl Joined {
+    /// Whether the plain form can say the edges.
+    pub fn is_plain(&self) -> bool {
+        self.edges.iter().all(Edge::is_plain)
+    }
+}
+
+impl Encode for Full<&Joined> {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        Full(&self.0.edges).encode(encoder)?;
+        self.0.asked.encode(encoder)
+    }
+}
+
+impl Encode for Full<Joined> {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        Full(&self.0).encode(encoder)
+    }
+}
+
+impl<Context> Decode<Context> for Full<Joined> {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Self, DecodeError> {
+        let Full(edges) = Decode::decode(decoder)?;
+        Ok(Full(Joined { edges, asked: Asked::decode(decoder)? }))
+    }
+}
+bincode::impl_borrow_decode!(Full<Joined>);
+
+/// A number that says which outcome follows and in which form, then the outcome.
+impl Encode for Outcome {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        match self {
+            Outcome::Increment(Ok(made)) if !made.is_plain() => (3u32, Full(made)).encode(encoder),
+            Outcome::Increment(made) => (0u32, made).encode(encoder),
+            Outcome::Joined(joined) if !joined.is_plain() => (4u32, Full(joined)).encode(encoder),
+            Outcome::Joined(joined) => (1u32, joined).encode(encoder),
+            Outcome::Verdict(verdict) => (2u32, verdict).encode(encoder),
+        }
+    }
+}
+
+impl<Context> Decode<Context> for Outcome {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Outcome, DecodeError> {
+        Ok(match u32::decode(decoder)? {
+            0 => Outcome::Increment(Decode::decode(decoder)?),
+            1 => Outcome::Joined(Decode::decode(decoder)?),
+            2 => Outcome::Verdict(Decode::decode(decoder)?),
+            3 => Outcome::Increment(Ok(Full::<Increment>::decode(decoder)?.0)),
+            4 => Outcome::Joined(Full::<Joined>::decode(decoder)?.0),
+            _ => return Err(DecodeError::Other("a kind of outcome that there is not")),
+        })
+    }
+}
+bincode::impl_borrow_decode!(Outcome);
 
 /// An outcome with the digest of its bytes, by which duplicates are compared.
 #[derive(Clone, Debug)]
@@ -83,6 +140,8 @@ pub enum Task {
         strategy: u32,
         /// The set's ordinal within it.
         ordinal: u64,
+        /// Of a set that grows from the roadmap: the roadmap at the start of its round.
+        frozen: Option<Arc<Roadmap>>,
     },
     /// See [`Job::Join`].
     Join {
@@ -106,9 +165,10 @@ impl Task {
     pub fn run(&self, setup: &Setup, scratch: &mut Scratch) -> Outcome {
         let cx = &setup.cx;
         match self {
-            Task::Generate { strategy, ordinal } => {
+            Task::Generate { strategy, ordinal, frozen } => {
                 let strategy = &setup.problem.strategies[*strategy as usize];
-                Outcome::Increment(strategy.generate(cx, *ordinal, scratch))
+                let frozen = frozen.as_deref();
+                Outcome::Increment(strategy.generate(cx, *ordinal, frozen, scratch))
             }
             Task::Join { strategy, input } => {
                 let strategy = &setup.problem.strategies[*strategy as usize];

@@ -48,6 +48,11 @@ impl Setup {
         let plan = Plan::new(&problem);
         Setup { problem, cx, plan }
     }
+
+    /// Whether the sets of a strategy grow from the roadmap at the start of their round.
+    pub fn grows(&self, strategy: u32) -> bool {
+        self.problem.strategies[strategy as usize].generator.grows()
+    }
 }
 
 /// A finished build.

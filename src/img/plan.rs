@@ -185,6 +185,11 @@ impl Plan {
         phase.first_round + (place - phase.first_place) / phase.sets_per_round
     }
 
+    /// The first place of the round to which `place` belongs.
+    pub fn round_start(&self, place: u64) -> u64 {
+        self.places_of(self.round_of(place)).start
+    }
+
     /// The places of a round.
     pub fn places_of(&self, round: u64) -> Range<u64> {
         let phase = self.phase(|phase| phase.first_round <= round);

@@ -38,7 +38,9 @@ impl Front {
     /// by the worker believed dead, and the build has moved on.
     pub fn has(&self, setup: &Setup, job: Job) -> bool {
         match job {
-            Job::Generate { .. } => true,
+            Job::Generate { place, strategy, .. } => {
+                !setup.grows(strategy) || setup.plan.round_start(place) == self.first
+            }
             Job::Join { place, .. } => (self.first..self.next()).contains(&place),
             Job::Evaluate { round, .. } => setup.plan.places_of(round).end == self.first,
         }
@@ -61,10 +63,12 @@ impl Replica {
         Replica { roadmap, increments: Vec::new(), front: Front::default() }
     }
 
-    /// The same for one of several workers, that has no more than its jobs read (without evaluators no edges),
+    /// The same for one of several workers, that has no more than its jobs read (edges only where something reads
+    /// the whole roadmap, an evaluator or a strategy that grows it),
     /// and on a shelf what all of them have.
     pub fn of_worker(setup: &Setup, shelf: Arc<dyn Shelf>) -> Replica {
-        let keeps_edges = !setup.problem.evaluators.is_empty();
+        let grows = setup.problem.strategies.iter().any(|strategy| strategy.generator.grows());
+        let keeps_edges = grows || !setup.problem.evaluators.is_empty();
         let roadmap = Roadmap::of_worker(&setup.cx.space, shelf, keeps_edges);
         Replica { roadmap: Arc::new(roadmap), ..Replica::new(setup) }
     }
@@ -108,7 +112,10 @@ impl Replica {
     /// The job with its inputs as they are now. `None` where they are gone, see [`Front::has`].
     pub fn task(&self, setup: &Setup, job: Job) -> Option<Task> {
         self.front.has(setup, job).then(|| match job {
-            Job::Generate { strategy, ordinal, .. } => Task::Generate { strategy, ordinal },
+            Job::Generate { strategy, ordinal, .. } => {
+                let frozen = setup.grows(strategy).then(|| self.roadmap.clone());
+                Task::Generate { strategy, ordinal, frozen }
+            }
             Job::Join { place, strategy, .. } => {
                 let increments = self.increments[..=(place - self.front.first) as usize].to_vec();
                 let input = JoinInput { roadmap: self.roadmap.clone(), increments };

@@ -1,9 +1,9 @@
 //! An executor that does everything that can go wrong, all from one seed.
 
 use super::{Event, Executor, Finished, InProcess, Job, Replica, Round, Setup, Task};
+use crate::model::Scratch;
 use crate::roadmap::{Digest, Increment, Roadmap, Tally};
 use crate::seed::{Purpose, Seed, Stream};
-use crate::validity::Scratch;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::Duration;
@@ -80,7 +80,9 @@ impl<'a> Simulated<'a> {
     fn inputs(&self, task: &Task) -> Digest {
         let mut bytes = Vec::new();
         match task {
-            Task::Generate { .. } => {}
+            Task::Generate { frozen, .. } => {
+                bytes.extend(frozen.iter().flat_map(|frozen| frozen.digest().0));
+            }
             Task::Join { input, .. } => {
                 bytes.extend(input.roadmap.digest().0);
                 for digest in &self.published[..input.increments.len()] {

@@ -1,10 +1,10 @@
 //! The state machine on its own: what it asks for, and how it ends when answers go wrong.
 
 use super::*;
+use crate::model::Scratch;
 use crate::problem::Problem;
 use crate::roadmap::Tally;
 use crate::sampler::GaveUp;
-use crate::validity::Scratch;
 use std::path::Path;
 
 const PROBLEM: &str = r#"
@@ -116,7 +116,7 @@ fn impossible_answers_end_the_build() {
     let Outcome::Increment(Ok(mut increment)) = task.run(&setup, &mut Scratch::new()) else {
         panic!("the sampler finds milestones");
     };
-    increment.edges.push(crate::roadmap::Edge { low: 0, high: 4, planner: 0, weight: 1.0 });
+    increment.edges.push(crate::roadmap::Edge::metric(0, 4, 0, 1.0));
     let no_such_node = Outcome::Increment(Ok(increment));
     let joined = Outcome::Joined(Joined { edges: Vec::new(), asked: Default::default() });
     let gave_up = Outcome::Increment(Err(GaveUp { attempts: 1 }));
@@ -145,7 +145,7 @@ fn a_job_lost_three_times_ends_the_build_and_is_named() {
 #[test]
 fn a_set_that_gave_up_counts_only_if_the_rounds_before_it_do_not_suffice() {
     let mut problem = setup().problem.clone();
-    problem.obstacles.clear();
+    problem.model.bodies_mut().expect("bodies").obstacles.clear();
     problem.sets_per_round = 1;
     let setup = Arc::new(Setup::new(problem));
     let mut core = Core::new(&setup, 1);

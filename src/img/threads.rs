@@ -1,6 +1,6 @@
 use super::{Event, Executor, Finished, InProcess, Job, Replica, Round, Setup};
+use crate::model::Scratch;
 use crate::roadmap::{Increment, Roadmap, Tally};
-use crate::validity::Scratch;
 use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, unbounded};
 use std::cell::RefCell;
 use std::collections::BTreeSet;

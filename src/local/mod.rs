@@ -9,8 +9,8 @@ mod straight_line;
 
 use crate::context::Context;
 use crate::methods::Complaint;
-use crate::roadmap::Configs;
-use crate::validity::Scratch;
+use crate::model::{Cost, Scratch};
+use crate::roadmap::{Configs, EdgeCost};
 use bincode::{Decode, Encode};
 use rotate_at::RotateAt;
 use serde::{Deserialize, Serialize};
@@ -96,32 +96,36 @@ pub fn complaint(planners: &[Planner]) -> Option<Complaint> {
     Some(("percent", wrong.to_string(), "0 to 100"))
 }
 
-/// The first of `planners` whose motion from `a` to `b`, both valid, is free, and the motion's
-/// length in the space's metric. Checks `refinement` times finer than the problem's resolution.
+/// The first of `planners` whose motion from `a` to `b`, both valid, is valid, and what the motion costs. Checks `refinement` times finer than the problem's resolution.
 pub fn connect(
     cx: &Context,
     planners: &[Planner],
     (a, b): (&[f64], &[f64]),
     refinement: u32,
     scratch: &mut Scratch,
-) -> Option<(Planner, f64)> {
+) -> Option<(Planner, EdgeCost)> {
     planners.iter().find_map(|planner| {
         if *planner == Planner::StraightLine {
             // It has no turns, so that nothing needs to be written down.
-            let free = cx.validity.motion(a, b, refinement, scratch);
-            return free.then(|| (*planner, cx.space.distance(a, b)));
+            let cost = cx.model.motion(a, b, refinement, scratch)?;
+            return Some((*planner, EdgeCost::of(cost, cx.space.distance(a, b))));
         }
         let motion = planner.motion(cx, a, b);
-        let mut length = 0.0;
+        let (mut length, mut whole) = (0.0, None);
         for i in 1..motion.len() {
             let (from, to) = (motion.get(i - 1), motion.get(i));
-            let turn_valid = i + 1 == motion.len() || cx.validity.valid(to, scratch);
-            if !turn_valid || !cx.validity.motion(from, to, refinement, scratch) {
-                return None;
-            }
+            let turn_valid = i + 1 == motion.len() || cx.model.is_valid(to, scratch);
+            let cost = turn_valid.then(|| cx.model.motion(from, to, refinement, scratch))??;
             length += cx.space.distance(from, to);
+            whole = match (whole, cost) {
+                (None, cost) => Some(cost),
+                (Some(Cost::Directed(before)), Cost::Directed(cost)) => {
+                    Some(Cost::Directed(before.then(cost)))
+                }
+                (Some(_), _) => Some(Cost::Metric),
+            };
         }
-        Some((*planner, length))
+        Some((*planner, EdgeCost::of(whole?, length)))
     })
 }
 

@@ -38,10 +38,10 @@ fn the_first_planner_that_succeeds_is_recorded() {
     let (early, late) = (Planner::RotateAt { percent: 50 }, Planner::RotateAt { percent: 100 });
     assert_eq!(connect(&cx, &[Planner::StraightLine, early], (&a, &b), 1, scratch), None);
     let found = connect(&cx, &[Planner::StraightLine, late, early], (&a, &b), 1, scratch);
-    let (planner, weight) = found.expect("turning behind the door is free");
+    let (planner, cost) = found.expect("turning behind the door is free");
     assert_eq!(planner, late);
     let turn = cx.space.distance(&[0.0, 0.0, 0.0], &[0.0, 0.0, 1.5]);
-    assert!((weight - (6.0 + turn)).abs() < 1e-12);
+    assert!((cost.forward() - (6.0 + turn)).abs() < 1e-12);
     // Turned around, it would have to turn in front of the door.
     assert_eq!(connect(&cx, &[late], (&b, &a), 1, scratch), None);
 }

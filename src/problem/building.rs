@@ -1,12 +1,15 @@
 //! How the roadmap is built: strategies, schedule, limits and evaluators.
 
 use super::Limits;
-use super::error::ProblemError;
 use super::file::{File, PolicyTable, ScheduleTable, StrategyTable};
-use super::source::Source;
-use super::source::Step::{Index, Key};
+use crate::connect::WithinKind;
 use crate::evaluate::{self, EvaluatorKind};
+use crate::generator::{GeneratorKind, Sample};
+use crate::sampler::SamplerKind;
 use crate::schedule::Adaptive;
+use crate::source::ProblemError;
+use crate::source::Source;
+use crate::source::Step::{Index, Key};
 use crate::strategy::Strategy;
 
 /// The most nodes a roadmap may have: ids take 32 bits, and two more name start and goal.
@@ -40,11 +43,20 @@ pub(super) fn strategies_of(
             let message = format!("{} found; 1 to {SET_NODES_MAX} expected", table.nodes);
             return fail(&["nodes"], message);
         }
-        for (role, complaint) in [
-            ("sampler", table.sampler.method().complaint()),
-            ("within", table.within.method().complaint()),
-            ("among", table.among.method().complaint()),
-        ] {
+        let generator = match table.generator() {
+            Ok(generator) => generator,
+            Err((key, message)) => return fail(&[key], message.to_owned()),
+        };
+        let complaints = match generator.as_sample() {
+            // The keys of the short form.
+            Some(Sample { sampler, within }) if table.generator.is_none() => vec![
+                ("sampler", sampler.method().complaint()),
+                ("within", within.method().complaint()),
+            ],
+            _ => vec![("generator", generator.method().complaint())],
+        };
+        let among = ("among", table.among.method().complaint());
+        for (role, complaint) in complaints.into_iter().chain([among]) {
             if let Some((key, found, expected)) = complaint {
                 return fail(&[role], format!("{key} = {found} found; {expected} expected"));
             }
@@ -52,8 +64,7 @@ pub(super) fn strategies_of(
         strategies.push(Strategy {
             label: table.label.clone(),
             nodes: table.nodes as u32,
-            sampler: table.sampler.clone(),
-            within: table.within.clone(),
+            generator,
             among: table.among.clone(),
         });
     }
@@ -106,11 +117,11 @@ pub(super) fn adaptive_of(source: &Source, file: &File) -> Result<Option<Adaptiv
 /// What a problem that says nothing of it is built with: strategies, schedule, sets per round.
 pub(super) fn defaults() -> (Vec<Strategy>, Vec<u32>, u32) {
     let table = StrategyTable::uniform();
+    let sample = Sample { sampler: SamplerKind::default(), within: WithinKind::default() };
     let strategy = Strategy {
         label: table.label,
         nodes: table.nodes as u32,
-        sampler: table.sampler,
-        within: table.within,
+        generator: GeneratorKind::Sample(sample),
         among: table.among,
     };
     (vec![strategy], vec![0], DEFAULT_SETS_PER_ROUND as u32)

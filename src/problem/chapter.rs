@@ -82,12 +82,7 @@ impl Problem {
         // Without `..`: whoever adds a field has to say here on which side it is.
         let Problem {
             seed,
-            bounds,
-            resolution,
-            edges,
-            rotation_length,
-            robot,
-            obstacles,
+            model,
             name: _,
             query: _,
             strategies: _,
@@ -103,16 +98,7 @@ impl Problem {
         if *seed != other.seed {
             return Some(format!("the seed is {}, {seed} expected", other.seed));
         }
-        let parts = [
-            // Before what follows from them where a file says nothing of it.
-            ("the robot", *robot == other.robot),
-            ("an obstacle", *obstacles == other.obstacles),
-            ("the space's bounds", *bounds == other.bounds),
-            ("the resolution", *resolution == other.resolution),
-            ("what is promised of edges", *edges == other.edges),
-            ("the rotation length", *rotation_length == other.rotation_length),
-        ];
-        let (what, _) = parts.into_iter().find(|(_, same)| !same)?;
+        let what = model.description().difference(&other.model)?;
         // A changed mesh shows in the file that it comes from.
         let file = other.sources.iter().skip(1).find(|file| !self.sources.contains(file));
         let file = file.map_or_else(String::new, |file| format!(" ({} has changed)", file.path));

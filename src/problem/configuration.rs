@@ -11,6 +11,6 @@ pub fn configuration(cx: &Context, text: &str) -> Result<Vec<f64>, String> {
     {
         q.push(word.parse().map_err(|_| format!("`{word}` found, a number expected"))?);
     }
-    cx.settle(&mut q)?;
+    cx.accept(&mut q)?;
     Ok(q)
 }

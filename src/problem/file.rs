@@ -1,23 +1,20 @@
-//! The problem file as it is written, before anything is checked.
+//! The problem file as it is written, before anything is checked, but for the tables of its model.
 
-use crate::connect::{AmongKind, ComponentPairs, Nearest, WithinKind};
+use crate::connect::{AmongKind, WithinKind};
 use crate::evaluate::EvaluatorKind;
-use crate::sampler::{SamplerKind, Uniform};
+use crate::generator::{GeneratorKind, Sample};
+use crate::sampler::SamplerKind;
 use crate::schedule::Adaptive;
-use crate::space::Motion;
-use crate::validity::{BoundsMeaning, Edges};
 use serde::Deserialize;
-use std::path::PathBuf;
+
+/// The keys of a problem file that every model has.
+pub(super) const KEYS: [&str; 7] =
+    ["name", "seed", "query", "img", "strategies", "evaluators", "limits"];
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct File {
     pub name: Option<String>,
     pub seed: Option<u64>,
-    pub space: SpaceTable,
-    pub robot: RobotTable,
-    #[serde(default)]
-    pub obstacles: Vec<BodyTable>,
     pub query: Option<QueryTable>,
     #[serde(default)]
     pub img: ImgTable,
@@ -26,153 +23,6 @@ pub(super) struct File {
     pub evaluators: Option<Vec<EvaluatorKind>>,
     #[serde(default)]
     pub limits: LimitsTable,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SpaceTable {
-    pub motion: Motion,
-    pub min: Vec<f64>,
-    pub max: Vec<f64>,
-    pub bounds: BoundsMeaning,
-    pub resolution: Option<f64>,
-    #[serde(default)]
-    pub edges: Edges,
-    pub rotation_length: Option<f64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RobotTable {
-    pub name: Option<String>,
-    pub urdf: Option<PathBuf>,
-    #[serde(default)]
-    pub bodies: Vec<BodyTable>,
-    pub base: Option<FrameTable>,
-    #[serde(default)]
-    pub links: Vec<LinkTable>,
-    #[serde(default)]
-    pub may_touch: Vec<[String; 2]>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct LinkTable {
-    pub name: String,
-    #[serde(default)]
-    pub bodies: Vec<BodyTable>,
-    pub joint: JointTable,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct JointTable {
-    pub name: Option<String>,
-    pub parent: Option<String>,
-    pub kind: JointKindTable,
-    #[serde(default)]
-    pub before: FrameTable,
-    #[serde(default)]
-    pub after: FrameTable,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub(super) enum JointKindTable {
-    Fixed {},
-    Spherical {},
-    Revolute { axis: [f64; 3], degrees: Option<[f64; 2]>, radians: Option<[f64; 2]> },
-    Prismatic { axis: [f64; 3], range: [f64; 2] },
-}
-
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct FrameTable {
-    #[serde(default)]
-    pub position: [f64; 3],
-    pub orientation: Option<[f64; 4]>,
-    pub turn: Option<TurnTable>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct BodyTable {
-    pub shape: ShapeTable,
-    #[serde(default)]
-    pub position: [f64; 3],
-    pub orientation: Option<[f64; 4]>,
-    pub turn: Option<TurnTable>,
-    #[serde(default)]
-    pub solid: Solid,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct TurnTable {
-    pub axis: [f64; 3],
-    pub degrees: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub(super) enum ShapeTable {
-    Point {},
-    Box {
-        size: [f64; 3],
-    },
-    Sphere {
-        radius: f64,
-    },
-    Cylinder {
-        radius: f64,
-        height: f64,
-    },
-    Capsule {
-        radius: f64,
-        height: f64,
-    },
-    Mesh {
-        file: PathBuf,
-        #[serde(default = "one")]
-        scale: f64,
-    },
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-/// `"auto"`, `true` or `false`.
-#[derive(Clone, Copy, Default, Deserialize)]
-#[serde(from = "SolidWord")]
-pub(super) enum Solid {
-    #[default]
-    Auto,
-    Yes,
-    No,
-}
-
-#[derive(Deserialize)]
-#[serde(untagged, expecting = "expected \"auto\", true or false")]
-enum SolidWord {
-    Flag(bool),
-    Word(AutoWord),
-}
-
-#[derive(Deserialize)]
-enum AutoWord {
-    #[serde(rename = "auto")]
-    Auto,
-}
-
-impl From<SolidWord> for Solid {
-    fn from(word: SolidWord) -> Solid {
-        match word {
-            SolidWord::Flag(true) => Solid::Yes,
-            SolidWord::Flag(false) => Solid::No,
-            SolidWord::Word(AutoWord::Auto) => Solid::Auto,
-        }
-    }
 }
 
 #[derive(Deserialize)]
@@ -209,23 +59,15 @@ pub(super) struct StrategyTable {
     pub label: String,
     #[serde(default = "default_nodes")]
     pub nodes: u64,
-    pub sampler: SamplerKind,
-    #[serde(default = "default_within")]
-    pub within: WithinKind,
-    #[serde(default = "default_among")]
+    pub sampler: Option<SamplerKind>,
+    pub within: Option<WithinKind>,
+    pub generator: Option<GeneratorKind>,
+    #[serde(default)]
     pub among: AmongKind,
 }
 
 fn default_nodes() -> u64 {
     50
-}
-
-fn default_within() -> WithinKind {
-    WithinKind::Nearest(Nearest::default())
-}
-
-fn default_among() -> AmongKind {
-    AmongKind::ComponentPairs(ComponentPairs::default())
 }
 
 impl StrategyTable {
@@ -234,9 +76,29 @@ impl StrategyTable {
         StrategyTable {
             label: "uniform".to_owned(),
             nodes: default_nodes(),
-            sampler: SamplerKind::Uniform(Uniform::default()),
-            within: default_within(),
-            among: default_among(),
+            sampler: Some(SamplerKind::default()),
+            within: None,
+            generator: None,
+            among: AmongKind::default(),
+        }
+    }
+
+    /// What makes the sets: as `generator` says, or a sampler and a connection within sets, which stand in the
+    /// table itself. Otherwise which key is wrong, and how.
+    pub fn generator(&self) -> Result<GeneratorKind, (&'static str, &'static str)> {
+        match (&self.generator, &self.sampler) {
+            (Some(_), Some(_)) => {
+                Err(("sampler", "given beside generator; one of the two expected"))
+            }
+            (Some(_), None) if self.within.is_some() => {
+                Err(("within", "given beside generator, which says it; one of the two expected"))
+            }
+            (Some(generator), None) => Ok(generator.clone()),
+            (None, Some(sampler)) => {
+                let within = self.within.clone().unwrap_or_default();
+                Ok(GeneratorKind::Sample(Sample { sampler: sampler.clone(), within }))
+            }
+            (None, None) => Err(("label", "a strategy without `sampler` or `generator` found")),
         }
     }
 }

@@ -2,35 +2,29 @@
 //!
 //! `docs/problems.md` describes the file format.
 
-mod bodies;
 mod building;
 mod chapter;
 mod configuration;
 mod describe;
-mod error;
 mod file;
-mod foreign;
-mod linkage;
+mod import;
+mod layout;
 mod resolve;
-mod source;
 mod write;
 
+pub use crate::source::ProblemError;
 pub use chapter::Earlier;
 pub use configuration::configuration;
-pub use error::ProblemError;
+pub use layout::Layout;
 pub use write::Written;
 
 use crate::context::{Context, Ends};
-use crate::digest::SourceFile;
+use crate::digest::{Digest, SourceFile};
 use crate::evaluate::EvaluatorKind;
-use crate::foreign::SceneOptions;
-use crate::roadmap::Digest;
-use crate::robot::Robot;
-use crate::scene::Body;
+use crate::model::{self, ModelKind, SceneOptions};
 use crate::schedule::Adaptive;
 use crate::space::Space;
 use crate::strategy::Strategy;
-use crate::validity::{BodyValidity, Bounds, Edges};
 use bincode::{Decode, Encode};
 use std::path::Path;
 
@@ -39,24 +33,14 @@ pub const DEFAULT_SEED: u64 = 1;
 
 /// A checked problem: plain data, complete in itself (meshes included), so that every process that
 /// has its bytes computes the same.
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// Its name: that of its file unless it says otherwise.
     pub name: String,
     /// The base seed.
     pub seed: u64,
-    /// The box that holds it.
-    pub bounds: Bounds,
-    /// The farthest that any robot point moves between two checks of a motion; a length.
-    pub resolution: f64,
-    /// What is promised of the motions along edges.
-    pub edges: Edges,
-    /// Length that one radian of rotation counts for in the metric.
-    pub rotation_length: f64,
-    /// The robot.
-    pub robot: Robot,
-    /// The obstacles in the world's frame.
-    pub obstacles: Vec<Body>,
+    /// What is planned for.
+    pub model: ModelKind,
     /// Start and goal.
     pub query: Option<Ends>,
     /// The strategies.
@@ -105,8 +89,8 @@ impl Problem {
     /// # Errors
     /// The first thing that is wrong, with its place in the file.
     pub fn load_with(path: &Path, options: &SceneOptions) -> Result<Problem, ProblemError> {
-        if let Some(problem) = foreign::load(path, options) {
-            return problem;
+        if let Some(imported) = model::import(path, options) {
+            return imported.and_then(|imported| import::problem_of(path, imported));
         }
         let text = std::fs::read_to_string(path).map_err(|error| {
             ProblemError::file(path, format!("cannot read the problem: {error}"))
@@ -126,35 +110,19 @@ impl Problem {
     /// digest grow the same sets and join them in the same way. The name, the criteria and the
     /// limits do not count.
     pub fn digest(&self) -> Digest {
-        let determining = (
-            crate::BITS_VERSION,
-            (self.seed, self.bounds),
-            (self.resolution, self.edges, self.rotation_length),
-            (&self.robot, &self.obstacles),
-            (&self.strategies, &self.schedule, self.adaptive, self.sets_per_round, &self.earlier),
-        );
-        Digest::of(&crate::wire::encode(&determining))
+        layout::digest(self)
     }
 
     /// The configuration space.
     pub fn space(&self) -> Space {
-        let Bounds { min, max, .. } = self.bounds;
-        self.robot.space(min, max, self.rotation_length)
+        self.model.description().space()
     }
 
     /// Makes the problem ready for work.
     pub fn context(&self) -> Context {
-        let space = self.space();
-        let validity = BodyValidity::new(
-            space.clone(),
-            &self.robot,
-            self.bounds,
-            (self.edges, self.resolution),
-            &self.obstacles,
-        );
         Context {
-            space,
-            validity: Box::new(validity),
+            space: self.space(),
+            model: self.model.description().prepare(),
             base_seed: self.seed,
             query: self.query.clone(),
         }

@@ -1,4 +1,6 @@
 use super::*;
+use crate::model::bodies::Bodies;
+use crate::model::bodies::validity::Edges;
 
 const WALLS: &str = include_str!("../../problems/walls.toml");
 
@@ -94,14 +96,19 @@ fn errors_in_added_tables_name_the_key() {
 fn the_digest_covers_what_determines_entries_and_nothing_else() {
     let problem = parse(WALLS).unwrap();
     let digest = problem.digest();
+    let changed = |change: fn(&mut Bodies)| {
+        let mut problem = problem.clone();
+        change(problem.model.bodies_mut().expect("walls is of bodies"));
+        problem
+    };
     for (changed, same) in [
         (Problem { name: "other".to_owned(), ..problem.clone() }, true),
         (Problem { evaluators: Vec::new(), ..problem.clone() }, true),
         (Problem { seed: 2, ..problem.clone() }, false),
-        (Problem { resolution: 0.01, ..problem.clone() }, false),
-        (Problem { edges: Edges::Sampled, ..problem.clone() }, false),
+        (changed(|bodies| bodies.resolution = 0.01), false),
+        (changed(|bodies| bodies.edges = Edges::Sampled), false),
         (Problem { sets_per_round: 6, ..problem.clone() }, false),
-        (Problem { obstacles: Vec::new(), ..problem.clone() }, false),
+        (changed(|bodies| bodies.obstacles.clear()), false),
     ] {
         assert_eq!(changed.digest() == digest, same);
     }

@@ -9,8 +9,8 @@ pub use shorten::shorten;
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::roadmap::{Edge, Graph, Roadmap};
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use std::collections::BTreeSet;
 
@@ -133,10 +133,14 @@ pub(crate) fn attach(
     let mut edges = Vec::new();
     for neighbor in roadmap.k_nearest(&cx.space, q, attachment.neighbors as usize) {
         let ends = (configs.get(neighbor.id as usize), q);
-        if let Some((planner, weight)) = local::connect(cx, &attachment.planners, ends, 1, scratch)
-        {
-            edges.push(Edge { low: neighbor.id, high: id, planner: planner.tag(), weight });
-        }
+        let joined = local::connect(cx, &attachment.planners, ends, 1, scratch);
+        let (low, high) = (neighbor.id, id);
+        edges.extend(joined.map(|(planner, cost)| Edge {
+            low,
+            high,
+            planner: planner.tag(),
+            cost,
+        }));
     }
     edges
 }

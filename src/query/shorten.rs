@@ -1,9 +1,9 @@
 use super::PATH_REFINEMENT;
 use super::path::{Path, leg};
 use crate::context::Context;
+use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed};
-use crate::validity::Scratch;
 
 /// Every so many tries look at the whole path, those between at a half, a quarter, … of it: where the
 /// way winds, only near places see one another.
@@ -69,9 +69,9 @@ fn shortcut(cx: &Context, path: &Path, from: f64, to: f64, scratch: &mut Scratch
     }
 
     let ends = (path.configs.get(first.0), path.configs.get(last.0 + 1));
-    let mut free = |q: &[f64], p: &[f64]| cx.validity.motion(q, p, PATH_REFINEMENT, scratch);
+    let mut free = |q: &[f64], p: &[f64]| cx.model.motion(q, p, PATH_REFINEMENT, scratch).is_some();
     let motions = free(&a, &b) && free(ends.0, &a) && free(&b, ends.1);
-    (motions && cx.validity.valid(&a, scratch) && cx.validity.valid(&b, scratch)).then_some(shorter)
+    (motions && cx.model.is_valid(&a, scratch) && cx.model.is_valid(&b, scratch)).then_some(shorter)
 }
 
 #[cfg(test)]
@@ -114,10 +114,10 @@ mod tests {
             for i in 0..=last {
                 let q = short.configs.get(i);
                 let mut stored = q.to_vec();
-                assert_eq!(cx.settle(&mut stored), Ok(()));
+                assert_eq!(cx.accept(&mut stored), Ok(()));
                 if i > 0 {
                     let before = short.configs.get(i - 1);
-                    assert!(cx.validity.motion(before, q, PATH_REFINEMENT, &mut scratch));
+                    assert!(cx.model.motion(before, q, PATH_REFINEMENT, &mut scratch).is_some());
                 }
             }
             let mut length = path.length;

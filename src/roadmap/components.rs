@@ -196,7 +196,7 @@ mod tests {
             let edges: Vec<Edge> = edges
                 .into_iter()
                 .filter(|(a, b)| a < b)
-                .map(|(low, high)| Edge { low, high, planner: 0, weight: 1.0 })
+                .map(|(low, high)| Edge::metric(low, high, 0, 1.0))
                 .collect();
             let components = Components::of(&space, &configs, &edges);
 

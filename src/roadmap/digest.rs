@@ -1,5 +1,6 @@
-use super::{Edge, Increment};
+use super::{Edge, EdgeCost, Increment};
 use crate::digest::Digest;
+use crate::model::Directed;
 use std::fmt;
 
 const EDGE_BYTES: usize = 4 + 4 + 1 + 8;
@@ -38,6 +39,9 @@ impl RoadmapHasher {
         for edge in joins {
             push_edge(bytes, edge);
         }
+        if !(increment.is_plain() && joins.iter().all(Edge::is_plain)) {
+            push_rest(bytes, first, increment, joins);
+        }
         if bytes.len() > PIECE_BYTES {
             self.take_in();
         }
@@ -59,7 +63,28 @@ fn push_edge(bytes: &mut Vec<u8>, edge: &Edge) {
     bytes.extend(edge.low.to_le_bytes());
     bytes.extend(edge.high.to_le_bytes());
     bytes.push(edge.planner);
-    bytes.extend((edge.weight + 0.0).to_bits().to_le_bytes());
+    bytes.extend((edge.weight() + 0.0).to_bits().to_le_bytes());
+}
+
+/// What sets of the first version do not have: a number that cannot be the count of a set's milestones, the
+/// values of the milestones, the links, and of all directed edges the weight back and the peak.
+fn push_rest(bytes: &mut Vec<u8>, first: u32, increment: &Increment, joins: &[Edge]) {
+    let number = |value: f64| (value + 0.0).to_bits().to_le_bytes();
+    bytes.extend(u64::MAX.to_le_bytes());
+    bytes.extend((increment.values.len() as u64).to_le_bytes());
+    bytes.extend(increment.values.iter().flat_map(|value| number(*value)));
+    bytes.extend((increment.links.len() as u64).to_le_bytes());
+    increment.links_from(first).for_each(|link| push_edge(bytes, &link));
+    for edge in increment.edges.iter().chain(joins).chain(&increment.links) {
+        match edge.cost {
+            EdgeCost::Metric(_) => bytes.push(0),
+            EdgeCost::Directed(Directed { backward, peak, .. }) => {
+                bytes.push(1);
+                bytes.extend(number(backward));
+                bytes.extend(number(peak));
+            }
+        }
+    }
 }
 
 impl fmt::Debug for RoadmapHasher {

@@ -1,26 +1,39 @@
-use super::Edge;
+use super::{Edge, EdgeCost};
+use crate::model::Directed;
 use crate::shelf::{self, Block, BlockName, Shelf};
 use bytemuck::{cast_slice, cast_slice_mut};
 
 /// Number of edges in a block that is kept on a shelf.
 const BLOCK: usize = if cfg!(test) { 1 << 5 } else { 1 << 12 };
-/// Bytes of an edge in a block.
-const BYTES: usize = size_of::<f64>() + 2 * size_of::<u32>() + 1;
 
-/// A roadmap's edges in a row.
+/// A roadmap's edges in a row, column by column: an edge whose cost is its length takes 17 bytes, a directed
+/// one 33. All edges of a roadmap are of one of the two kinds, since they are of one model.
 #[derive(Clone, Debug, Default)]
 pub struct Edges {
-    /// The first ones, as far as they are on a shelf, [`BLOCK`] in each: all weights, then all lower ids,
-    /// all higher ids, all planners.
+    is_directed: bool,
+    /// The first ones, as far as they are on a shelf, [`BLOCK`] in each: all weights, of directed edges then all
+    /// weights back and all peaks, then all lower ids, all higher ids, all planners.
     blocks: Vec<Block>,
     /// The others.
-    rest: Vec<Edge>,
+    rest: Rest,
+}
+
+/// Edges that fill no block yet.
+#[derive(Clone, Debug, Default)]
+struct Rest {
+    weights: Vec<f64>,
+    /// Of directed edges.
+    back: Vec<f64>,
+    peaks: Vec<f64>,
+    low: Vec<u32>,
+    high: Vec<u32>,
+    planners: Vec<u8>,
 }
 
 impl Edges {
     /// Number of edges.
     pub fn len(&self) -> usize {
-        self.blocks.len() * BLOCK + self.rest.len()
+        self.blocks.len() * BLOCK + self.rest.weights.len()
     }
 
     /// Whether there are none.
@@ -28,68 +41,142 @@ impl Edges {
         self.len() == 0
     }
 
+    /// Whether the edges' costs depend on the direction.
+    pub fn is_directed(&self) -> bool {
+        self.is_directed
+    }
+
     /// Edge `index`.
     pub fn get(&self, index: usize) -> Edge {
         match self.blocks.get(index / BLOCK) {
-            None => self.rest[index - self.blocks.len() * BLOCK],
-            Some(block) => Columns::of(block).edge(index % BLOCK),
+            None => self.rest.columns().edge(index - self.blocks.len() * BLOCK),
+            Some(block) => Columns::of(block, self.is_directed).edge(index % BLOCK),
         }
     }
 
     /// All edges in order.
     pub fn iter(&self) -> impl Iterator<Item = Edge> {
-        let settled = self.blocks.iter().flat_map(|block| {
-            let columns = Columns::of(block);
+        let shared = self.blocks.iter().flat_map(|block| {
+            let columns = Columns::of(block, self.is_directed);
             (0..BLOCK).map(move |index| columns.edge(index))
         });
-        settled.chain(self.rest.iter().copied())
+        let columns = self.rest.columns();
+        shared.chain((0..self.rest.weights.len()).map(move |index| columns.edge(index)))
     }
 
     pub(super) fn extend(&mut self, edges: impl IntoIterator<Item = Edge>) {
-        self.rest.extend(edges);
+        for edge in edges {
+            if self.is_empty() {
+                self.is_directed = edge.cost.directed().is_some();
+            }
+            let Rest { weights, back, peaks, low, high, planners } = &mut self.rest;
+            low.push(edge.low);
+            high.push(edge.high);
+            planners.push(edge.planner);
+            weights.push(edge.cost.forward());
+            if self.is_directed {
+                // A length in a model with energies would be a mistake; it is taken as it is, either way.
+                back.push(edge.cost.backward());
+                peaks.push(edge.cost.directed().map_or(0.0, |directed| directed.peak));
+            }
+        }
     }
 
     /// Puts on the shelf what fills whole blocks.
-    pub(super) fn settle(&mut self, shelf: &dyn Shelf) {
-        let settled = self.rest.len() / BLOCK * BLOCK;
-        for edges in self.rest[..settled].chunks_exact(BLOCK) {
+    pub(super) fn share_full_blocks(&mut self, shelf: &dyn Shelf) {
+        let blocks = self.rest.weights.len() / BLOCK;
+        let columns = self.rest.columns();
+        let bytes = BLOCK * bytes_of(self.is_directed);
+        for index in 0..blocks {
             let name = BlockName::Edges(self.blocks.len() as u32);
-            let mut fill = |block: &mut [u8]| write(edges, block);
-            self.blocks.push(shelf::kept(shelf, name, BLOCK * BYTES, &mut fill));
+            let mut fill = |block: &mut [u8]| columns.write(index * BLOCK, block);
+            self.blocks.push(shelf::kept(shelf, name, bytes, &mut fill));
         }
-        self.rest.drain(..settled);
+        self.rest.drop_first(blocks * BLOCK);
     }
 }
 
-/// The parts of a block.
+/// Bytes of an edge in a block.
+fn bytes_of(is_directed: bool) -> usize {
+    let numbers = if is_directed { 3 } else { 1 };
+    numbers * size_of::<f64>() + 2 * size_of::<u32>() + 1
+}
+
+impl Rest {
+    fn columns(&self) -> Columns<'_> {
+        let Rest { weights, back, peaks, low, high, planners } = self;
+        let directed = (!back.is_empty()).then_some([&back[..], peaks]);
+        Columns { weights, directed, ids: [low, high], planners }
+    }
+
+    fn drop_first(&mut self, count: usize) {
+        let Rest { weights, back, peaks, low, high, planners } = self;
+        for numbers in [weights, back, peaks] {
+            numbers.drain(..count.min(numbers.len()));
+        }
+        for ids in [low, high] {
+            ids.drain(..count);
+        }
+        planners.drain(..count);
+    }
+}
+
+/// Edges, column by column.
+#[derive(Clone, Copy)]
 struct Columns<'a> {
     weights: &'a [f64],
+    /// Weights back and peaks.
+    directed: Option<[&'a [f64]; 2]>,
     ids: [&'a [u32]; 2],
     planners: &'a [u8],
 }
 
 impl Columns<'_> {
-    fn of(block: &[u8]) -> Columns<'_> {
-        let (weights, rest) = block.split_at(BLOCK * size_of::<f64>());
+    /// Those of a block.
+    fn of(block: &[u8], is_directed: bool) -> Columns<'_> {
+        let (weights, mut rest) = block.split_at(BLOCK * size_of::<f64>());
+        let mut directed = None;
+        if is_directed {
+            let (back, after) = rest.split_at(BLOCK * size_of::<f64>());
+            let (peaks, after) = after.split_at(BLOCK * size_of::<f64>());
+            directed = Some([back, peaks].map(cast_slice));
+            rest = after;
+        }
         let (low, rest) = rest.split_at(BLOCK * size_of::<u32>());
         let (high, planners) = rest.split_at(BLOCK * size_of::<u32>());
-        Columns { weights: cast_slice(weights), ids: [low, high].map(cast_slice), planners }
+        let ids = [low, high].map(cast_slice);
+        Columns { weights: cast_slice(weights), directed, ids, planners }
     }
 
     fn edge(&self, index: usize) -> Edge {
         let [low, high] = self.ids.map(|ids| ids[index]);
-        Edge { low, high, planner: self.planners[index], weight: self.weights[index] }
+        let forward = self.weights[index];
+        let cost = match self.directed {
+            None => EdgeCost::Metric(forward),
+            Some([back, peaks]) => {
+                let (backward, peak) = (back[index], peaks[index]);
+                EdgeCost::Directed(Directed { forward, backward, peak })
+            }
+        };
+        Edge { low, high, planner: self.planners[index], cost }
     }
-}
 
-fn write(edges: &[Edge], block: &mut [u8]) {
-    let (weights, rest) = block.split_at_mut(BLOCK * size_of::<f64>());
-    let (low, rest) = rest.split_at_mut(BLOCK * size_of::<u32>());
-    let (high, planners) = rest.split_at_mut(BLOCK * size_of::<u32>());
-    let [low, high] = [low, high].map(cast_slice_mut::<u8, u32>);
-    let weights = cast_slice_mut::<u8, f64>(weights);
-    for (index, edge) in edges.iter().enumerate() {
-        (weights[index], low[index], high[index]) = (edge.weight, edge.low, edge.high);
-        planners[index] = edge.planner;
+    /// Writes the edges from `first` on that fill a block.
+    fn write(&self, first: usize, block: &mut [u8]) {
+        let range = first..first + BLOCK;
+        let mut rest = block;
+        let mut put_numbers = |numbers: &[f64]| {
+            let (column, after) = std::mem::take(&mut rest).split_at_mut(BLOCK * size_of::<f64>());
+            cast_slice_mut::<u8, f64>(column).copy_from_slice(&numbers[range.clone()]);
+            rest = after;
+        };
+        put_numbers(self.weights);
+        self.directed.into_iter().flatten().for_each(&mut put_numbers);
+        for ids in self.ids {
+            let (column, after) = std::mem::take(&mut rest).split_at_mut(BLOCK * size_of::<u32>());
+            cast_slice_mut::<u8, u32>(column).copy_from_slice(&ids[range.clone()]);
+            rest = after;
+        }
+        rest.copy_from_slice(&self.planners[range]);
     }
 }

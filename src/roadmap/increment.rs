@@ -1,9 +1,8 @@
 use super::Configs;
-use crate::validity::Asked;
-use bincode::{Decode, Encode};
+use crate::model::{Asked, Cost, Directed};
 
-/// An edge between two milestones that a local planner found free from `low` to `high`.
-#[derive(Clone, Copy, Debug, PartialEq, Encode, Decode)]
+/// An edge between two milestones that a local planner found valid from `low` to `high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
     /// The lower node id.
     pub low: u32,
@@ -11,11 +10,72 @@ pub struct Edge {
     pub high: u32,
     /// Tag of the local planner that succeeded.
     pub planner: u8,
-    /// Length of the local planner's motion in the space's metric.
-    pub weight: f64,
+    /// What the edge costs.
+    pub cost: EdgeCost,
+}
+
+/// What an edge costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EdgeCost {
+    /// The length of the local planner's motion in the space's metric, the same there and back.
+    Metric(f64),
+    /// Something that depends on the direction; forward is from the lower node to the higher.
+    Directed(Directed),
+}
+
+impl EdgeCost {
+    /// The cost of a motion of this length in the metric.
+    pub fn of(cost: Cost, length: f64) -> EdgeCost {
+        match cost {
+            Cost::Metric => EdgeCost::Metric(length),
+            Cost::Directed(directed) => EdgeCost::Directed(directed),
+        }
+    }
+
+    /// What the edge costs from its lower node to its higher.
+    pub fn forward(&self) -> f64 {
+        match self {
+            EdgeCost::Metric(length) => *length,
+            EdgeCost::Directed(directed) => directed.forward,
+        }
+    }
+
+    /// What the edge costs from its higher node to its lower.
+    pub fn backward(&self) -> f64 {
+        match self {
+            EdgeCost::Metric(length) => *length,
+            EdgeCost::Directed(directed) => directed.backward,
+        }
+    }
+
+    /// The three numbers of an edge in a model with energies.
+    pub fn directed(&self) -> Option<Directed> {
+        match self {
+            EdgeCost::Metric(_) => None,
+            EdgeCost::Directed(directed) => Some(*directed),
+        }
+    }
+
+    /// Whether the numbers are ones that a search can work with: what decoded bytes must be.
+    pub fn is_sound(&self) -> bool {
+        match self {
+            EdgeCost::Metric(length) => length.is_finite(),
+            EdgeCost::Directed(directed) => Cost::Directed(*directed).is_sound(),
+        }
+    }
 }
 
 impl Edge {
+    /// An edge whose cost is its length.
+    pub fn metric(low: u32, high: u32, planner: u8, length: f64) -> Edge {
+        Edge { low, high, planner, cost: EdgeCost::Metric(length) }
+    }
+
+    /// The cost from the lower node to the higher: of most models a length, the same there and back.
+    pub fn weight(&self) -> f64 {
+        self.cost.forward()
+    }
+
     /// The same edge with both ids raised by `first`.
     pub fn shifted(self, first: u32) -> Edge {
         Edge { low: self.low + first, high: self.high + first, ..self }
@@ -24,7 +84,7 @@ impl Edge {
 
 /// What one node set adds: milestones and the edges among them, numbered from 0 (TR05-007
 /// §3.1: a roadmap increment).
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Increment {
     /// The milestones.
     pub configs: Configs,
@@ -32,15 +92,42 @@ pub struct Increment {
     pub edges: Vec<Edge>,
     /// What the set cost.
     pub asked: Asked,
+    /// The numbers that the model gives every milestone, milestone after milestone; see
+    /// [`Model::node_values`](crate::model::Model::node_values).
+    pub values: Vec<f64>,
+    /// Of a set that grew from the roadmap: edges from a node that was there at the start of the round, the
+    /// lower id, to one of the milestones, which the higher id numbers from 0.
+    pub links: Vec<Edge>,
 }
 
 impl Increment {
-    /// Whether the increment is one that a strategy could have made: what decoded bytes must be.
-    pub fn is_sound(&self, dofs: usize) -> bool {
+    /// The increment of nothing.
+    pub fn empty(dofs: usize) -> Increment {
+        Increment {
+            configs: Configs::new(dofs),
+            edges: Vec::new(),
+            asked: Asked::default(),
+            values: Vec::new(),
+            links: Vec::new(),
+        }
+    }
+
+    /// Whether the increment is one that a strategy could have made: what decoded bytes must be. `before` is
+    /// the number of nodes at the start of the round, `values` how many numbers every milestone has.
+    pub fn is_sound(&self, dofs: usize, values: usize, before: u64) -> bool {
         let nodes = self.configs.len() as u64;
+        let of_links = |link: &Edge| u64::from(link.low) < before && u64::from(link.high) < nodes;
         self.configs.is_sound(dofs)
             && self.edges.iter().all(|edge| {
-                edge.low < edge.high && u64::from(edge.high) < nodes && edge.weight.is_finite()
+                edge.low < edge.high && u64::from(edge.high) < nodes && edge.cost.is_sound()
             })
+            && self.links.iter().all(|link| of_links(link) && link.cost.is_sound())
+            && self.values.len() as u64 == nodes * values as u64
+            && self.values.iter().all(|value| value.is_finite())
+    }
+
+    /// The links as edges of a roadmap in which the first milestone is called `first`.
+    pub fn links_from(&self, first: u32) -> impl Iterator<Item = Edge> {
+        self.links.iter().map(move |link| Edge { high: link.high + first, ..*link })
     }
 }

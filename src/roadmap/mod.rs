@@ -4,6 +4,7 @@ mod centre;
 mod components;
 mod digest;
 mod edges;
+mod encoding;
 mod finder;
 mod forest;
 mod increment;
@@ -14,8 +15,9 @@ pub use crate::digest::Digest;
 pub use crate::space::Configs;
 pub use components::{Component, Components};
 pub use edges::Edges;
+pub use encoding::Full;
 pub(crate) use forest::Forest;
-pub use increment::{Edge, Increment};
+pub use increment::{Edge, EdgeCost, Increment};
 pub use search::{Graph, Route};
 pub use tally::{Outline, Tally};
 
@@ -33,6 +35,8 @@ pub struct Roadmap {
     configs: Configs,
     edges: Edges,
     components: Components,
+    /// The numbers that the model gives every milestone.
+    values: Vec<f64>,
     rounds: Vec<Extent>,
     tally: Tally,
     keeps_edges: bool,
@@ -59,6 +63,7 @@ impl Roadmap {
             configs: Configs::new(space.len()),
             edges: Edges::default(),
             components: Components::default(),
+            values: Vec::new(),
             rounds: Vec::new(),
             tally: Tally::new(space),
             keeps_edges: true,
@@ -103,6 +108,11 @@ impl Roadmap {
             self.configs.extend(&increment.configs);
             if self.keeps_edges {
                 self.edges.extend(increment.edges.iter().map(|edge| edge.shifted(first)));
+                self.edges.extend(increment.links_from(first));
+            }
+            self.values.extend_from_slice(&increment.values);
+            for link in increment.links_from(first) {
+                self.components.unite(link.low, link.high);
             }
             joins.push(edges);
         }
@@ -114,7 +124,7 @@ impl Roadmap {
         }
         if let Some(shelf) = &self.shelf {
             self.configs.settle(&**shelf);
-            self.edges.settle(&**shelf);
+            self.edges.share_full_blocks(&**shelf);
         }
         if self.keeps_edges {
             self.rounds.push(Extent {
@@ -137,10 +147,16 @@ impl Roadmap {
         &self.configs
     }
 
-    /// The edges: of each round first those inside its increments, then the joining ones, in set
-    /// order.
+    /// The edges: of each round first those inside its increments, each followed by the edges by which the
+    /// increment grew from older nodes, then the joining ones, in set order.
     pub fn edges(&self) -> &Edges {
         &self.edges
+    }
+
+    /// The numbers that the model gives every milestone, milestone after milestone; see
+    /// [`Model::node_values`](crate::model::Model::node_values).
+    pub fn values(&self) -> &[f64] {
+        &self.values
     }
 
     /// The connected components.

@@ -10,6 +10,9 @@ pub struct Graph {
     start: Vec<u32>,
     arcs: Vec<(u32, u32)>,
     weights: Vec<f64>,
+    /// Of directed edges: weights from the higher node to the lower, and peaks.
+    back: Vec<f64>,
+    peaks: Vec<f64>,
 }
 
 /// A route: nodes and the edges between them.
@@ -24,7 +27,8 @@ pub struct Route {
 }
 
 impl Graph {
-    /// The undirected graph of `nodes` nodes with these edges.
+    /// The graph of `nodes` nodes with these edges, each of which can be walked in both directions. Either all
+    /// of them or none have directed costs.
     pub fn new(nodes: usize, edges: &[Edge]) -> Graph {
         let mut start = vec![0u32; nodes + 1];
         for edge in edges {
@@ -42,43 +46,88 @@ impl Graph {
                 next[from as usize] += 1;
             }
         }
-        Graph { start, arcs, weights: edges.iter().map(|edge| edge.weight).collect() }
+        let directed = || edges.iter().filter_map(|edge| edge.cost.directed());
+        Graph {
+            start,
+            arcs,
+            weights: edges.iter().map(Edge::weight).collect(),
+            back: directed().map(|cost| cost.backward).collect(),
+            peaks: directed().map(|cost| cost.peak).collect(),
+        }
     }
 
     /// A shortest route from `from` to `to` that avoids the edges in `without`; of several, the
     /// one that Dijkstra's algorithm finds when ties go to the lower node id.
     pub fn shortest(&self, from: u32, to: u32, without: &BTreeSet<u32>) -> Option<Route> {
+        let through = |length: f64, from: u32, to: u32, edge: u32| {
+            (!without.contains(&edge)).then(|| length + self.weight(from, to, edge))
+        };
+        self.search(from, to, 0.0, through).map(|(_, route)| route)
+    }
+
+    /// Of directed edges: the least energy that a way from `from` to `to` has to reach, the least over all ways
+    /// of the highest peak of an edge, and a shortest route among those that do not exceed it. The edges in
+    /// `without` are avoided. `start` is the energy at `from`, which no way is below.
+    pub fn lowest_barrier(
+        &self,
+        from: u32,
+        to: u32,
+        start: f64,
+        without: &BTreeSet<u32>,
+    ) -> Option<(f64, Route)> {
+        let peak = |edge: u32| {
+            (!without.contains(&edge)).then(|| self.peaks.get(edge as usize).copied()).flatten()
+        };
+        let highest = |barrier: f64, _: u32, _: u32, edge: u32| Some(barrier.max(peak(edge)?));
+        let (barrier, _) = self.search(from, to, start, highest)?;
+        let through = |length: f64, from: u32, to: u32, edge: u32| {
+            (peak(edge)? <= barrier).then(|| length + self.weight(from, to, edge))
+        };
+        self.search(from, to, 0.0, through).map(|(_, route)| (barrier, route))
+    }
+
+    /// Dijkstra's algorithm: the route from `from` to `to` whose value is least, and that value. It is `start`
+    /// at the beginning; `through` gives it after one more edge, from one node to another, where that may be
+    /// taken, and never makes it less.
+    fn search(
+        &self,
+        from: u32,
+        to: u32,
+        start: f64,
+        through: impl Fn(f64, u32, u32, u32) -> Option<f64>,
+    ) -> Option<(f64, Route)> {
         let mut best: Vec<Option<(f64, u32, u32)>> = vec![None; self.start.len() - 1];
-        let mut settled = vec![false; best.len()];
+        let mut is_final = vec![false; best.len()];
         let mut open = BinaryHeap::new();
-        // Lengths are not negative, so their bits order as they do.
-        open.push(Reverse((0f64.to_bits(), from)));
-        best[from as usize] = Some((0.0, from, u32::MAX));
-        while let Some(Reverse((bits, node))) = open.pop() {
-            if std::mem::replace(&mut settled[node as usize], true) {
+        open.push(Reverse((in_order(start), from)));
+        best[from as usize] = Some((start, from, u32::MAX));
+        while let Some(Reverse((_, node))) = open.pop() {
+            if std::mem::replace(&mut is_final[node as usize], true) {
                 continue;
             }
+            let Some((value, _, _)) = best[node as usize] else { unreachable!("it was opened") };
             if node == to {
-                return Some(self.trace(from, to, &best));
+                return Some((value, self.trace(from, to, &best)));
             }
-            let length = f64::from_bits(bits);
             let range = self.start[node as usize] as usize..self.start[node as usize + 1] as usize;
             for (next, edge) in &self.arcs[range] {
-                if without.contains(edge) {
-                    continue;
-                }
-                let through = length + self.weights[*edge as usize];
+                let Some(through) = through(value, node, *next, *edge) else { continue };
                 if best[*next as usize].is_none_or(|(known, _, _)| through < known) {
                     best[*next as usize] = Some((through, node, *edge));
-                    open.push(Reverse((through.to_bits(), *next)));
+                    open.push(Reverse((in_order(through), *next)));
                 }
             }
         }
         None
     }
 
+    /// What an edge costs from one of its ends to the other.
+    fn weight(&self, from: u32, to: u32, edge: u32) -> f64 {
+        let weights = if from < to || self.back.is_empty() { &self.weights } else { &self.back };
+        weights[edge as usize]
+    }
+
     fn trace(&self, from: u32, to: u32, best: &[Option<(f64, u32, u32)>]) -> Route {
-        let length = best[to as usize].map_or(0.0, |(length, _, _)| length);
         let (mut nodes, mut edges, mut node) = (vec![to], Vec::new(), to);
         while node != from {
             let Some((_, before, edge)) = best[node as usize] else { unreachable!("settled") };
@@ -88,16 +137,55 @@ impl Graph {
         }
         nodes.reverse();
         edges.reverse();
-        Route { nodes, edges, length }
+        let ends = nodes.iter().zip(nodes.iter().skip(1));
+        let weights = ends.zip(&edges).map(|((from, to), edge)| self.weight(*from, *to, *edge));
+        Route { length: weights.fold(0.0, |length, weight| length + weight), nodes, edges }
     }
+}
+
+/// The bits of a number, changed so that they are in the order of the numbers.
+fn in_order(value: f64) -> u64 {
+    let bits = value.to_bits();
+    if value.is_sign_negative() { !bits } else { bits | 1 << 63 }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Directed;
+    use crate::roadmap::EdgeCost;
 
     fn edge(low: u32, high: u32, weight: f64) -> Edge {
-        Edge { low, high, planner: 0, weight }
+        Edge::metric(low, high, 0, weight)
+    }
+
+    #[test]
+    fn the_lowest_barrier_is_the_least_highest_peak_and_costs_depend_on_the_direction() {
+        // Energies −5, −3, −4, −8; from 0 to 3 over 1 with a peak of −1, or over 2 with one of −2.
+        let energies = [-5.0, -3.0, -4.0, -8.0];
+        let directed = |low: u32, high: u32, peak: f64| {
+            let [forward, backward] = [low, high].map(|node| peak - energies[node as usize]);
+            let cost = EdgeCost::Directed(Directed { forward, backward, peak });
+            Edge { low, high, planner: 0, cost }
+        };
+        let edges = [
+            directed(0, 1, -3.0),
+            directed(1, 3, -1.0),
+            directed(0, 2, -2.0),
+            directed(2, 3, -2.0),
+        ];
+        let graph = Graph::new(5, &edges);
+        let none = BTreeSet::new();
+        let (barrier, route) = graph.lowest_barrier(0, 3, -5.0, &none).unwrap();
+        assert_eq!((barrier, route.nodes, route.length), (-2.0, vec![0, 2, 3], 3.0 + 2.0));
+        let (barrier, route) = graph.lowest_barrier(3, 0, -8.0, &none).unwrap();
+        assert_eq!((barrier, route.nodes, route.length), (-2.0, vec![3, 2, 0], 6.0 + 2.0));
+        // By the sum of the climbs the way over 1 is the shorter one.
+        assert_eq!(graph.shortest(0, 3, &none).unwrap().length, 4.0);
+        let (barrier, route) = graph.lowest_barrier(0, 3, -5.0, &BTreeSet::from([3])).unwrap();
+        assert_eq!((barrier, route.nodes), (-1.0, vec![0, 1, 3]));
+        assert_eq!(graph.lowest_barrier(0, 4, -5.0, &none), None);
+        assert_eq!(graph.lowest_barrier(4, 4, 7.0, &none).unwrap().0, 7.0);
     }
 
     #[test]

@@ -17,7 +17,8 @@ pub struct Tally {
 }
 
 impl Tally {
-    pub(super) fn new(space: &Space) -> Tally {
+    /// That of the empty roadmap over a space.
+    pub fn new(space: &Space) -> Tally {
         Tally { hasher: Some(RoadmapHasher::new(space.len())), ..Tally::unhashed() }
     }
 
@@ -33,7 +34,7 @@ impl Tally {
         }
         self.sets += 1;
         self.nodes += increment.configs.len();
-        self.edges += increment.edges.len() + joins.len();
+        self.edges += increment.edges.len() + increment.links.len() + joins.len();
     }
 
     /// Ends a fold.
@@ -96,7 +97,8 @@ impl Outline {
             self.forest.grow(increment.configs.len() as u32);
             components += increment.configs.len();
             let inner = increment.edges.iter().map(|edge| edge.shifted(first));
-            for edge in inner.chain(joins.iter().copied()) {
+            let links = increment.links_from(first);
+            for edge in inner.chain(links).chain(joins.iter().copied()) {
                 let [low, high] = self.forest.unite(edge.low, edge.high);
                 components -= usize::from(low != high);
             }

@@ -6,7 +6,6 @@ use crate::seed::{Purpose, Seed, Stream};
 use crate::shelf::tests::Flaky;
 use crate::shelf::{BlockName, Shelf};
 use crate::space::{Motion, rigid_space};
-use crate::validity::Asked;
 use crate::wire;
 use proptest::prelude::*;
 use std::path::Path;
@@ -71,7 +70,7 @@ impl Growth {
                     let low = self.below(self.group_of.len()) as u32;
                     let kind = self.group_of.get(low as usize).copied();
                     if kind == Some(group) || (group >= GROUPS && kind == Some(group - GROUPS)) {
-                        let edge = Edge { low, high: node, planner: 0, weight: 1.0 };
+                        let edge = Edge::metric(low, node, 0, 1.0);
                         if low >= first {
                             edges.push(Edge { low: low - first, high: node - first, ..edge });
                         } else {
@@ -84,7 +83,7 @@ impl Growth {
                 }
                 self.group_of.push(group);
             }
-            round.push((Increment { configs, edges, asked: Asked::default() }, joins));
+            round.push((Increment { configs, edges, ..Increment::empty(0) }, joins));
         }
         let sets = || round.iter().map(|(increment, joins)| (increment, &joins[..]));
         self.roadmap.fold_round(&self.space, sets());

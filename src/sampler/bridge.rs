@@ -4,9 +4,9 @@ use super::{
 };
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed};
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -44,12 +44,12 @@ impl Sampler for Bridge {
         let (mut near, mut far) = (vec![0.0; cx.space.len()], vec![0.0; cx.space.len()]);
         collect((count, self.attempts), out, |middle| {
             draw_pair(cx, self.deviation, &mut stream, &mut near, &mut far);
-            let mut pier = |q| collides(cx.validity.state(q, scratch), self.bounds) == Some(true);
+            let mut pier = |q| collides(cx.model.validity(q, scratch), self.bounds) == Some(true);
             if !(pier(&near) && pier(&far)) {
                 return false;
             }
             cx.space.interpolate(&near, &far, 0.5, middle);
-            cx.space.canonicalize(middle).is_ok() && cx.validity.valid(middle, scratch)
+            cx.space.canonicalize(middle).is_ok() && cx.model.is_valid(middle, scratch)
         })
     }
 

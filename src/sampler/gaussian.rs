@@ -3,9 +3,9 @@ use super::{
 };
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed, Stream};
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -43,7 +43,7 @@ impl Sampler for Gaussian {
         collect((count, self.attempts), out, |near| {
             draw_pair(cx, self.deviation, &mut stream, near, &mut far);
             let states =
-                [&*near, &far].map(|q| collides(cx.validity.state(q, scratch), self.bounds));
+                [&*near, &far].map(|q| collides(cx.model.validity(q, scratch), self.bounds));
             if states == [Some(true), Some(false)] {
                 near.copy_from_slice(&far);
             }

@@ -2,9 +2,9 @@ use super::shares::{Shares, default_block, no_block};
 use super::{GaveUp, Sampler, default_attempts, no_attempts};
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed, Stream};
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 

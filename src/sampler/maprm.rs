@@ -1,10 +1,10 @@
 use super::{GaveUp, Sampler, collect, collides, no_attempts, no_length, obstructed};
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::{Clearance, Scratch, Validity};
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::{Direction, PartKind};
-use crate::validity::{Clearance, Scratch, State};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -158,17 +158,17 @@ impl Pusher<'_> {
             Some(way) => self.push(q, &way),
             None => self.push_back(q),
         };
-        pushed.is_some() && self.cx.validity.valid(q, self.scratch)
+        pushed.is_some() && self.cx.model.is_valid(q, self.scratch)
     }
 
     fn collides(&mut self, q: &[f64]) -> Option<bool> {
-        collides(self.cx.validity.state(q, self.scratch), self.maprm.bounds)
+        collides(self.cx.model.validity(q, self.scratch), self.maprm.bounds)
     }
 
     /// The shortest way to an obstacle, and its direction from there. Counts as one configuration asked for.
     fn clearance(&mut self, q: &[f64]) -> Option<(Clearance, [f64; 3])> {
-        self.scratch.asked.configurations += 1;
-        let clearance = self.cx.validity.clearance(q, self.scratch)?;
+        self.scratch.count_configuration();
+        let clearance = self.cx.model.clearances()?.clearance(q, self.scratch)?;
         let way = [0, 1, 2].map(|i| clearance.on_robot[i] - clearance.on_obstacle[i]);
         let length = (way[0] * way[0] + way[1] * way[1] + way[2] * way[2]).sqrt();
         Some((clearance, way.map(|value| value / length)))
@@ -240,8 +240,8 @@ impl Pusher<'_> {
         away[axis] = side;
         let inside = |pusher: &mut Self, by: f64| {
             pusher.shift(q, &away, by);
-            let state = pusher.cx.validity.state(&pusher.at, pusher.scratch);
-            Some(state != State::OutOfBounds)
+            let state = pusher.cx.model.validity(&pusher.at, pusher.scratch);
+            Some(state != Validity::OutOfBounds)
         };
         // A little less than the most, which rounding may put outside.
         if inside(self, most * (1.0 - 1e-12)) == Some(true) {
@@ -305,7 +305,7 @@ impl Pusher<'_> {
 
     fn look(&mut self, q: &[f64], direction: usize, length: f64) -> Option<bool> {
         self.go(q, direction, length);
-        collides(self.cx.validity.state(&self.at, self.scratch), self.maprm.bounds)
+        collides(self.cx.model.validity(&self.at, self.scratch), self.maprm.bounds)
     }
 
     /// Walks in all directions at once until, in one of them, what collided is free or what was free

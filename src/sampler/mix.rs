@@ -1,9 +1,9 @@
 use super::{GaveUp, Sampler, SamplerKind};
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed};
-use crate::validity::Scratch;
 use crate::wire::decode_nested;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};

@@ -29,6 +29,13 @@ methods! {
     }
 }
 
+/// Uniform random sampling, the method of a problem that names none.
+impl Default for SamplerKind {
+    fn default() -> SamplerKind {
+        SamplerKind::Uniform(Uniform::default())
+    }
+}
+
 pub use bridge::Bridge;
 pub use gaussian::Gaussian;
 pub use grid::Grid;
@@ -41,9 +48,9 @@ pub use uobprm::Uobprm;
 
 use crate::context::Context;
 use crate::methods::{Complaint, methods};
+use crate::model::{Scratch, Validity};
 use crate::roadmap::Configs;
 use crate::seed::Seed;
-use crate::validity::{Scratch, State};
 
 /// A sampling method.
 pub trait Sampler {
@@ -105,11 +112,11 @@ fn collect(
 
 /// What samplers near obstacles ask of a state: does it collide, is it free, or (`None`) is it to be
 /// dropped? `bounds` says whether to be out of bounds is to collide.
-fn collides(state: State, bounds: bool) -> Option<bool> {
-    match state {
-        State::Free => Some(false),
-        State::Colliding => Some(true),
-        State::OutOfBounds => bounds.then_some(true),
+fn collides(validity: Validity, bounds: bool) -> Option<bool> {
+    match validity {
+        Validity::Valid => Some(false),
+        Validity::Invalid => Some(true),
+        Validity::OutOfBounds => bounds.then_some(true),
     }
 }
 
@@ -125,7 +132,7 @@ fn no_attempts(attempts: u64) -> Option<Complaint> {
 
 /// Samplers near obstacles are defined where something can collide.
 fn obstructed(cx: &Context, bounds: bool) -> Result<(), String> {
-    if bounds || cx.validity.obstructed() {
+    if bounds || cx.model.is_obstructed() {
         return Ok(());
     }
     let expected = "obstacles, links that must not touch, or `bounds = true` expected";

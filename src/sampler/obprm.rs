@@ -3,9 +3,9 @@ use super::{
 };
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed, Stream};
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -76,7 +76,7 @@ impl Obprm {
         start: &mut [f64],
         q: &mut [f64],
     ) -> bool {
-        let mut side = |q: &[f64]| collides(cx.validity.state(q, scratch), self.bounds);
+        let mut side = |q: &[f64]| collides(cx.model.validity(q, scratch), self.bounds);
         cx.space.sample_uniform(stream, start);
         let Some(inside) = side(start) else { return false };
         if inside && self.start == Start::Free || !inside && self.start == Start::Colliding {

@@ -17,9 +17,9 @@
 use super::{GaveUp, collect};
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::Seed;
-use crate::validity::Scratch;
 
 /// How a set takes its share.
 #[derive(Clone, Copy)]
@@ -54,7 +54,7 @@ impl Shares {
             current(first.wrapping_add(taken % block), &mut point);
             taken += 1;
             cx.space.of_cube(&point, q);
-            cx.validity.valid(q, scratch)
+            cx.model.is_valid(q, scratch)
         })
     }
 }

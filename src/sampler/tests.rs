@@ -125,7 +125,7 @@ fn every_sampler_gives_every_robot_milestones_that_are_valid_and_in_stored_form(
             let configs = sample(&cx, &sampler, 3, &mut Scratch::new());
             assert_eq!(configs.len(), 12);
             for q in configs.iter() {
-                assert!(cx.validity.valid(q, &mut Scratch::new()), "{sampler:?}, {robot}");
+                assert!(cx.model.is_valid(q, &mut Scratch::new()), "{sampler:?}, {robot}");
                 let mut stored = q.to_vec();
                 cx.space.canonicalize(&mut stored).unwrap();
                 let same = q.iter().zip(&stored).all(|(a, b)| (a - b).abs() < 1e-15);

@@ -1,9 +1,9 @@
 use super::{GaveUp, Sampler, collect, default_attempts, no_attempts};
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed};
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -37,7 +37,7 @@ impl Sampler for Uniform {
         let mut stream = seed.stream(Purpose::Sampling);
         collect((count, self.attempts), out, |q| {
             cx.space.sample_uniform(&mut stream, q);
-            cx.validity.valid(q, scratch)
+            cx.model.is_valid(q, scratch)
         })
     }
 

@@ -3,9 +3,9 @@ use super::{
 };
 use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed};
-use crate::validity::Scratch;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
@@ -63,7 +63,7 @@ impl Sampler for Uobprm {
                 let mut kept = false;
                 for i in 0..=steps {
                     cx.space.along(&start, &direction, f64::from(i) * self.step, q);
-                    let now = collides(cx.validity.state(q, scratch), self.bounds);
+                    let now = collides(cx.model.validity(q, scratch), self.bounds);
                     match (before, now) {
                         // Free between two that collide: one milestone, not two.
                         (Some(false), Some(true)) if !kept => found.push_back(last.clone()),

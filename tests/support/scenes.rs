@@ -1,7 +1,7 @@
 //! Where the scenes are, what they must look like, and scenes as problems.
 
-use roadmill::foreign::{Base, ForeignJointKind, ForeignScene};
 use roadmill::math;
+use roadmill::model::bodies::foreign::{Base, ForeignJointKind, ForeignScene};
 use roadmill::scene::{Pose, Shape};
 use std::path::PathBuf;
 

@@ -24,7 +24,7 @@ use roadmill::roadmap::Digest;
 use std::sync::Arc;
 
 /// Version of these messages.
-pub const PROTOCOL: u32 = 3;
+pub const PROTOCOL: u32 = 4;
 
 /// From a worker.
 #[derive(Debug, Clone, PartialEq, Encode, BorrowDecode)]

@@ -4,9 +4,9 @@ use crate::error::WorkerError;
 use crate::faults::{Faults, Slip};
 use crate::message::{FromWorker, PROTOCOL, ToWorker};
 use roadmill::img::{Outcome, Replica, Setup, Task};
+use roadmill::model::Scratch;
 use roadmill::problem::Problem;
-use roadmill::roadmap::Digest;
-use roadmill::validity::Scratch;
+use roadmill::roadmap::{Digest, Roadmap};
 use roadmill::wire;
 use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
 use std::io::Write;
@@ -110,7 +110,9 @@ pub fn canary(setup: &Setup) -> Digest {
         strategy.nodes = strategy.nodes.min(4);
     }
     let small = Setup { problem, cx: setup.problem.context(), plan: setup.plan.clone() };
-    let task = Task::Generate { strategy: 0, ordinal: u64::MAX };
+    // A strategy that grows finds no node to grow from.
+    let frozen = setup.grows(0).then(|| Arc::new(Roadmap::new(&setup.cx.space)));
+    let task = Task::Generate { strategy: 0, ordinal: u64::MAX, frozen };
     let outcome: Outcome = task.run(&small, &mut Scratch::new());
     Digest::of(&wire::encode(&outcome))
 }

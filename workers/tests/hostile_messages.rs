@@ -8,9 +8,9 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use roadmill::evaluate::Verdict;
 use roadmill::img::{Job, Joined, Outcome, Setup, Task};
+use roadmill::model::{Asked, Scratch};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Edge};
-use roadmill::validity::{Asked, Scratch};
 use roadmill::wire;
 use roadmill_workers::message::{Bytes, Done, Entry, FromWorker, PROTOCOL, ToWorker};
 use std::path::Path;
@@ -21,10 +21,10 @@ fn messages() -> Vec<Vec<u8>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../problems/maze.toml");
     let problem = Problem::load(&path).expect("it ships");
     let setup = Setup::new(problem.clone());
-    let generate = Task::Generate { strategy: 0, ordinal: 0 };
+    let generate = Task::Generate { strategy: 0, ordinal: 0, frozen: None };
     let increment = generate.run(&setup, &mut Scratch::new());
     assert!(matches!(increment, Outcome::Increment(Ok(_))));
-    let edge = Edge { low: 0, high: 1, planner: 0, weight: 1.0 };
+    let edge = Edge::metric(0, 1, 0, 1.0);
     let joined = Joined { edges: vec![edge; 3], asked: Asked::default() };
     let verdict =
         |parts: Vec<Verdict>| Verdict { parts, ..Verdict::at_least(1.0, 1.0, Asked::default()) };

@@ -2,9 +2,9 @@
 
 use roadmill::evaluate::Verdict;
 use roadmill::img::Joined;
+use roadmill::model::Asked;
 use roadmill::roadmap::{Edge, Increment};
 use roadmill::space::Space;
-use roadmill::validity::Asked;
 use roadmill::wire;
 
 /// The first difference between two increments; each is named as what it is on either side.
@@ -20,7 +20,14 @@ pub fn of_increments(space: &Space, left: &Increment, right: &Increment) -> Opti
     if ours != theirs {
         return Some(format!("{ours} and {theirs} nodes"));
     }
-    of_edges("edge", &left.edges, &right.edges).or_else(|| of_counts(left.asked, right.asked))
+    let values = left.values.iter().zip(&right.values);
+    let differing = values.enumerate().find(|(_, (a, b))| a.to_bits() != b.to_bits());
+    if let Some((index, (a, b))) = differing {
+        return Some(format!("value {index} of the nodes: {a:?} and {b:?}"));
+    }
+    of_edges("edge", &left.edges, &right.edges)
+        .or_else(|| of_edges("link", &left.links, &right.links))
+        .or_else(|| of_counts(left.asked, right.asked))
 }
 
 /// The first difference between two joins.
@@ -43,10 +50,22 @@ pub fn of_verdicts(left: &[Verdict], right: &[Verdict]) -> Option<String> {
 }
 
 fn of_edges(what: &str, left: &[Edge], right: &[Edge]) -> Option<String> {
-    let bits = |edge: &Edge| (edge.low, edge.high, edge.planner, edge.weight.to_bits());
+    let numbers = |edge: &Edge| {
+        let peak = edge.cost.directed().map(|directed| directed.peak);
+        (edge.cost.forward(), edge.cost.backward(), peak)
+    };
+    let bits = |edge: &Edge| {
+        let (forward, backward, peak) = numbers(edge);
+        let costs = (forward.to_bits(), backward.to_bits(), peak.map(f64::to_bits));
+        (edge.low, edge.high, edge.planner, costs)
+    };
     let text = |edge: &Edge| {
-        let Edge { low, high, planner, weight } = edge;
-        format!("{low}–{high} of weight {weight:?} by planner {planner}")
+        let Edge { low, high, planner, .. } = edge;
+        let weight = match numbers(edge) {
+            (weight, _, None) => format!("weight {weight:?}"),
+            (there, back, Some(peak)) => format!("weights {there:?}, {back:?} and peak {peak:?}"),
+        };
+        format!("{low}–{high} of {weight} by planner {planner}")
     };
     let mut pairs = left.iter().zip(right).enumerate();
     if let Some((index, (a, b))) = pairs.find(|(_, (a, b))| bits(a) != bits(b)) {

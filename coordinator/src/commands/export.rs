@@ -16,7 +16,10 @@ pub fn export(arguments: &ExportArguments) -> Result<Code, Failure> {
         }
         Format::Npz => write_whole(out, npz(&problem, &roadmap).map_err(Failure::system)?)?,
         Format::Map => write_whole(out, parasol_map(&problem, &problem.context(), &roadmap))?,
-        Format::Svg => write_whole(out, svg(&problem, &roadmap, path.as_ref()))?,
+        Format::Svg => match svg(&problem, &roadmap, path.as_ref()) {
+            Some(picture) => write_whole(out, picture)?,
+            None => return Err(Failure::usage("--format: this model cannot be drawn")),
+        },
     }
     Ok(Code::Done)
 }

@@ -5,9 +5,9 @@ use crate::exit::{Code, Failure};
 use crate::run::SetsWriter;
 use crate::signals::Signals;
 use roadmill::img::Setup;
+use roadmill::model::Scratch;
 use roadmill::roadmap::Increment;
 use roadmill::sampler::GaveUp;
-use roadmill::validity::Scratch;
 use roadmill_workers::channel::private_umask;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -30,6 +30,11 @@ pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
         let labels = labels.join(", ");
         return Err(Failure::usage(format!("--sets: `{label}` found, one of {labels} expected")));
     };
+    if problem.strategies[strategy].generator.grows() {
+        return Err(Failure::usage(format!(
+            "--sets: the sets of `{label}` grow from the roadmap of a build and cannot be made apart"
+        )));
+    }
     let signals = Signals::listen().map_err(Failure::system)?;
     let out = &arguments.out;
     let mut writer = SetsWriter::begin(out, arguments.force, &problem, label, ordinals.clone())?;
@@ -74,7 +79,7 @@ fn make(
     let work = || {
         let (mut scratch, mut made) = (Scratch::new(), Vec::new());
         while let Some(ordinal) = next().filter(|_| !signals.came()) {
-            made.push((ordinal, strategy.generate(&setup.cx, ordinal, &mut scratch)));
+            made.push((ordinal, strategy.generate(&setup.cx, ordinal, None, &mut scratch)));
         }
         made
     };

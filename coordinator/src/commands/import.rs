@@ -24,7 +24,7 @@ pub fn import(arguments: &ImportArguments) -> Result<Code, Failure> {
         if again.digest() != problem.digest() {
             return Err(Failure::system("what was written loads to another problem; not kept"));
         }
-        place.settle(!written.meshes.is_empty())
+        place.move_in(!written.files.is_empty())
     });
     // Also what was replaced.
     let _ = fs::remove_dir_all(&place.staged);
@@ -97,17 +97,17 @@ impl Place {
         let write = || {
             fs::create_dir(&self.staged)?;
             fs::write(self.staged.join(&self.file_name), &written.text)?;
-            if !written.meshes.is_empty() {
+            if !written.files.is_empty() {
                 fs::create_dir(&meshes)?;
             }
-            written.meshes.iter().try_for_each(|(name, text)| fs::write(meshes.join(name), text))
+            written.files.iter().try_for_each(|(name, text)| fs::write(meshes.join(name), text))
         };
         write().map_err(|error| self.cannot(&error))
     }
 
     /// Moves what is there out of the way, into the staged folder, and what was written into its place;
     /// or, where that fails, back.
-    fn settle(&self, with_meshes: bool) -> Result<(), Failure> {
+    fn move_in(&self, with_meshes: bool) -> Result<(), Failure> {
         let moves = || {
             for (path, name) in [(self.file(), "old.toml"), (self.meshes(), "old-meshes")] {
                 match fs::rename(path, self.staged.join(name)) {

@@ -1,9 +1,9 @@
 use crate::cli::{Bounds, Dh, Origin, ProblemArguments, Solid, Unit, Up};
 use crate::exit::Failure;
-use roadmill::foreign::{self, SceneOptions, Solidity};
+use roadmill::model::bodies::foreign::{self, SceneOptions, Solidity};
+use roadmill::model::bodies::validity::BoundsMeaning;
 use roadmill::problem::Problem;
 use roadmill::scene::{self, Centre};
-use roadmill::validity::BoundsMeaning;
 
 /// Reads the problem that the command line names.
 ///

@@ -2,7 +2,8 @@ use crate::cli::LogArguments;
 use crate::exit::{Code, Failure};
 use crate::progress::print_json;
 use crate::run::{Replay, Scan, Told};
-use roadmill::roadmap::Digest;
+use roadmill::img::Joined;
+use roadmill::roadmap::{Digest, Full, Increment};
 use roadmill::seed::Seed;
 use roadmill::wire;
 use serde::Serialize;
@@ -22,6 +23,15 @@ struct Line<'a> {
     configurations_checked: u64,
     motions_checked: u64,
     digest: String,
+}
+
+/// The digest of a set: of its record's bytes from the degrees of freedom on.
+fn digest_of(increment: &Increment, joined: &Joined) -> Digest {
+    if increment.is_plain() && joined.is_plain() {
+        Digest::of(&wire::encode(&(increment, joined)))
+    } else {
+        Digest::of(&wire::encode(&(Full(increment), Full(joined))))
+    }
 }
 
 /// Lists a build set by set.
@@ -51,7 +61,7 @@ pub fn log(arguments: &LogArguments) -> Result<Code, Failure> {
                 configurations_checked: increment.asked.configurations
                     + joined.asked.configurations,
                 motions_checked: increment.asked.motions + joined.asked.motions,
-                digest: Digest::of(&wire::encode(&(&**increment, joined))).to_string(),
+                digest: digest_of(increment, joined).to_string(),
             };
             if arguments.json {
                 print_json(&line);

@@ -4,10 +4,10 @@ use crate::exit::{Code, Failure};
 use crate::run::Ledger;
 use roadmill::Context;
 use roadmill::export::{animation, parasol_path, path_csv};
+use roadmill::model::Scratch;
 use roadmill::problem::configuration;
 use roadmill::query::{Answer, Attachment, PATH_REFINEMENT, Path, shorten, solve};
 use roadmill::roadmap::Roadmap;
-use roadmill::validity::Scratch;
 use std::io::Write;
 use std::time::Instant;
 
@@ -52,7 +52,10 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
         None => drop(std::io::stdout().write_all(text.as_bytes())),
     }
     if let Some(file) = &arguments.animate {
-        write_whole(file, animation(&ledger.problem, path))?;
+        match animation(&ledger.problem, path) {
+            Some(page) => write_whole(file, page)?,
+            None => return Err(Failure::usage("--animate: this model cannot be drawn")),
+        }
     }
     let (configs, length) = (path.configs.len(), path.length);
     eprintln!("path of {configs} configurations, length {length:.6}, in {seconds:.3} s");

@@ -125,7 +125,7 @@ pub(super) fn go_on(
     {
         return say_finished(&scan, stopped, &problem, arguments.json);
     }
-    let (mut ledger, torn) = LedgerWriter::resume(&scan, lock)?;
+    let (mut ledger, torn) = LedgerWriter::resume(&scan, &present, lock)?;
     if is_chapter {
         ledger.chapter(scan.rounds(), &problem)?;
         scan.verdicts = None;

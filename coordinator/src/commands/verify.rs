@@ -10,9 +10,9 @@ use roadmill::BITS_VERSION;
 use roadmill::img::{
     Event, Executor, Finished, Job, LOSSES_MAX, Outcome, RoundSet, Setup, TICK, Threads,
 };
+use roadmill::model::Scratch;
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Roadmap};
-use roadmill::validity::Scratch;
 use roadmill::wire;
 use roadmill_workers::channel::private_umask;
 use std::collections::{BTreeMap, BTreeSet};
@@ -160,8 +160,8 @@ impl Check<'_> {
                         executor.publish(&set.increment);
                         self.hand_out(set, chapter, executor)?;
                     }
-                    // A fold takes the inputs of joins away.
-                    while self.joins() > 0 || self.at_work.len() > self.ahead {
+                    // A fold takes away what these jobs read.
+                    while self.readers() > 0 || self.at_work.len() > self.ahead {
                         self.take(executor)?;
                     }
                     executor.fold(&round);
@@ -227,8 +227,14 @@ impl Check<'_> {
         Ok(())
     }
 
-    fn joins(&self) -> usize {
-        self.at_work.keys().filter(|job| matches!(job, Job::Join { .. })).count()
+    /// Jobs at work that read the roadmap at the start of the round.
+    fn readers(&self) -> usize {
+        let reads = |job: &&Job| match **job {
+            Job::Join { .. } => true,
+            Job::Generate { strategy, .. } => self.setup.grows(strategy),
+            Job::Evaluate { .. } => false,
+        };
+        self.at_work.keys().filter(reads).count()
     }
 
     /// Takes in what comes next from the executor.

@@ -8,7 +8,7 @@ use bincode::{Decode, Encode};
 use roadmill::BITS_VERSION;
 use roadmill::img::Outcome;
 use roadmill::problem::Problem;
-use roadmill::roadmap::{Digest, Increment};
+use roadmill::roadmap::{Digest, Full, Increment};
 use roadmill::sampler::GaveUp;
 use roadmill::wire;
 use std::collections::BTreeMap;
@@ -28,6 +28,7 @@ enum Record {
     Beginning(Beginning),
     Set(Set),
     End(End),
+    FullSet(FullSet),
 }
 
 /// What a file holds, and what it was made from.
@@ -46,6 +47,13 @@ struct Beginning {
 struct Set {
     ordinal: u64,
     made: Result<Increment, GaveUp>,
+}
+
+/// A set that a [`Set`] cannot say.
+#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+struct FullSet {
+    ordinal: u64,
+    made: Full<Increment>,
 }
 
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
@@ -109,7 +117,10 @@ impl SetsWriter {
     /// Exit code 1: the file cannot be written.
     pub fn set(&mut self, ordinal: u64, made: Result<Increment, GaveUp>) -> Result<(), Failure> {
         self.sets += 1;
-        self.append(&Record::Set(Set { ordinal, made }))
+        self.append(&match made {
+            Ok(made) if !made.is_plain() => Record::FullSet(FullSet { ordinal, made: Full(made) }),
+            made => Record::Set(Set { ordinal, made }),
+        })
     }
 
     /// Ends the file, makes it durable and gives it its name.
@@ -225,6 +236,9 @@ impl SetFiles {
             Ok(Record::Set(set)) if Digest::of(&payload) == place.hash => {
                 Ok(Some(Outcome::Increment(set.made)))
             }
+            Ok(Record::FullSet(set)) if Digest::of(&payload) == place.hash => {
+                Ok(Some(Outcome::Increment(Ok(set.made.0))))
+            }
             _ => Err(Failure::new(
                 Code::BrokenRun,
                 format!(
@@ -275,7 +289,8 @@ impl SetFiles {
         let file = self.paths.len();
         for expected in first..end {
             match next(&mut frames, &path)? {
-                Record::Set(Set { ordinal, .. }) if ordinal == expected => {}
+                Record::Set(Set { ordinal, .. }) | Record::FullSet(FullSet { ordinal, .. })
+                    if ordinal == expected => {}
                 _ => return Err(damaged(&frames, &path, &format!("set {expected} expected"))),
             }
             let payload = frames.payload();
@@ -362,9 +377,9 @@ sets = 4
     fn made(value: f64) -> Result<Increment, GaveUp> {
         let problem = Problem::parse(Path::new("p.toml"), PROBLEM).expect("it is sound");
         let setup = roadmill::img::Setup::new(problem);
-        let mut scratch = roadmill::validity::Scratch::new();
+        let mut scratch = roadmill::model::Scratch::new();
         let ordinal = value as u64;
-        setup.problem.strategies[0].generate(&setup.cx, ordinal, &mut scratch)
+        setup.problem.strategies[0].generate(&setup.cx, ordinal, None, &mut scratch)
     }
 
     #[test]

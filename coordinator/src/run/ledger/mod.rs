@@ -13,7 +13,7 @@ mod writer;
 pub use durable::{DURABLE, DurableFile};
 pub use frame::Mark;
 pub use reader::LedgerReader;
-pub use record::{Chapter, Judged, Record, RoundEnd, Set};
+pub use record::{Chapter, FullSet, Judged, Record, RoundEnd, SecondChapter, Set};
 pub use replay::{Replay, Told};
 pub use scan::Scan;
 pub use stopped::{Stopped, name as job_name};

@@ -1,12 +1,15 @@
 //! What the records hold. `docs/ledger.md` describes their bytes.
 
 use super::stopped::Stopped;
+use bincode::de::Decoder;
+use bincode::enc::Encoder;
+use bincode::error::{DecodeError, EncodeError};
 use bincode::{Decode, Encode};
 use roadmill::evaluate::Verdict;
 use roadmill::img::{Joined, RoundSet};
-use roadmill::problem::Problem;
-use roadmill::roadmap::{Digest, Increment};
-use roadmill::wire::{self, WireError};
+use roadmill::problem::{Layout, Problem};
+use roadmill::roadmap::{Digest, Full, Increment};
+use roadmill::wire::WireError;
 use roadmill::{BITS_VERSION, SourceFile};
 use std::sync::Arc;
 
@@ -23,10 +26,14 @@ pub enum Record {
     Judged(Judged),
     /// The build stopped.
     Stopped(Stopped),
+    /// A set that a [`Record::Set`] cannot say.
+    FullSet(FullSet),
+    /// A chapter whose problem has the second layout.
+    SecondChapter(SecondChapter),
 }
 
 /// How a build goes on from a round.
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Chapter {
     /// Its first round.
     pub first_round: u64,
@@ -44,13 +51,64 @@ pub struct Chapter {
     pub problem_digest: Digest,
     /// The files that the problem came from.
     pub sources: Vec<SourceFile>,
-    /// The bytes of the [`Problem`] as this program's version lays them out.
+    /// The bytes of the [`Problem`].
     pub problem: Vec<u8>,
+    /// How they are laid out, which the record's kind says.
+    pub layout: Layout,
 }
+
+/// A [`Chapter`] whose problem has the second layout.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SecondChapter(pub Box<Chapter>);
+
+impl Encode for Chapter {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        let Chapter { first_round, program, bits_version, name, seed, dofs, .. } = self;
+        (first_round, program, bits_version, name, seed, dofs).encode(encoder)?;
+        (&self.problem_digest, &self.sources, &self.problem).encode(encoder)
+    }
+}
+
+impl<Context> Decode<Context> for Chapter {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Chapter, DecodeError> {
+        let (first_round, program, bits_version, name, seed, dofs) = Decode::decode(decoder)?;
+        let (problem_digest, sources, problem) = Decode::decode(decoder)?;
+        Ok(Chapter {
+            first_round,
+            program,
+            bits_version,
+            name,
+            seed,
+            dofs,
+            problem_digest,
+            sources,
+            problem,
+            layout: Layout::First,
+        })
+    }
+}
+
+bincode::impl_borrow_decode!(Chapter);
+
+impl Encode for SecondChapter {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        self.0.encode(encoder)
+    }
+}
+
+impl<Context> Decode<Context> for SecondChapter {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Self, DecodeError> {
+        let chapter =
+            Chapter { layout: Layout::Second, ..<Chapter as Decode<Context>>::decode(decoder)? };
+        Ok(SecondChapter(Box::new(chapter)))
+    }
+}
+bincode::impl_borrow_decode!(SecondChapter);
 
 impl Chapter {
     /// The chapter of a problem, from a round on.
     pub fn new(first_round: u64, problem: &Problem) -> Chapter {
+        let (layout, bytes) = problem.to_bytes();
         Chapter {
             first_round,
             program: env!("CARGO_PKG_VERSION").to_owned(),
@@ -60,7 +118,8 @@ impl Chapter {
             dofs: problem.space().len() as u32,
             problem_digest: problem.digest(),
             sources: problem.sources.clone(),
-            problem: wire::encode(problem),
+            problem: bytes,
+            layout,
         }
     }
 
@@ -69,7 +128,15 @@ impl Chapter {
     /// # Errors
     /// When another version of the program wrote it, in another layout.
     pub fn decode(&self) -> Result<Problem, WireError> {
-        wire::decode(&self.problem)
+        Problem::from_bytes(self.layout, &self.problem)
+    }
+
+    /// The record of the chapter.
+    pub fn into_record(self) -> Record {
+        match self.layout {
+            Layout::First => Record::Chapter(Box::new(self)),
+            Layout::Second => Record::SecondChapter(SecondChapter(Box::new(self))),
+        }
     }
 }
 
@@ -86,6 +153,59 @@ pub struct Set {
     pub increment: Arc<Increment>,
     /// How it is joined.
     pub joined: Joined,
+}
+
+/// A set that grew from the roadmap, or whose nodes have values or whose edges directed costs, and how it is
+/// joined to what came before it.
+#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+pub struct FullSet {
+    /// Its place.
+    pub place: u64,
+    /// The label of its strategy.
+    pub label: String,
+    /// Its ordinal within the label.
+    pub ordinal: u64,
+    /// Of a set that grew: the digest of the roadmap that it read.
+    pub read: Option<Digest>,
+    /// What it adds.
+    pub increment: Full<Increment>,
+    /// How it is joined.
+    pub joined: Full<Joined>,
+}
+
+/// The bytes of a [`Record::FullSet`], of a set that stays where it is.
+#[derive(Clone, Debug, Encode)]
+pub struct WrittenFullSet<'a> {
+    tag: [u8; 4],
+    place: u64,
+    label: &'a str,
+    ordinal: u64,
+    read: Option<Digest>,
+    increment: Full<&'a Increment>,
+    joined: Full<&'a Joined>,
+}
+
+impl WrittenFullSet<'_> {
+    /// The record of a set that was folded; `None` where a [`WrittenSet`] says it. `roadmap` is the digest of
+    /// the roadmap at the start of the round.
+    pub fn new<'a>(
+        set: &'a RoundSet,
+        problem: &'a Problem,
+        roadmap: Digest,
+    ) -> Option<WrittenFullSet<'a>> {
+        let strategy = &problem.strategies[set.strategy as usize];
+        let grows = strategy.generator.grows();
+        let is_plain = set.increment.is_plain() && set.joined.is_plain();
+        (grows || !is_plain).then(|| WrittenFullSet {
+            tag: FULL_SET_TAG,
+            place: set.place,
+            label: &strategy.label,
+            ordinal: set.ordinal,
+            read: grows.then_some(roadmap),
+            increment: Full(&set.increment),
+            joined: Full(&set.joined),
+        })
+    }
 }
 
 /// The bytes of a [`Record::Set`], of a set that stays where it is.
@@ -141,8 +261,10 @@ pub struct Judged {
 
 /// The first bytes of the payload of a [`Record::Set`].
 const SET_TAG: [u8; 4] = 1u32.to_le_bytes();
+/// The same of a [`Record::FullSet`].
+const FULL_SET_TAG: [u8; 4] = 5u32.to_le_bytes();
 
 /// Whether a payload is that of a set, which those who follow a build from afar need not decode.
 pub fn is_set(payload: &[u8]) -> bool {
-    payload.starts_with(&SET_TAG)
+    payload.starts_with(&SET_TAG) || payload.starts_with(&FULL_SET_TAG)
 }

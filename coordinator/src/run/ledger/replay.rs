@@ -1,10 +1,11 @@
 use super::reader::LedgerReader;
-use super::record::{Judged, Record, Set};
+use super::record::{FullSet, Judged, Record, Set};
 use super::scan::Scan;
 use crate::exit::Failure;
 use roadmill::img::{Plan, Round, RoundSet};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Tally};
+use std::sync::Arc;
 
 /// What a ledger tells of a build, in order.
 pub enum Told {
@@ -25,7 +26,12 @@ pub struct Replay<'a> {
     nodes: u64,
     round: u64,
     dofs: usize,
+    /// How many numbers the model gives every milestone.
+    values: usize,
     chapters: usize,
+    /// Digest and nodes of the roadmap at the start of the round.
+    roadmap: Digest,
+    folded: u64,
 }
 
 impl<'a> Replay<'a> {
@@ -36,7 +42,22 @@ impl<'a> Replay<'a> {
     pub fn new(scan: &'a Scan, problem: &'a Problem) -> Result<Replay<'a>, Failure> {
         let reader = LedgerReader::open(scan.folder())?;
         let (plan, dofs) = (Plan::new(problem), problem.space().len());
-        Ok(Replay { reader, scan, plan, problem, place: 0, nodes: 0, round: 0, dofs, chapters: 0 })
+        let values = problem.model.description().node_values().len();
+        let roadmap = Tally::new(&problem.space()).digest();
+        Ok(Replay {
+            reader,
+            scan,
+            plan,
+            problem,
+            place: 0,
+            nodes: 0,
+            round: 0,
+            dofs,
+            values,
+            chapters: 0,
+            roadmap,
+            folded: 0,
+        })
     }
 
     /// The next round or judgement, up to the scan's end.
@@ -47,7 +68,12 @@ impl<'a> Replay<'a> {
         let mut sets = Vec::new();
         while self.reader.at().offset < self.scan.end.offset {
             match self.reader.next_record()? {
-                Some(Record::Set(set)) => sets.push(self.set(set)?),
+                Some(Record::Set(set)) => sets.push(self.set(set, None)?),
+                Some(Record::FullSet(full)) => {
+                    let FullSet { place, label, ordinal, read, increment, joined } = full;
+                    let (increment, joined) = (Arc::new(increment.0), joined.0);
+                    sets.push(self.set(Set { place, label, ordinal, increment, joined }, read)?);
+                }
                 Some(Record::RoundEnd(end)) => {
                     let places = self.plan.places_of(self.round);
                     if self.place != places.end || end.nodes != self.nodes {
@@ -55,12 +81,13 @@ impl<'a> Replay<'a> {
                     }
                     let index = self.round;
                     self.round += 1;
+                    (self.roadmap, self.folded) = (end.roadmap, end.nodes);
                     let round = Round { index, sets };
                     self.plan.observe(&round);
                     return Ok(Some(Told::Round(round, end.roadmap)));
                 }
                 Some(Record::Judged(judged)) => return Ok(Some(Told::Judged(judged))),
-                Some(Record::Chapter(_)) => self.chapters += 1,
+                Some(Record::Chapter(_) | Record::SecondChapter(_)) => self.chapters += 1,
                 Some(Record::Stopped(_)) => {}
                 None => break,
             }
@@ -86,21 +113,28 @@ impl<'a> Replay<'a> {
     }
 
     /// A set whose folding cannot go out of range, and which is the one that comes here.
-    fn set(&mut self, set: Set) -> Result<RoundSet, Failure> {
+    fn set(&mut self, set: Set, read: Option<Digest>) -> Result<RoundSet, Failure> {
         let Some((strategy, ordinal)) = self.plan.set_at(self.place) else {
             return Err(self.reader.wrong("more sets than its round has"));
         };
-        let label = &self.problem.strategies[strategy as usize].label;
+        let strategy_of = &self.problem.strategies[strategy as usize];
+        let label = &strategy_of.label;
         if (set.place, &set.label, set.ordinal) != (self.place, label, ordinal) {
             let found = format!("set {}:{} at place {}", set.label, set.ordinal, set.place);
             let expected = format!("{label}:{ordinal} at place {}", self.place);
             return Err(self.reader.wrong(&format!("{found} found, {expected} expected")));
         }
+        let grows = strategy_of.generator.grows();
+        if read != grows.then_some(self.roadmap) {
+            return Err(self.reader.wrong("not the roadmap that the set grew from"));
+        }
         self.nodes += set.increment.configs.len() as u64;
         let joins = &set.joined.edges;
         let sound = self.nodes < u64::from(u32::MAX)
-            && set.increment.is_sound(self.dofs)
-            && joins.iter().all(|e| e.low < e.high && u64::from(e.high) < self.nodes);
+            && set.increment.is_sound(self.dofs, self.values, if grows { self.folded } else { 0 })
+            && joins.iter().all(|edge| {
+                edge.low < edge.high && u64::from(edge.high) < self.nodes && edge.cost.is_sound()
+            });
         if !sound {
             return Err(self.reader.wrong("a set that cannot be"));
         }

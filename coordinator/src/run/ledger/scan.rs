@@ -1,6 +1,6 @@
 use super::frame::Mark;
 use super::reader::LedgerReader;
-use super::record::{Chapter, Judged, Record, RoundEnd, is_set};
+use super::record::{Chapter, Judged, Record, RoundEnd, SecondChapter, is_set};
 use super::stopped::Stopped;
 use crate::exit::{Code, Failure};
 use roadmill::BITS_VERSION;
@@ -84,7 +84,8 @@ impl Scan {
 
     /// Takes in a record that is no set, after `sets` sets.
     fn take(&mut self, record: Record, sets: u64) -> Result<(), String> {
-        if self.chapters.is_empty() && !matches!(record, Record::Chapter(_)) {
+        let is_chapter = matches!(record, Record::Chapter(_) | Record::SecondChapter(_));
+        if self.chapters.is_empty() && !is_chapter {
             return Err("the beginning is missing".to_owned());
         }
         if sets > 0 && !matches!(record, Record::RoundEnd(_)) {
@@ -92,7 +93,9 @@ impl Scan {
         }
         self.stopped = None;
         match record {
-            Record::Chapter(chapter) if chapter.first_round == self.rounds() => {
+            Record::Chapter(chapter) | Record::SecondChapter(SecondChapter(chapter))
+                if chapter.first_round == self.rounds() =>
+            {
                 self.chapters.push(*chapter);
                 self.verdicts = None;
             }
@@ -108,7 +111,12 @@ impl Scan {
                 self.verdicts = Some(verdicts);
             }
             Record::Stopped(stopped) => self.stopped = Some(stopped),
-            Record::Chapter(_) | Record::RoundEnd(_) | Record::Judged(_) | Record::Set(_) => {
+            Record::Chapter(_)
+            | Record::SecondChapter(_)
+            | Record::RoundEnd(_)
+            | Record::Judged(_)
+            | Record::Set(_)
+            | Record::FullSet(_) => {
                 return Err("a record out of turn".to_owned());
             }
         }

@@ -1,6 +1,6 @@
 use super::durable::{DURABLE, DurableFile};
 use super::frame::{self, HEADING, Mark};
-use super::record::{Chapter, Judged, Record, RoundEnd, WrittenSet};
+use super::record::{Chapter, Judged, Record, RoundEnd, WrittenFullSet, WrittenSet};
 use super::scan::Scan;
 use super::stopped::Stopped;
 use super::{LEDGER, sync_folder};
@@ -9,7 +9,7 @@ use crate::exit::Failure;
 use crate::run::RunLock;
 use roadmill::img::{Judgement, Round};
 use roadmill::problem::Problem;
-use roadmill::roadmap::Tally;
+use roadmill::roadmap::{Digest, Tally};
 use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -36,6 +36,8 @@ pub struct LedgerWriter {
     at: Mark,
     /// What is durable of it.
     durable_offset: u64,
+    /// Digest of the roadmap after the last round.
+    roadmap: Digest,
     next_sync: Instant,
     spent: Duration,
     cpu: Meter,
@@ -51,7 +53,8 @@ impl LedgerWriter {
         let begin = || -> io::Result<LedgerWriter> {
             let file = File::options().write(true).create(true).truncate(true).open(&begun)?;
             let durable = DurableFile::create(folder)?;
-            Ok(LedgerWriter::new(folder, file, durable, lock, Mark::first()))
+            let roadmap = Tally::new(&problem.space()).digest();
+            Ok(LedgerWriter::new(folder, file, durable, lock, (Mark::first(), roadmap)))
         };
         let mut writer = begin().map_err(|error| cannot_write(&begun, &error))?;
         writer.file.write_all(HEADING).map_err(|error| cannot_write(&begun, &error))?;
@@ -69,25 +72,49 @@ impl LedgerWriter {
     ///
     /// # Errors
     /// Exit code 1: the file cannot be written.
-    pub fn resume(scan: &Scan, lock: RunLock) -> Result<(LedgerWriter, Option<PathBuf>), Failure> {
+    pub fn resume(
+        scan: &Scan,
+        problem: &Problem,
+        lock: RunLock,
+    ) -> Result<(LedgerWriter, Option<PathBuf>), Failure> {
         let folder = scan.folder();
         let path = folder.join(LEDGER);
         let open = || -> io::Result<(LedgerWriter, Option<PathBuf>)> {
             let mut file = File::options().read(true).write(true).open(&path)?;
             let saved = cut_tail(folder, &mut file, scan.end.offset)?;
             let durable = DurableFile::open(folder)?;
-            Ok((LedgerWriter::new(folder, file, durable, lock, scan.end), saved))
+            let empty = || Tally::new(&problem.space()).digest();
+            let roadmap = scan.last_round.as_ref().map_or_else(empty, |end| end.roadmap);
+            Ok((LedgerWriter::new(folder, file, durable, lock, (scan.end, roadmap)), saved))
         };
         let (mut writer, saved) = open().map_err(|error| cannot_write(&path, &error))?;
         writer.sync_all()?;
         Ok((writer, saved))
     }
 
-    fn new(folder: &Path, file: File, durable: DurableFile, lock: RunLock, at: Mark) -> Self {
+    fn new(
+        folder: &Path,
+        file: File,
+        durable: DurableFile,
+        lock: RunLock,
+        (at, roadmap): (Mark, Digest),
+    ) -> Self {
         let path = folder.join(LEDGER);
         let (next_sync, spent, cpu) = (Instant::now(), Duration::ZERO, Meter::default());
         let (bytes, durable_offset) = (Vec::new(), 0);
-        LedgerWriter { path, file, durable, lock, bytes, at, durable_offset, next_sync, spent, cpu }
+        LedgerWriter {
+            path,
+            file,
+            durable,
+            lock,
+            bytes,
+            at,
+            durable_offset,
+            roadmap,
+            next_sync,
+            spent,
+            cpu,
+        }
     }
 
     /// Appends the beginning of a chapter and makes it durable.
@@ -96,7 +123,7 @@ impl LedgerWriter {
     /// Exit code 1: the file cannot be written.
     pub fn chapter(&mut self, first_round: u64, problem: &Problem) -> Result<(), Failure> {
         let chapter = Chapter::new(first_round, problem);
-        self.append_one(&Record::Chapter(Box::new(chapter)))?;
+        self.append_one(&chapter.into_record())?;
         self.sync_all()
     }
 
@@ -118,9 +145,13 @@ impl LedgerWriter {
             components: tally.components() as u64,
             roadmap: tally.digest(),
         };
+        let before = std::mem::replace(&mut self.roadmap, end.roadmap);
         self.append(|bytes, mut at| {
             for set in &round.sets {
-                at = frame::append(bytes, &at, &WrittenSet::new(set, problem));
+                at = match WrittenFullSet::new(set, problem, before) {
+                    Some(full) => frame::append(bytes, &at, &full),
+                    None => frame::append(bytes, &at, &WrittenSet::new(set, problem)),
+                };
             }
             frame::append(bytes, &at, &Record::RoundEnd(end))
         })?;

@@ -1,0 +1,92 @@
+//! Generators: what makes a node set. One file per method.
+//!
+//! A generator makes an increment of the roadmap, a pure function of the problem, the set's seed and what the
+//! generator says that it reads. One that reads nothing is given out to workers ahead of the rounds; one
+//! that *grows* the roadmap reads it as it was at the start of the set's round.
+
+mod sample;
+
+methods! {
+    /// The generators, as a problem file names them.
+    pub enum GeneratorKind: dyn Generator {
+        Sample(sample::Sample), // new ones at the end, since ledgers know methods by number
+    }
+}
+
+pub use sample::Sample;
+
+use crate::context::Context;
+use crate::methods::{Complaint, methods};
+use crate::model::Scratch;
+use crate::roadmap::{Increment, Roadmap};
+use crate::sampler::GaveUp;
+use crate::seed::Seed;
+
+/// What a generator reads beside the problem and its seed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reads {
+    /// Nothing: sets can be made in any order, in any place, at any time.
+    Nothing,
+    /// The roadmap as it was at the start of the set's round.
+    Roadmap,
+}
+
+/// A way of making node sets.
+pub trait Generator {
+    /// What the method reads.
+    fn reads(&self) -> Reads {
+        Reads::Nothing
+    }
+
+    /// Makes an increment of `count` milestones. All randomness comes from the streams of `seed`. `frozen` is
+    /// the roadmap at the start of the round, for a method that [`reads`](Generator::reads) it; for others it
+    /// is to be passed over.
+    ///
+    /// # Errors
+    /// [`GaveUp`] when the method's bound on attempts is reached; it never spins.
+    fn generate(
+        &self,
+        cx: &Context,
+        seed: &Seed,
+        count: usize,
+        frozen: Option<&Roadmap>,
+        scratch: &mut Scratch,
+    ) -> Result<Increment, GaveUp>;
+
+    /// What is wrong with the settings.
+    fn complaint(&self) -> Option<Complaint> {
+        None
+    }
+
+    /// Whether the method is defined for the problem.
+    ///
+    /// # Errors
+    /// Says what it cannot work with.
+    fn suits(&self, _cx: &Context) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+impl GeneratorKind {
+    /// The sampler and the connection within sets, of the method that has them.
+    pub fn as_sample(&self) -> Option<&Sample> {
+        match self {
+            GeneratorKind::Sample(sample) => Some(sample),
+            _ => None,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn as_sample_mut(&mut self) -> Option<&mut Sample> {
+        match self {
+            GeneratorKind::Sample(sample) => Some(sample),
+            _ => None,
+        }
+    }
+
+    /// Whether the method reads the roadmap at the start of its sets' rounds.
+    pub fn grows(&self) -> bool {
+        self.method().reads() == Reads::Roadmap
+    }
+}
+

@@ -1,0 +1,90 @@
+//! What `check` says of bodies.
+
+use super::Bodies;
+use super::robot::{JointKind, Limits};
+use super::validity::{BoundsMeaning, Edges, TOLERANCE};
+use crate::scene::{Body, Shape};
+use crate::space::Motion;
+use std::fmt::Write;
+
+pub(super) fn describe(bodies: &Bodies, out: &mut String) -> std::fmt::Result {
+    let bounds = &bodies.bounds;
+    let base = match bodies.robot.motion {
+        Motion::Fixed => "the base stands still",
+        Motion::Translation2d => "x y: the base's place in the plane z = 0",
+        Motion::Rigid2d => {
+            "x y theta: the base's pose in the plane; theta in radians, in [-pi, pi)"
+        }
+        Motion::Translation3d => "x y z: the base's place",
+        Motion::Rigid3d => "x y z qw qx qy qz: the base's pose; a unit quaternion, w first",
+    };
+    writeln!(out, "                 {base}, its frame in the world's")?;
+    for joint in bodies.robot.links.iter().filter_map(|link| link.joint.as_ref()) {
+        let name = &joint.name;
+        match joint.kind {
+            JointKind::Fixed => {}
+            JointKind::Revolute { limits: None, .. } => {
+                writeln!(out, "                 {name}: turns on and on; radians, in [-pi, pi)")?;
+            }
+            JointKind::Revolute { limits: Some(Limits { min, max }), .. } => {
+                writeln!(out, "                 {name}: turns from {min} to {max} radians")?;
+            }
+            JointKind::Spherical => {
+                writeln!(out, "                 {name}: turns in every way; a unit quaternion")?;
+            }
+            JointKind::Prismatic { limits: Limits { min, max }, .. } => {
+                writeln!(out, "                 {name}: slides from {min} to {max}")?;
+            }
+        }
+    }
+    let pairs = bodies.robot.self_pairs().len();
+    if bodies.robot.links.len() > 1 {
+        let links = bodies.robot.links.len();
+        writeln!(out, "                 {links} links, {pairs} pairs of which must not touch")?;
+    }
+    writeln!(out, "                 lengths in the unit of the file")?;
+    let axes = bodies.robot.motion.bounded_axes();
+    let meaning = match bounds.meaning {
+        BoundsMeaning::Body => "hold every robot point and the reference point",
+        BoundsMeaning::Reference => "hold the reference point, the origin of the robot's frame",
+    };
+    writeln!(
+        out,
+        "bounds           {:?} to {:?}, {meaning}",
+        &bounds.min[..axes],
+        &bounds.max[..axes]
+    )?;
+    let promise = match bodies.edges {
+        Edges::Swept => format!("motions are free at all times, to a {TOLERANCE}th of it"),
+        Edges::Sampled => "no robot point moves farther between two checks".to_owned(),
+    };
+    writeln!(out, "resolution       {}: {promise}", bodies.resolution)?;
+    if bodies.robot.motion.rotates() {
+        writeln!(
+            out,
+            "rotation_length  {}: what a radian counts for in the metric",
+            bodies.rotation_length
+        )?;
+    }
+    let robot: Vec<Body> = bodies.robot.bodies().cloned().collect();
+    for (what, shown) in [("robot", &robot), ("obstacles", &bodies.obstacles)] {
+        let triangles: usize = shown
+            .iter()
+            .map(|body| if let Shape::Mesh(mesh) = &body.shape { mesh.triangles.len() } else { 0 })
+            .sum();
+        let mut shapes: Vec<(&str, usize)> = Vec::new();
+        for body in shown {
+            match shapes.iter_mut().find(|(name, _)| *name == body.shape.name()) {
+                Some((_, count)) => *count += 1,
+                None => shapes.push((body.shape.name(), 1)),
+            }
+        }
+        let shapes: Vec<_> = shapes.iter().map(|(name, count)| format!("{count} {name}")).collect();
+        let shapes = if shapes.is_empty() { "none".to_owned() } else { shapes.join(", ") };
+        match triangles {
+            0 => writeln!(out, "{what:<16} {shapes}")?,
+            _ => writeln!(out, "{what:<16} {shapes} ({triangles} triangles)")?,
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,110 @@
+//! What `urdf-rs` cannot say or lets pass: lines, broken numbers, and what is not supported.
+
+use crate::model::bodies::foreign::ForeignError;
+use crate::scene::LENGTH_MAX;
+use roxmltree::{Document, Node};
+use std::path::Path;
+
+/// How deep elements may be nested; a collision's shape is the fifth.
+const DEPTH_MAX: usize = 64;
+
+/// Lines of the elements, in the order of the file.
+pub(super) struct Lines {
+    /// Of each link and of its collisions.
+    pub links: Vec<(usize, Vec<usize>)>,
+    /// Of each joint.
+    pub joints: Vec<usize>,
+}
+
+impl Lines {
+    /// Parses the file. Document type definitions are refused, so no entity makes a small file large.
+    pub fn of(path: &Path, text: &str) -> Result<Lines, ForeignError> {
+        let document = Document::parse(text).map_err(|error| {
+            ForeignError::line(path, error.pos().row as usize, format!("not a URDF: {error}"))
+        })?;
+        let line = |node: Node| document.text_pos_at(node.range().start).row as usize;
+        let root = document.root_element();
+        for node in root.descendants().filter(Node::is_element) {
+            check(node).map_err(|message| ForeignError::line(path, line(node), message))?;
+        }
+        let named = |parent: Node<'_, '_>, name: &'static str| {
+            let children = parent.children().filter(move |node| node.has_tag_name(name));
+            children.map(line).collect::<Vec<_>>()
+        };
+        let links = root.children().filter(|node| node.has_tag_name("link"));
+        Ok(Lines {
+            links: links.map(|link| (line(link), named(link, "collision"))).collect(),
+            joints: named(root, "joint"),
+        })
+    }
+}
+
+fn check(node: Node) -> Result<(), String> {
+    let name = node.tag_name().name();
+    if node.tag_name().namespace().is_some_and(|space| space.contains("xacro")) {
+        return Err(format!("<xacro:{name}> found; a URDF that xacro has expanded expected"));
+    }
+    if node.ancestors().count() > DEPTH_MAX {
+        return Err(format!("elements nested more than {DEPTH_MAX} deep"));
+    }
+    let parent = node.parent_element().map_or("", |parent| parent.tag_name().name());
+    match (parent, name) {
+        ("", "robot") => {}
+        ("", _) => return Err(format!("<{name}> found; <robot> expected")),
+        ("robot", "joint") => {
+            let kind = node.attribute("type").unwrap_or_default();
+            if !matches!(kind, "revolute" | "continuous" | "prismatic" | "fixed" | "spherical") {
+                let joint = node.attribute("name").unwrap_or_default();
+                let expected = "revolute, continuous, prismatic, spherical or fixed expected";
+                return Err(format!("joint `{joint}`: type `{kind}` found; {expected}"));
+            }
+        }
+        ("joint", "mimic") => {
+            let joint = node.parent_element().and_then(|joint| joint.attribute("name"));
+            let joint = joint.unwrap_or_default();
+            return Err(format!(
+                "joint `{joint}`: <mimic> found; a joint that moves by itself expected"
+            ));
+        }
+        _ => {}
+    }
+    for attribute in node.attributes() {
+        let (count, positive) = match (name, attribute.name()) {
+            ("origin" | "axis", "xyz") | ("origin", "rpy") | ("mesh", "scale") => (3, false),
+            ("box", "size") => (3, true),
+            ("sphere" | "cylinder" | "capsule", "radius" | "length") => (1, true),
+            ("limit", "lower" | "upper") => (1, false),
+            ("origin", "quat_xyzw") => {
+                return Err("quat_xyzw found; a rotation as rpy expected".to_owned());
+            }
+            _ => continue,
+        };
+        // Written so that NaN fails it.
+        let fits = |x: &f64| x.abs() <= LENGTH_MAX && (!positive || *x > 0.0);
+        let numbers = numbers(attribute.value());
+        if !numbers.is_some_and(|all| all.len() == count && all.iter().all(fits)) {
+            let (key, value) = (attribute.name(), attribute.value());
+            let kind = if positive { "positive" } else { "finite" };
+            let expected = if count == 1 { "a" } else { "three" };
+            let plural = if count == 1 { "" } else { "s" };
+            return Err(format!(
+                "{key} = `{value}` found; {expected} {kind} number{plural} expected"
+            ));
+        }
+    }
+    if name == "limit" {
+        let end = |key| node.attribute(key).and_then(|text| text.trim().parse::<f64>().ok());
+        if let (Some(lower), Some(upper)) = (end("lower"), end("upper"))
+            && lower > upper
+        {
+            return Err(format!(
+                "limits {lower} to {upper} found; a least and a largest value expected"
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn numbers(text: &str) -> Option<Vec<f64>> {
+    text.split_whitespace().map(|word| word.parse().ok()).collect()
+}

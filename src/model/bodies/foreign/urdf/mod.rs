@@ -1,0 +1,282 @@
+//! URDF: a robot without a scene. The file is read by `urdf-rs`; what that library lets pass or cannot
+//! place in the file is checked before.
+
+mod lines;
+
+use super::bodies::{Meshes, Named};
+use super::error::read_text;
+use super::frames::roll_pitch_yaw;
+use super::{ForeignError, Solidity};
+use crate::digest::SourceFile;
+use crate::model::bodies::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, TURN_MAX};
+use crate::scene::{Body, LENGTH_MAX, MeshOptions, Pose, Shape};
+use lines::Lines;
+use std::collections::BTreeMap;
+use std::path::Path;
+use urdf_rs::{Geometry, JointType};
+
+/// How many folders above the file's own are searched for a package.
+const LEVELS_MAX: usize = 32;
+
+/// A robot without a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UrdfRobot {
+    /// Its links in the order of a walk from the root, with the shapes that are meant for collision
+    /// tests.
+    pub links: Vec<Link>,
+    /// What the reader decided, for people to read.
+    pub notes: Vec<String>,
+    /// The files read: the robot's own first.
+    pub sources: Vec<SourceFile>,
+}
+
+/// Reads a robot. Meshes are solid if they are closed.
+///
+/// # Errors
+/// Names the file and line: no XML, a joint that is not supported, joints that make no tree, limits
+/// inside out, a shape without extent, a mesh that cannot be read.
+pub fn read_urdf(path: &Path) -> Result<UrdfRobot, ForeignError> {
+    let text = read_text(path)?;
+    let lines = Lines::of(path, &text)?;
+    if let Some((line, _)) = lines.links.get(LINKS_MAX) {
+        let message = format!("more than {LINKS_MAX} links found");
+        return Err(ForeignError::line(path, *line, message));
+    }
+    let robot = urdf_rs::read_from_string(&text)
+        .map_err(|error| ForeignError::whole(path, format!("not a URDF: {error}")))?;
+    let mut reader = Reader { path, lines, meshes: Meshes::exact(), notes: Vec::new() };
+    reader.meshes.sources.push(SourceFile::named(path, text.as_bytes()));
+    let mut links = Vec::new();
+    for (link, joint) in reader.walk(&robot)? {
+        let joint = match joint {
+            None => None,
+            Some((joint, parent)) => Some(reader.joint(&robot.joints[joint], joint, parent)?),
+        };
+        let bodies = reader.bodies(&robot.links[link], link)?;
+        links.push(Link { name: robot.links[link].name.clone(), bodies, joint });
+    }
+    Ok(UrdfRobot { links, notes: reader.notes, sources: reader.meshes.sources })
+}
+
+/// Indices of a link and, unless it is the root, of the joint that moves it and of its parent in the
+/// order of the walk.
+type Step = (usize, Option<(usize, usize)>);
+
+struct Reader<'a> {
+    path: &'a Path,
+    lines: Lines,
+    meshes: Meshes,
+    notes: Vec<String>,
+}
+
+impl Reader<'_> {
+    fn at_joint(&self, joint: usize, message: impl Into<String>) -> ForeignError {
+        ForeignError::line(self.path, self.lines.joints[joint], message)
+    }
+
+    fn walk(&self, robot: &urdf_rs::Robot) -> Result<Vec<Step>, ForeignError> {
+        let (links, joints) = (&robot.links, &robot.joints);
+        let at_link =
+            |link: usize, message| ForeignError::line(self.path, self.lines.links[link].0, message);
+        let mut index_of = BTreeMap::new();
+        for (index, link) in links.iter().enumerate() {
+            if index_of.insert(link.name.as_str(), index).is_some() {
+                return Err(at_link(index, format!("a second link `{}` found", link.name)));
+            }
+        }
+        // The joint that each link hangs on.
+        let mut holder: Vec<Option<usize>> = vec![None; links.len()];
+        let mut children: Vec<Vec<(usize, usize)>> = vec![Vec::new(); links.len()];
+        for (index, joint) in joints.iter().enumerate() {
+            let name = &joint.name;
+            let end = |end: &str| {
+                index_of.get(end).copied().ok_or_else(|| {
+                    self.at_joint(index, format!("joint `{name}`: there is no link `{end}`"))
+                })
+            };
+            let (parent, child) = (end(&joint.parent.link)?, end(&joint.child.link)?);
+            if let Some(other) = holder[child] {
+                let (link, other) = (&joint.child.link, &joints[other].name);
+                let message = format!(
+                    "link `{link}` hangs on the joints `{other}` and `{name}`; a tree of links expected"
+                );
+                return Err(self.at_joint(index, message));
+            }
+            holder[child] = Some(index);
+            children[parent].push((index, child));
+        }
+        let mut roots = (0..links.len()).filter(|link| holder[*link].is_none());
+        let root = match (roots.next(), roots.next()) {
+            (Some(root), None) => root,
+            (Some(first), Some(second)) => {
+                let (first, name) = (&links[first].name, &links[second].name);
+                let message =
+                    format!("links `{first}` and `{name}` hang on nothing; one root expected");
+                return Err(at_link(second, message));
+            }
+            (None, _) if links.is_empty() => {
+                return Err(ForeignError::whole(
+                    self.path,
+                    "no links found; at least one expected",
+                ));
+            }
+            (None, _) => {
+                return Err(self.at_joint(0, "every link hangs on another; a root expected"));
+            }
+        };
+        let mut walk: Vec<Step> = vec![(root, None)];
+        let mut reached = 0;
+        while let Some((link, _)) = walk.get(reached) {
+            let below =
+                children[*link].iter().map(|(joint, child)| (*child, Some((*joint, reached))));
+            let below: Vec<Step> = below.collect();
+            walk.extend(below);
+            reached += 1;
+        }
+        if walk.len() < links.len() {
+            let lost = (0..links.len()).find(|link| walk.iter().all(|(other, _)| other != link));
+            let lost = lost.expect("one is missing");
+            let (name, root) = (&links[lost].name, &links[root].name);
+            let message =
+                format!("link `{name}` does not hang on the root `{root}`: a closed loop");
+            return Err(self.at_joint(holder[lost].expect("it is no root"), message));
+        }
+        Ok(walk)
+    }
+
+    fn joint(
+        &self,
+        joint: &urdf_rs::Joint,
+        index: usize,
+        parent: usize,
+    ) -> Result<Joint, ForeignError> {
+        let name = &joint.name;
+        let fail = |message: String| self.at_joint(index, format!("joint `{name}`: {message}"));
+        let axis = || {
+            let [x, y, z] = joint.axis.xyz.0;
+            let length = (x * x + y * y + z * z).sqrt();
+            if length.is_finite() && length > 1e-100 {
+                return Ok([x / length, y / length, z / length]);
+            }
+            Err(fail(format!("axis {:?} found; a direction expected", joint.axis.xyz.0)))
+        };
+        let limits = |most: f64| {
+            let (min, max) = (joint.limit.lower, joint.limit.upper);
+            if -most <= min && min <= max && max <= most {
+                return Ok(Limits { min, max });
+            }
+            let expected = format!("a least and a largest value within ±{most:e} expected");
+            Err(fail(format!("limits {min} to {max} found; {expected}")))
+        };
+        let kind = match joint.joint_type {
+            JointType::Fixed => JointKind::Fixed,
+            JointType::Continuous => JointKind::Revolute { axis: axis()?, limits: None },
+            JointType::Revolute => {
+                JointKind::Revolute { axis: axis()?, limits: Some(limits(TURN_MAX)?) }
+            }
+            JointType::Prismatic => {
+                JointKind::Prismatic { axis: axis()?, limits: limits(LENGTH_MAX)? }
+            }
+            JointType::Spherical => JointKind::Spherical,
+            JointType::Floating | JointType::Planar => {
+                return Err(fail("its type is not supported".to_owned()));
+            }
+        };
+        let before = pose(&joint.origin);
+        Ok(Joint { name: name.clone(), parent: parent as u32, kind, before, after: Pose::IDENTITY })
+    }
+
+    fn bodies(&mut self, link: &urdf_rs::Link, index: usize) -> Result<Vec<Body>, ForeignError> {
+        let mut bodies = Vec::new();
+        if link.collision.is_empty() && !link.visual.is_empty() {
+            let what = "only shapes to be looked at, none for collision tests: it touches nothing";
+            self.notes.push(format!("link `{}` has {what}", link.name));
+        }
+        for (number, collision) in link.collision.iter().enumerate() {
+            let line = self.lines.links[index].1[number];
+            let pose = pose(&collision.origin);
+            let shape = match &collision.geometry {
+                Geometry::Mesh { filename, scale } => {
+                    let scale = scale.map_or([1.0; 3], |scale| scale.0);
+                    let what = format!("link `{}`, collision {number}", link.name);
+                    bodies.push(self.mesh(&what, line, filename, scale, pose)?);
+                    continue;
+                }
+                Geometry::Box { size } => Shape::Box { size: size.0 },
+                Geometry::Sphere { radius } => Shape::Sphere { radius: *radius },
+                Geometry::Cylinder { radius, length } => {
+                    Shape::Cylinder { radius: *radius, height: *length }
+                }
+                Geometry::Capsule { radius, length } => {
+                    Shape::Capsule { radius: *radius, height: *length }
+                }
+            };
+            bodies.push(Body { shape, pose, solid: true });
+        }
+        Ok(bodies)
+    }
+
+    fn mesh(
+        &mut self,
+        what: &str,
+        line: usize,
+        filename: &str,
+        scale: [f64; 3],
+        pose: Pose,
+    ) -> Result<Body, ForeignError> {
+        let file = self.resolve(filename).map_err(|m| ForeignError::line(self.path, line, m))?;
+        let named = Named { scene: self.path, line, file: &file };
+        if scale.contains(&0.0) {
+            return Err(named.error("scale = 0 found; another factor expected"));
+        }
+        let mut options = MeshOptions { scale, ..MeshOptions::default() };
+        let (mut body, mut read) = self.meshes.body(&named, &options, pose, Solidity::Auto)?;
+        if let Some(metres) = read.unit_metres
+            && metres != 1.0
+        {
+            options.scale = scale.map(|factor| factor * metres);
+            (body, read) = self.meshes.body(&named, &options, pose, Solidity::Auto)?;
+            self.notes
+                .push(format!("{what}: lengths times {metres}, the metres of the file's unit"));
+        }
+        let solid = body.body.solid;
+        let why = match read.odd_edges {
+            0 => "the mesh is closed".to_owned(),
+            odd => format!("the mesh has {odd} open edges"),
+        };
+        self.notes.push(format!("{what} ({file}): solid = {solid}, as {why}"));
+        Ok(body.body)
+    }
+
+    /// The path of a mesh from the file's folder. Packages are searched for by going up from there.
+    fn resolve(&self, filename: &str) -> Result<String, String> {
+        let Some(path) = filename.strip_prefix("package://") else {
+            let path = filename.strip_prefix("file://").unwrap_or(filename);
+            if path.contains("://") {
+                let expected = "a path, file:// or package:// expected";
+                return Err(format!("`{filename}` found; {expected}"));
+            }
+            return Ok(path.to_owned());
+        };
+        let within = path.split_once('/').map_or("", |(_, within)| within);
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        let mut up = String::new();
+        for _ in 0..LEVELS_MAX {
+            for candidate in [within, path] {
+                let file = format!("{up}{candidate}");
+                if folder.join(&file).is_file() {
+                    return Ok(file);
+                }
+            }
+            up += "../";
+        }
+        Err(format!(
+            "`{filename}`: neither {within} nor {path} found in {} or a folder above it",
+            if folder == Path::new("") { Path::new(".") } else { folder }.display()
+        ))
+    }
+}
+
+fn pose(origin: &urdf_rs::Pose) -> Pose {
+    Pose { translation: origin.xyz.0, rotation: roll_pitch_yaw(origin.rpy.0) }
+}

@@ -1,0 +1,147 @@
+//! From the tables as written to a checked description.
+
+use super::Bodies;
+use super::linkage::robot_of;
+use super::robot::Robot;
+use super::shapes::{bodies, check_bodies};
+use super::tables::{SpaceTable, Tables};
+use super::validity::Bounds;
+use crate::scene::{Body, LENGTH_MAX};
+use crate::source::Step::Key;
+use crate::source::{ProblemError, Source};
+use crate::space::Motion;
+
+/// The finest resolution, as a fraction of the diagonal of the bounds.
+const FINEST: f64 = 1e-7;
+/// The farthest robot point, as a multiple of the same: with it a motion has at most 10¹⁵ steps.
+const RADIUS_MAX: f64 = 1e6;
+
+/// Reads rigid robots and obstacles.
+pub(super) fn read(source: &Source, notes: &mut Vec<String>) -> Result<Bodies, ProblemError> {
+    let tables: Tables = source.tables()?;
+    let bounds = bounds_of(source, &tables.space)?;
+    let robot = robot_of(source, &tables.robot, tables.space.motion, notes)?;
+    let obstacles = bodies(source, &[Key("obstacles")], &tables.obstacles, notes)?;
+    check_bodies(source, &robot, &obstacles)?;
+    let resolution = resolution_of(source, &tables.space, &bounds, &robot, notes)?;
+    let rotation_length = rotation_length_of(source, &tables.space, &robot, notes)?;
+    let edges = tables.space.edges;
+    Ok(Bodies { bounds, resolution, edges, rotation_length, robot, obstacles })
+}
+
+fn bounds_of(source: &Source, space: &SpaceTable) -> Result<Bounds, ProblemError> {
+    let axes = space.motion.bounded_axes();
+    let mut box_of = [[0.0; 3]; 2];
+    for (corner, (key, values)) in box_of.iter_mut().zip([("min", &space.min), ("max", &space.max)])
+    {
+        let place = [Key("space"), Key(key)];
+        if values.len() != axes {
+            let message = format!("{} values found; {axes} expected", values.len());
+            return Err(source.error(&place, message));
+        }
+        for (axis, value) in values.iter().enumerate() {
+            if value.abs() > LENGTH_MAX || value.is_nan() {
+                let message = format!("{value} found; a finite number expected");
+                return Err(source.error(&place, message));
+            }
+            corner[axis] = *value;
+        }
+    }
+    let [min, max] = box_of;
+    for axis in 0..axes {
+        if min[axis] >= max[axis] {
+            let (name, low, high) = (["x", "y", "z"][axis], min[axis], max[axis]);
+            let message = format!("in {name} max = {high} found; more than min = {low} expected");
+            return Err(source.error(&[Key("space"), Key("max")], message));
+        }
+    }
+    Ok(Bounds { min, max, meaning: space.bounds })
+}
+
+fn resolution_of(
+    source: &Source,
+    space: &SpaceTable,
+    bounds: &Bounds,
+    robot: &Robot,
+    notes: &mut Vec<String>,
+) -> Result<f64, ProblemError> {
+    let diagonal = diagonal_of(bounds, robot.motion);
+    if let Some(message) = too_far(robot, diagonal) {
+        return Err(source.error(&[Key("robot")], message));
+    }
+    if let Some(resolution) = space.resolution {
+        if !(resolution.is_finite() && resolution >= FINEST * diagonal) {
+            let expected = format!("a length of at least {:e} expected", FINEST * diagonal);
+            let message = format!("{resolution} found; {expected}");
+            return Err(source.error(&[Key("space"), Key("resolution")], message));
+        }
+        return Ok(resolution);
+    }
+    Ok(default_resolution(diagonal, robot, notes))
+}
+
+/// Complains of a robot whose motions would have too many steps.
+pub(super) fn too_far(robot: &Robot, diagonal: f64) -> Option<String> {
+    let radius = robot.reach();
+    (radius > RADIUS_MAX * diagonal).then(|| {
+        format!(
+            "robot points {radius} away from its reference point found; at most {RADIUS_MAX:e} times \
+             the diagonal of the bounds expected"
+        )
+    })
+}
+
+/// Fine enough for the scene as a whole and for the thinnest part of the robot.
+pub(super) fn default_resolution(diagonal: f64, robot: &Robot, notes: &mut Vec<String>) -> f64 {
+    let thinnest = robot.bodies().map(thickness).fold(f64::INFINITY, f64::min);
+    let mut resolution = diagonal / 200.0;
+    let mut reason = "a 200th of the diagonal of the bounds";
+    if thinnest > 0.0 && thinnest / 2.0 < resolution {
+        resolution = (thinnest / 2.0).max(FINEST * diagonal);
+        reason = "half the robot's thinnest extent";
+    }
+    notes.push(format!("resolution = {resolution}, {reason}"));
+    resolution
+}
+
+/// Length of the diagonal of the bounds.
+pub(super) fn diagonal_of(bounds: &Bounds, motion: Motion) -> f64 {
+    let square = |axis: usize| {
+        let edge = bounds.max[axis] - bounds.min[axis];
+        edge * edge
+    };
+    (0..motion.bounded_axes()).map(square).sum::<f64>().sqrt()
+}
+
+/// A radian of the base's rotation counts for the way of the farthest point.
+pub(super) fn default_rotation_length(robot: &Robot, notes: &mut Vec<String>) -> f64 {
+    let reach = robot.reach();
+    if robot.motion.rotates() {
+        let what = "the farthest robot point from the reference point";
+        notes.push(format!("rotation_length = {reach}, {what}"));
+    }
+    reach
+}
+
+/// The least extent of a body along the axes of its own frame; 0 for a point.
+fn thickness(body: &Body) -> f64 {
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let along = axes.map(|axis| body.shape.extent(axis) + body.shape.extent(axis.map(|x| -x)));
+    along.into_iter().fold(f64::INFINITY, f64::min)
+}
+
+fn rotation_length_of(
+    source: &Source,
+    space: &SpaceTable,
+    robot: &Robot,
+    notes: &mut Vec<String>,
+) -> Result<f64, ProblemError> {
+    let place = [Key("space"), Key("rotation_length")];
+    match space.rotation_length {
+        Some(length) if length.is_finite() && length >= 0.0 => Ok(length),
+        Some(length) => {
+            Err(source.error(&place, format!("{length} found; a length of at least 0 expected")))
+        }
+        None => Ok(default_rotation_length(robot, notes)),
+    }
+}

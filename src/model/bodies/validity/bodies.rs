@@ -1,0 +1,300 @@
+//! Validity of a robot of rigid links among obstacles.
+
+use super::BodyScratch;
+use super::frame::Stance;
+use super::light::grain;
+use super::meet::{Group, Meeting};
+use super::piece::Piece;
+use super::swept::Walls;
+use crate::lanes::Lanes;
+use crate::model::bodies::robot::{Chain, Rates, Robot, Speeds};
+use crate::model::{Clearance, Clearances, Cost, Model, Scratch, Validity};
+use crate::scene::Body;
+use crate::space::{Motion, Space};
+use bincode::{Decode, Encode};
+use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
+use parry3d_f64::math::{Pose as ParryPose, Vector};
+use serde::{Deserialize, Serialize};
+use std::any::Any;
+
+/// Which points of the robot the bounds hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
+#[serde(rename_all = "kebab-case")]
+pub enum BoundsMeaning {
+    /// Every point of the robot stays inside (of a planar robot: in x and y).
+    Body,
+    /// Only the robot's reference point, the origin of its frame, does.
+    Reference,
+}
+
+/// The box that bounds the robot, in the world's frame.
+#[derive(Clone, Copy, Debug, PartialEq, Encode, Decode)]
+pub struct Bounds {
+    /// Least x, y and z; z is not used for planar robots.
+    pub min: [f64; 3],
+    /// Largest x, y and z.
+    pub max: [f64; 3],
+    /// What must stay inside.
+    pub meaning: BoundsMeaning,
+}
+
+/// What is promised of a motion that is found valid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
+#[serde(rename_all = "kebab-case")]
+pub enum Edges {
+    /// It is free at every time, with a small share of the resolution as tolerance.
+    #[default]
+    Swept,
+    /// It is free at discrete steps no farther apart than the resolution.
+    Sampled,
+}
+
+/// Validity of a robot among obstacles that stand still.
+///
+/// Bodies collide when their surfaces meet or when one lies wholly inside another that is solid.
+/// Links that are neighbours, or that [`Robot::may_touch`] names, may touch. How motions are looked at
+/// says [`Edges`]; `docs/validity.md` has the methods.
+pub struct BodyValidity {
+    pub(super) space: Space,
+    pub(super) robot: Robot,
+    speeds: Speeds,
+    pub(super) bounds: Bounds,
+    pub(super) resolution: f64,
+    pub(super) edges: Edges,
+    /// A bound on the distance of the robot's points from the base's origin.
+    pub(super) reach: f64,
+    pub(super) links: Vec<Moving>,
+    pub(super) obstacles: Option<Group>,
+    /// The obstacles' boxes.
+    boxes: Vec<Aabb>,
+    /// Pairs of links that must not touch each other.
+    pub(super) self_pairs: Vec<SelfPair>,
+    /// There are bodies whose insides their elements do not show.
+    pub(super) solid: bool,
+    /// Outweighs the rounding of every length.
+    pub(super) slack: f64,
+    /// The same in single precision.
+    pub(super) grain: f32,
+    /// The instructions that test boxes.
+    pub(super) lanes: Lanes,
+}
+
+/// A link that has bodies.
+pub(super) struct Moving {
+    pub link: usize,
+    pub group: Group,
+    pub chain: Chain,
+}
+
+/// Indices of moving links, and the joints from the first to the second.
+pub(super) struct SelfPair {
+    first: usize,
+    second: usize,
+    chain: Chain,
+}
+
+impl BodyValidity {
+    /// Prepares the bodies. `resolution` is a length; see [`Validity::motion`].
+    pub fn new(
+        space: Space,
+        robot: &Robot,
+        bounds: Bounds,
+        (edges, resolution): (Edges, f64),
+        obstacles: &[Body],
+    ) -> BodyValidity {
+        let links = robot.links.iter().enumerate().filter_map(|(link, bodies)| {
+            let group = Group::new(bodies.bodies.iter())?;
+            Some(Moving { link, group, chain: robot.chain_to(link) })
+        });
+        let links: Vec<Moving> = links.collect();
+        let place = |link: usize| links.iter().position(|moving| moving.link == link);
+        let pairs = robot.self_pairs().into_iter().filter_map(|(low, high)| {
+            let chain = robot.chain_between(low, high);
+            Some(SelfPair { first: place(low)?, second: place(high)?, chain })
+        });
+        let self_pairs = pairs.collect();
+        let obstacles = Group::new(obstacles.iter());
+        let boxes = obstacles.iter().flat_map(|group| &group.pieces);
+        let reach = robot.reach();
+        let far = |point: &[f64; 3]| Vector::from_array(*point).abs().max_element();
+        let scale = [reach, far(&bounds.min), far(&bounds.max), far(&robot.base.translation)];
+        let scale = obstacles
+            .iter()
+            .flat_map(|group| &group.tree.elements)
+            .fold(scale.into_iter().fold(0.0, f64::max), |most, element| {
+                most.max(element.reach(&Rates::default()))
+            });
+        let groups = links.iter().map(|moving| &moving.group).chain(&obstacles);
+        let solid = groups.into_iter().any(Group::has_insides);
+        BodyValidity {
+            space,
+            speeds: robot.speeds(),
+            robot: robot.clone(),
+            bounds,
+            resolution,
+            edges,
+            reach,
+            boxes: boxes.map(|piece| piece.box_at(&ParryPose::IDENTITY)).collect(),
+            links,
+            obstacles,
+            self_pairs,
+            solid,
+            slack: 1e-12 * scale,
+            grain: grain(scale),
+            lanes: Lanes::widest(),
+        }
+    }
+
+    /// What moves in what: every link among the obstacles, then the pairs of links.
+    pub(super) fn meetings(&self) -> impl Iterator<Item = (Meeting<'_>, &Chain)> {
+        let (slack, grain, lanes) = (self.slack, self.grain, self.lanes);
+        let among = self.links.iter().filter_map(move |Moving { link, group, chain }| {
+            let still = self.obstacles.as_ref()?;
+            let (mover, mover_link) = (group, *link);
+            let meeting =
+                Meeting { mover, mover_link, still, still_link: None, slack, grain, lanes };
+            Some((meeting, chain))
+        });
+        let own = self.self_pairs.iter().map(move |SelfPair { first, second, chain }| {
+            let (still, mover) = (&self.links[*first], &self.links[*second]);
+            let meeting = Meeting {
+                mover: &mover.group,
+                mover_link: mover.link,
+                still: &still.group,
+                still_link: Some(still.link),
+                slack,
+                grain,
+                lanes,
+            };
+            (meeting, chain)
+        });
+        among.chain(own)
+    }
+
+    /// Whether the ball about the base's origin that holds the robot is within the bounds. It settles
+    /// most configurations.
+    pub(super) fn ball_inside(&self, q: &[f64]) -> bool {
+        let Bounds { min, max, .. } = &self.bounds;
+        let fixed = self.robot.motion == Motion::Fixed;
+        let centre = if fixed { &self.robot.base.translation } else { q };
+        (0..self.robot.motion.bounded_axes())
+            .all(|i| centre[i] - self.reach >= min[i] && centre[i] + self.reach <= max[i])
+    }
+
+    pub(super) fn walls(&self) -> Walls {
+        let Bounds { min, max, .. } = self.bounds;
+        Walls { min, max, axes: self.robot.motion.bounded_axes() }
+    }
+
+    /// Whether the bounds hold the robot wherever it turns.
+    pub(super) fn settled_by_ball(&self, q: &[f64]) -> bool {
+        self.bounds.meaning == BoundsMeaning::Reference || self.ball_inside(q)
+    }
+
+    pub(super) fn look(&self, q: &[f64], scratch: &mut BodyScratch) -> Validity {
+        if !self.space.within_bounds(q) {
+            return Validity::OutOfBounds;
+        }
+        let bounded = self.settled_by_ball(q);
+        if bounded && self.keeps_away(q, q, 0.0) {
+            return Validity::Valid;
+        }
+        self.robot.place(q, &mut scratch.stance.poses);
+        scratch.stance.update_frames();
+        let held = bounded
+            || self.links.iter().all(|Moving { link, group, .. }| {
+                self.walls().hold(&group.tree, &scratch.stance.frames[*link])
+            });
+        if !held {
+            return Validity::OutOfBounds;
+        }
+        let BodyScratch { stance, stacks, .. } = scratch;
+        let touching =
+            self.meetings().any(|(meeting, _)| meeting.surfaces_meet(stance, &mut stacks.pairs));
+        if touching || self.encloses(stance) { Validity::Invalid } else { Validity::Valid }
+    }
+
+    /// Whether a solid mesh encloses anything, given that no surfaces meet.
+    fn encloses(&self, stance: &Stance) -> bool {
+        let either = |one: &Piece, at: &ParryPose, other: &Piece, other_at: &ParryPose| {
+            one.encloses(at, other, other_at) || other.encloses(other_at, one, at)
+        };
+        let hollow = Group::is_hollow;
+        self.links.iter().any(|moving| {
+            let Some(obstacles) = &self.obstacles else { return false };
+            let at = stance.pose(Some(moving.link));
+            (hollow(&moving.group) || hollow(obstacles))
+                && moving.group.pieces.iter().any(|piece| {
+                    let near = piece.box_at(&at);
+                    obstacles.pieces.iter().zip(&self.boxes).any(|(other, other_box)| {
+                        near.intersects(other_box)
+                            && either(piece, &at, other, &ParryPose::IDENTITY)
+                    })
+                })
+        }) || self.self_pairs.iter().any(|SelfPair { first, second, .. }| {
+            let (first, second) = (&self.links[*first], &self.links[*second]);
+            let [at, other_at] = [first, second].map(|moving| stance.pose(Some(moving.link)));
+            (hollow(&first.group) || hollow(&second.group))
+                && first.group.pieces.iter().any(|piece| {
+                    second.group.pieces.iter().any(|other| {
+                        piece.box_at(&at).intersects(&other.box_at(&other_at))
+                            && either(piece, &at, other, &other_at)
+                    })
+                })
+        })
+    }
+}
+
+/// What is particular to bodies.
+impl BodyValidity {
+    /// The model of bodies, if that is what a model is.
+    pub fn of(model: &dyn Model) -> Option<&BodyValidity> {
+        (model as &dyn Any).downcast_ref()
+    }
+
+    /// Number of equal steps into which the motion from `a` to `b` is cut so that no robot point moves farther
+    /// than the problem's resolution divided by `refinement` in one of them.
+    pub fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64 {
+        let step = self.resolution / f64::from(refinement);
+        (self.speeds.farthest(&self.robot, a, b) / step).ceil().max(1.0) as u64
+    }
+}
+
+impl Model for BodyValidity {
+    fn space(&self) -> &Space {
+        &self.space
+    }
+
+    fn validity(&self, q: &[f64], scratch: &mut Scratch) -> Validity {
+        self.look(q, scratch.for_configuration())
+    }
+
+    fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> Option<Cost> {
+        self.judge(a, b, refinement, scratch.for_motion()).then_some(Cost::Metric)
+    }
+
+    fn invalidity(&self) -> &'static str {
+        "the robot collides or leaves the bounds"
+    }
+
+    fn is_obstructed(&self) -> bool {
+        self.obstacles.is_some() || !self.self_pairs.is_empty()
+    }
+
+    fn clearances(&self) -> Option<&dyn Clearances> {
+        Some(self)
+    }
+}
+
+impl Clearances for BodyValidity {
+    fn clearance(&self, q: &[f64], scratch: &mut Scratch) -> Option<Clearance> {
+        let scratch: &mut BodyScratch = scratch.of_model();
+        self.robot.place(q, &mut scratch.stance.poses);
+        scratch.stance.update_frames();
+        let BodyScratch { stance, stacks, .. } = scratch;
+        let among = self.meetings().take_while(|(meeting, _)| meeting.still_link.is_none());
+        let best =
+            among.fold(None, |best, (meeting, _)| meeting.nearer(stance, &mut stacks.pairs, best));
+        best.map(|best| best.clearance)
+    }
+}

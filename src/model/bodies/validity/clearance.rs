@@ -1,0 +1,98 @@
+//! How far the robot is from the nearest obstacle, and where.
+
+use super::frame::{Frame, Stance};
+use super::meet::Meeting;
+use super::obb::Obb;
+use crate::model::Clearance;
+use parry3d_f64::math::Vector;
+
+/// A clearance and what breaks ties.
+#[derive(Clone, Copy)]
+pub(super) struct Best {
+    pub clearance: Clearance,
+    /// Indices of the obstacle's element, and of the robot's link and element.
+    order: (u32, usize, u32),
+}
+
+impl Meeting<'_> {
+    /// The nearer of `best` and the shortest way between the two groups, of which the one stands still in
+    /// the world.
+    pub fn nearer(
+        &self,
+        stance: &Stance,
+        stack: &mut Vec<(u32, u32)>,
+        mut best: Option<Best>,
+    ) -> Option<Best> {
+        let (movers, stills) = (&self.mover.tree.nodes, &self.still.tree.nodes);
+        let frame = stance.seen(self.mover_link, self.still_link);
+        stack.clear();
+        stack.push((0, 0));
+        while let Some((i, j)) = stack.pop() {
+            let (mover, still) = (&movers[i as usize], &stills[j as usize]);
+            let bound = apart(&mover.space, &still.space, &frame) - self.slack;
+            if best.is_some_and(|best| bound > best.clearance.distance) {
+                continue;
+            }
+            if mover.is_leaf() && still.is_leaf() {
+                let found = self.way(mover.element, still.element, stance, &frame);
+                let ahead = |best: &Best| {
+                    let (old, new) = (best.clearance.distance, found.clearance.distance);
+                    new.total_cmp(&old).then(found.order.cmp(&best.order)).is_lt()
+                };
+                if best.as_ref().is_none_or(ahead) {
+                    best = Some(found);
+                }
+                continue;
+            }
+            let mut children = if !mover.is_leaf()
+                && (still.is_leaf() || mover.space.radius > still.space.radius)
+            {
+                [(mover.left, j), (mover.left + 1, j)]
+            } else {
+                [(i, still.left), (i, still.left + 1)]
+            };
+            // The nearer on top: it is likely to spare the other.
+            let [first, second] = children.map(|(i, j)| {
+                let from = frame.point(movers[i as usize].space.centre);
+                (stills[j as usize].space.centre - from).length_squared()
+            });
+            if first < second {
+                children.swap(0, 1);
+            }
+            stack.extend(children);
+        }
+        best
+    }
+
+    fn way(&self, mover: u32, still: u32, stance: &Stance, frame: &Frame) -> Best {
+        let element = &self.mover.tree.elements[mover as usize];
+        let other = &self.still.tree.elements[still as usize];
+        let corners = element.corners.map(|corner| frame.point(corner));
+        let way = self.nearest((element, &corners), other, stance);
+        let clearance = Clearance {
+            distance: way.distance,
+            on_robot: way.on_mover.to_array(),
+            on_obstacle: way.on_still.to_array(),
+            obstacle: other.piece as usize,
+        };
+        Best { clearance, order: (still, self.mover_link, mover) }
+    }
+}
+
+/// A bound below the distance of two boxes: that of the balls around them, and the gaps along the axes
+/// of both.
+fn apart(mover: &Obb, still: &Obb, frame: &Frame) -> f64 {
+    let way = still.centre - frame.point(mover.centre);
+    let axes = mover.axes.map(|axis| frame.direction(axis));
+    let mut gap = way.length() - mover.radius - still.radius;
+    let reach = |axis: Vector, axes: &[Vector; 3], half: Vector| {
+        let [x, y, z] = axes.map(|other| axis.dot(other).abs());
+        half.x * x + half.y * y + half.z * z
+    };
+    for k in 0..3 {
+        let (fixed, own) = (still.axes[k], axes[k]);
+        gap = gap.max(fixed.dot(way).abs() - still.half[k] - reach(fixed, &axes, mover.half));
+        gap = gap.max(own.dot(way).abs() - mover.half[k] - reach(own, &still.axes, still.half));
+    }
+    gap
+}

@@ -1,0 +1,85 @@
+//! The pieces of surface that trees hold: triangles, and the primitives as what they are made of.
+
+use crate::model::bodies::robot::Rates;
+use crate::scene::{Body, Shape, box_surface};
+use parry3d_f64::math::Vector;
+
+/// All points within `radius` of the hull of three corners. With equal corners it is a ball, a capsule,
+/// a point. A cylinder stands as the capsule around it, marked `flat`.
+#[derive(Clone, Debug)]
+pub(super) struct Element {
+    /// In the frame of the tree: a link's or the world's.
+    pub corners: [Vector; 3],
+    pub radius: f64,
+    /// Index of the piece that it belongs to.
+    pub piece: u32,
+    /// The piece is a primitive, which is tested as a whole where it stands still.
+    pub primitive: bool,
+    /// Its ends are flat: what is written is larger than what is there.
+    pub flat: bool,
+    /// Of a triangle a vector along its normal, else zero.
+    pub normal: Vector,
+}
+
+impl Element {
+    fn new([a, b, c]: [Vector; 3], radius: f64, piece: u32) -> Element {
+        let (u, v) = (b - a, c - a);
+        let normal = u.cross(v);
+        // Thinner triangles have no normal worth its name; as segments they are what they are.
+        let thin = normal.length() <= 1e-14 * u.length() * v.length();
+        let normal = if thin { Vector::ZERO } else { normal };
+        Element { corners: [a, b, c], radius, piece, primitive: false, flat: false, normal }
+    }
+
+    /// Least and largest `p · axis` over its points (of a cylinder: of the capsule), for a unit vector.
+    pub fn span(&self, axis: Vector) -> (f64, f64) {
+        let [a, b, c] = self.corners.map(|corner| axis.dot(corner));
+        (a.min(b).min(c) - self.radius, a.max(b).max(c) + self.radius)
+    }
+
+    /// The largest `p · direction` over its points, for a unit vector.
+    pub fn extent(&self, direction: Vector) -> f64 {
+        let [a, b, c] = self.corners;
+        let thick = match (self.flat, (a - b).try_normalize()) {
+            (true, Some(axis)) => self.radius * axis.cross(direction).length(),
+            _ => self.radius,
+        };
+        direction.dot(a).max(direction.dot(b)).max(direction.dot(c)) + thick
+    }
+
+    /// A bound on the distance of its points from where a motion turns it.
+    pub fn reach(&self, rates: &Rates) -> f64 {
+        let far = |most: f64, corner: &Vector| most.max(rates.distance(*corner));
+        self.corners.iter().fold(0.0, far) + self.radius
+    }
+}
+
+/// The surface of a body in the frame that the body stands in.
+pub(super) fn elements(body: &Body, piece: u32) -> Vec<Element> {
+    let frame = body.pose.to_parry();
+    let place = |p: [f64; 3]| frame.transform_point(Vector::from_array(p));
+    let rod = |radius: f64, height: f64| {
+        let ends = [height / 2.0, -height / 2.0].map(|z| place([0.0, 0.0, z]));
+        Element::new([ends[0], ends[1], ends[0]], radius, piece)
+    };
+    let surface = |vertices: &[[f64; 3]], triangles: Vec<[u32; 3]>| {
+        let corner = |index: u32| place(vertices[index as usize]);
+        triangles.into_iter().map(|t| Element::new(t.map(corner), 0.0, piece)).collect()
+    };
+    let mut elements: Vec<Element> = match &body.shape {
+        Shape::Point => vec![rod(0.0, 0.0)],
+        Shape::Sphere { radius } => vec![rod(*radius, 0.0)],
+        Shape::Capsule { radius, height } => vec![rod(*radius, *height)],
+        Shape::Cylinder { radius, height } => {
+            vec![Element { flat: true, ..rod(*radius, *height) }]
+        }
+        Shape::Box { size } => {
+            let (corners, triangles) = box_surface(*size);
+            surface(&corners, triangles)
+        }
+        Shape::Mesh(mesh) => surface(&mesh.vertices, mesh.faces().collect()),
+    };
+    let primitive = !matches!(body.shape, Shape::Mesh(_));
+    elements.iter_mut().for_each(|element| element.primitive = primitive);
+    elements
+}

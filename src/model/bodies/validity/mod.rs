@@ -1,0 +1,29 @@
+//! What makes a configuration and a motion of bodies valid.
+
+mod bodies;
+mod clearance;
+mod directions;
+mod element;
+mod frame;
+mod inside;
+mod light;
+mod meet;
+mod motion;
+mod nearest;
+mod obb;
+mod piece;
+mod scratch;
+mod swept;
+mod tree;
+mod triangles;
+mod work;
+
+pub use bodies::{BodyValidity, Bounds, BoundsMeaning, Edges};
+pub use motion::TOLERANCE;
+pub use scratch::BodyScratch;
+pub use work::Work;
+
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod tree_tests;

@@ -1,0 +1,97 @@
+//! The ball around what moves, which tells where to look closer.
+
+use super::Stacks;
+use super::clip::{Clip, Met, Turned, apart, least};
+use super::search::Sweep;
+use super::span::Span;
+use crate::model::bodies::validity::frame::Frame;
+use crate::model::bodies::validity::light::{
+    Four, Gaps, Three, above, all_times, dot, points, three,
+};
+use crate::model::bodies::validity::meet::Meeting;
+use fearless_simd::prelude::*;
+use fearless_simd::{f32x4, f32x8};
+use parry3d_f64::math::Vector;
+
+/// The ball around a box during the whole motion.
+struct SweptBall<S: Simd> {
+    ends: Three<f32x8<S>>,
+    /// Its radius, and by how much it must be larger for the straight line between to do.
+    room: f32x4<S>,
+}
+
+impl<S: Simd> SweptBall<S> {
+    #[inline(always)]
+    fn new(simd: S, ends: [Vector; 2], room: f64, grain: f32) -> SweptBall<S> {
+        let room = f32x4::splat(simd, above(room) + grain);
+        SweptBall { ends: points(simd, ends), room }
+    }
+
+    /// When the ball may meet boxes that stand still.
+    #[inline(always)]
+    fn meets(&self, simd: S, still: &Four<S>, asked: Span) -> Met {
+        let [x, y, z] = all_times::<S, f32x8<S>>(&still.centre);
+        let between = [x - self.ends[0], y - self.ends[1], z - self.ends[2]];
+        let gaps = three(
+            #[inline(always)]
+            |i| {
+                let reach = f32x8::block_splat(self.room + still.half[i]);
+                Turned::new(Gaps::new(reach, dot(&between, &all_times(&still.axes[i]))))
+            },
+        );
+        let apart = apart(least(&gaps));
+        if apart == 15 {
+            return Met::NOTHING;
+        }
+        let mut clip = Clip::whole(simd);
+        clip.cut_all(&gaps);
+        clip.met(simd, !apart, Span::ALL, &[asked; 4])
+    }
+}
+
+impl<S: Simd> Sweep<'_, '_, S> {
+    /// Opens the nodes, no larger than the ball around what moves, that the ball may meet, and says which
+    /// samples they span.
+    pub(super) fn near_the_ball(&mut self) -> Option<Span> {
+        let simd = self.simd;
+        let frames = [self.frame(0), self.frame(self.clock.samples)];
+        simd.vectorize(
+            #[inline(always)]
+            || self.near_the_ball_at(frames),
+        )
+    }
+
+    #[inline(always)]
+    fn near_the_ball_at(&mut self, frames: [Frame; 2]) -> Option<Span> {
+        let (simd, course) = (self.simd, &self.course);
+        let Meeting { mover, still, slack, grain, .. } = self.meeting;
+        let space = &mover.tree.nodes[0].space;
+        let from_origin = course.rates.distance(space.centre);
+        let margin = course.spare * course.rates.speed_at(space.radius + from_origin);
+        let room = space.radius + course.rates.bend_at(from_origin) / 8.0 + margin + slack;
+        let ends = frames.map(|frame| frame.point(space.centre));
+        let ball = SweptBall::new(simd, ends, room, grain);
+        let radius = mover.tree.boxes[0].radius();
+        let tree = &still.tree;
+        let (asks, last) = (self.asks, self.clock.samples);
+        let Stacks { open, near: todo, work, .. } = &mut *self.stacks;
+        open.clear();
+        work.count(|work| work.balls += 1);
+        let met = ball.meets(simd, &Four::same(simd, &tree.boxes[0]), Span::ALL);
+        todo.extend(met.spans(1).map(|(_, span)| (0, span)));
+        let mut whole: Option<Span> = None;
+        while let Some((at, span)) = todo.pop() {
+            if tree.boxes[at as usize].radius() <= radius || tree.is_leaf(at) {
+                open.push((at, span));
+                whole = Some(whole.map_or(span, |whole| whole.with(span)));
+                continue;
+            }
+            let children = tree.children(at);
+            work.count(|work| work.balls += children.len() as u64);
+            let met = ball.meets(simd, &Four::new(simd, tree.gathered(children)), span);
+            let met = met.spans(children.len()).filter(|(_, span)| asks.about(*span, last));
+            todo.extend(met.map(|(lane, span)| (children[lane], span)));
+        }
+        whole
+    }
+}

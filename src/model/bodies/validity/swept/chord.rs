@@ -1,0 +1,233 @@
+//! Boxes that move over a chord, up to four at once.
+
+use super::clip::{Clip, Met, Turned, apart, least, turned};
+use super::span::{Samples, Span};
+use crate::model::bodies::robot::Rates;
+use crate::model::bodies::validity::frame::Frame;
+use crate::model::bodies::validity::light::{Four, Frames, Stands, Three, above, dot};
+use fearless_simd::prelude::*;
+use fearless_simd::{f32x4, f32x8};
+
+/// A number that grows with the distance of the farthest point from where the motion turns.
+#[derive(Clone, Copy)]
+struct Linear(f32, f32);
+
+impl Linear {
+    fn new(least: f64, slope: f64) -> Linear {
+        Linear(above(least), above(slope))
+    }
+
+    #[inline(always)]
+    fn at<S: Simd>(self, simd: S, reach: f32x4<S>) -> f32x4<S> {
+        reach.mul_add(f32x4::splat(simd, self.1), f32x4::splat(simd, self.0))
+    }
+}
+
+/// What all boxes of a motion share.
+#[derive(Clone, Copy)]
+pub(super) struct Course {
+    pub rates: Rates,
+    /// The time in which the tolerance is used up: that of half a step, or none.
+    pub spare: f64,
+    /// A length that outweighs rounding.
+    pub slack: f64,
+    /// One that does so in single precision.
+    pub grain: f32,
+}
+
+/// A share of the motion between two samples.
+pub(super) struct Chord<S: Simd> {
+    pub samples: Samples,
+    /// In shares of the motion.
+    pub span: Span,
+    frames: Frames<f32x8<S>>,
+    /// How far points leave the straight lines.
+    bend: Linear,
+    /// Added along axes that stand still.
+    still_room: Linear,
+    /// Added along the boxes' own axes.
+    own_room: Linear,
+}
+
+impl<S: Simd> Chord<S> {
+    #[inline(always)]
+    pub fn new(
+        simd: S,
+        course: &Course,
+        (samples, step): (Samples, f64),
+        frames: [&Frame; 2],
+    ) -> Chord<S> {
+        let Course { rates, spare, slack, grain } = course;
+        let time = samples.length() as f64 * step;
+        let (eighth, turn_bend) = (time * time / 8.0, rates.turn_bend());
+        let slack = slack + f64::from(*grain);
+        let bend = (rates.bend * eighth, turn_bend * eighth);
+        // Half a step away from a sample a point is no farther than this from where it was.
+        let margin = (spare * rates.speed, spare * rates.spin);
+        // What stands still, as seen from the box: near it at one sample, and then carried away.
+        let away = (margin.0 + rates.speed * time, 1.0 + margin.1);
+        let own = rates.bend + turn_bend * away.0 + 2.0 * rates.spin * rates.speed;
+        let span = Span {
+            from: (samples.from as f64 * step) as f32,
+            to: (samples.to as f64 * step) as f32,
+        };
+        Chord {
+            samples,
+            span,
+            frames: Frames::new(simd, frames),
+            bend: Linear::new(bend.0, bend.1),
+            still_room: Linear::new(bend.0 + margin.0 + slack, bend.1 + margin.1),
+            own_room: Linear::new(
+                own * eighth + margin.0 + slack,
+                turn_bend * away.1 * eighth + margin.1,
+            ),
+        }
+    }
+}
+
+/// Four boxes of the moving tree over a chord: where they are at both ends, and how much larger they must
+/// be for the straight lines between to hold what is within their reach at every sample.
+#[derive(Clone, Copy)]
+pub(super) struct SweptBoxes<S: Simd> {
+    stands: Stands<S, f32x8<S>>,
+    /// How far their points leave the straight lines.
+    bend: f32x4<S>,
+    still_room: f32x4<S>,
+    own_room: f32x4<S>,
+}
+
+impl<S: Simd> SweptBoxes<S> {
+    #[inline(always)]
+    pub fn new(simd: S, course: &Course, chord: &Chord<S>, own: &Four<S>) -> SweptBoxes<S> {
+        let reach = reach(simd, course, own);
+        SweptBoxes {
+            stands: Stands::new(&chord.frames, own),
+            bend: chord.bend.at(simd, reach),
+            still_room: chord.still_room.at(simd, reach),
+            own_room: chord.own_room.at(simd, reach),
+        }
+    }
+
+    /// That of one lane in all.
+    #[inline(always)]
+    pub fn only(&self, simd: S, lane: usize) -> SweptBoxes<S> {
+        SweptBoxes {
+            stands: self.stands.only(simd, lane),
+            bend: f32x4::splat(simd, self.bend[lane]),
+            still_room: f32x4::splat(simd, self.still_room[lane]),
+            own_room: f32x4::splat(simd, self.own_room[lane]),
+        }
+    }
+
+    /// How far the points of one leave the straight lines.
+    #[inline(always)]
+    pub fn bend(&self, lane: usize) -> f32 {
+        self.bend[lane]
+    }
+
+    /// When the boxes may be within the margin of those that stand still, each of that of its lane.
+    #[inline(always)]
+    pub fn meets(&self, simd: S, still: &Four<S>, chord: Span, spans: &[Span; 4]) -> Met {
+        let across = self.stands.across(still);
+        let first = turned(self.stands.along_still(still, &across, self.still_room));
+        let overlap = least(&first);
+        if apart(overlap) == 15 {
+            return Met::NOTHING;
+        }
+        let own = turned(self.stands.along_own(still, &across, self.own_room));
+        let overlap = overlap.min(least(&own));
+        if apart(overlap) == 15 {
+            return Met::NOTHING;
+        }
+        let axis = self.crossing(still);
+        let square = dot(&axis, &axis);
+        let room = self.still_room * square.sqrt();
+        let crossing = Turned::new(self.stands.along(&axis, still, &across, room));
+        let apart = apart(overlap.min(crossing.both()));
+        if apart == 15 {
+            return Met::NOTHING;
+        }
+        let mut clip = Clip::whole(simd);
+        clip.cut_all(&first);
+        clip.cut_all(&own);
+        clip.cut(&crossing);
+        clip.met(simd, !apart, chord, spans)
+    }
+
+    /// The product of the longest axes half way, which tells crossing boxes apart.
+    #[inline(always)]
+    fn crossing(&self, still: &Four<S>) -> Three<f32x4<S>> {
+        let [a, b, c] = still.axes[2];
+        let [x, y, z] = &self.stands.axes[2];
+        let (x, y, z) = (halves_sum(x), halves_sum(y), halves_sum(z));
+        [b * z - c * y, c * x - a * z, a * y - b * x]
+    }
+}
+
+/// Twice the mean of what there is at both ends.
+#[inline(always)]
+fn halves_sum<S: Simd>(both: &f32x8<S>) -> f32x4<S> {
+    let (first, last) = both.split();
+    first + last
+}
+
+/// A bound on the distance of the points of boxes from where the motion turns them.
+#[inline(always)]
+fn reach<S: Simd>(simd: S, course: &Course, own: &Four<S>) -> f32x4<S> {
+    // In this unit squares neither overflow nor vanish.
+    let unit = course.grain;
+    let [x, y, z] = own.centre;
+    let (x, y, z) = (x * unit.recip(), y * unit.recip(), z * unit.recip());
+    let away = match &course.rates.steady {
+        None => [x, y, z],
+        Some(steady) => {
+            let (a, b, c) = (steady.axis.x as f32, steady.axis.y as f32, steady.axis.z as f32);
+            [z * b - y * c, x * c - z * a, y * a - x * b]
+        }
+    };
+    let distance = dot(&away, &away).sqrt() * unit;
+    let reach = (own.radius + distance) * (1.0 + 2e-6) + unit;
+    // Nothing is as far, and no product with it is not a number.
+    reach.min(f32x4::splat(simd, 1e35))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::{Lanes, with_lanes};
+    use crate::model::bodies::validity::light::grain;
+    use crate::model::bodies::validity::light::tests::touching;
+    use parry3d_f64::math::Vector;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Whatever the scale, and with what bounds so ever on the motion.
+        #[test]
+        fn boxes_that_touch_at_both_ends_meet(
+            ordinal in any::<u64>(), power in -38i32..38, spin in 0.0f64..60.0, speed in 0.0f64..4.0,
+        ) {
+            let (own, other, frame, size) = touching(ordinal, power);
+            let still = Rates::default();
+            let moves = Rates { speed: speed * size, bend: spin * size, spin, twist: spin, steady: None };
+            let met = |rates: Rates, frame: &Frame, lanes: Lanes| {
+                let grain = grain(4.0 * size);
+                let course = Course { rates, spare: 1e-7, slack: 1e-12 * size, grain };
+                with_lanes!(lanes, simd => {
+                    let samples = Samples { from: 0, to: 1 << 20 };
+                    let step = 1.0 / f64::from(1 << 20);
+                    let chord = Chord::new(simd, &course, (samples, step), [frame, frame]);
+                    let swept = SweptBoxes::new(simd, &course, &chord, &Four::same(simd, &own));
+                    let met = swept.meets(simd, &Four::new(simd, [&other; 4]), Span::ALL, &[Span::ALL; 4]);
+                    met.spans(4).filter(|(_, span)| span.from <= 0.0 && span.to >= 1.0).count()
+                })
+            };
+            let apart = Frame { shift: frame.shift + Vector::X * (20.0 * size), ..frame };
+            for lanes in Lanes::all() {
+                prop_assert_eq!(met(still, &frame, lanes), 4);
+                prop_assert_eq!(met(moves, &frame, lanes), 4);
+                // Where single precision ends nothing is told apart.
+                prop_assert!(met(still, &apart, lanes) == 0 || !(-30..27).contains(&power));
+            }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! When boxes may meet, four pairs of them at once: times are cut where gaps along an axis open.
+
+use super::span::Span;
+use crate::model::bodies::validity::light::{Gaps, Three};
+use fearless_simd::prelude::*;
+use fearless_simd::{f32x4, f32x8};
+
+/// Gaps at the beginning, from either side, and at the end.
+pub(super) struct Turned<S: Simd> {
+    begin: f32x8<S>,
+    end: f32x8<S>,
+}
+
+impl<S: Simd> Turned<S> {
+    #[inline(always)]
+    pub fn new(Gaps(below, above): Gaps<f32x8<S>>) -> Turned<S> {
+        let ((a, b), (c, d)) = (below.split(), above.split());
+        Turned { begin: a.combine(c), end: b.combine(d) }
+    }
+
+    /// Negative where they are apart at both ends, from the same side.
+    #[inline(always)]
+    pub fn both(&self) -> f32x8<S> {
+        self.begin.max(self.end)
+    }
+}
+
+#[inline(always)]
+pub(super) fn turned<S: Simd>([a, b, c]: Three<Gaps<f32x8<S>>>) -> [Turned<S>; 3] {
+    [Turned::new(a), Turned::new(b), Turned::new(c)]
+}
+
+#[inline(always)]
+pub(super) fn least<S: Simd>([a, b, c]: &[Turned<S>; 3]) -> f32x8<S> {
+    a.both().min(b.both()).min(c.both())
+}
+
+/// A bit for each lane that is apart from one side or the other.
+#[inline(always)]
+pub(super) fn apart<S: Simd>(overlap: f32x8<S>) -> u32 {
+    let sides = overlap.simd_lt(0.0).to_bitmask() as u32;
+    (sides | sides >> 4) & 15
+}
+
+/// When boxes may meet.
+#[derive(Clone, Copy)]
+pub(super) struct Met {
+    /// A bit for each lane in which they may.
+    lanes: u32,
+    from: [f32; 4],
+    to: [f32; 4],
+}
+
+impl Met {
+    pub const NOTHING: Met = Met { lanes: 0, from: [0.0; 4], to: [0.0; 4] };
+
+    /// The lanes among the first so many in which they may, and when.
+    #[inline(always)]
+    pub fn spans(&self, count: usize) -> impl Iterator<Item = (usize, Span)> {
+        let mut rest = self.lanes & ((1 << count) - 1);
+        std::iter::from_fn(
+            #[inline(always)]
+            move || {
+                let lane = rest.trailing_zeros() as usize;
+                rest &= rest.wrapping_sub(1);
+                (lane < 4).then(|| (lane, Span { from: self.from[lane], to: self.to[lane] }))
+            },
+        )
+    }
+}
+
+/// A share of a chord for each lane, as cut from either side.
+pub(super) struct Clip<S: Simd> {
+    low: f32x8<S>,
+    high: f32x8<S>,
+}
+
+/// Outweighs the rounding of times, in shares of a chord.
+const CHORD_MOMENT: f32 = 1e-6;
+/// The same in shares of the motion.
+pub(super) const MOMENT: f32 = 3e-7;
+
+impl<S: Simd> Clip<S> {
+    #[inline(always)]
+    pub fn whole(simd: S) -> Clip<S> {
+        Clip { low: f32x8::splat(simd, 0.0), high: f32x8::splat(simd, 1.0) }
+    }
+
+    /// Cuts off where they are apart, gaps being linear between the ends and not negative at both.
+    #[inline(always)]
+    pub fn cut(&mut self, Turned { begin, end }: &Turned<S>) {
+        let crossing = *begin / (*begin - *end);
+        self.low = begin.simd_lt(0.0).select(self.low.max(crossing), self.low);
+        self.high = end.simd_lt(0.0).select(self.high.min(crossing), self.high);
+    }
+
+    #[inline(always)]
+    pub fn cut_all(&mut self, [a, b, c]: &[Turned<S>; 3]) {
+        self.cut(a);
+        self.cut(b);
+        self.cut(c);
+    }
+
+    /// What is left of spans, the share being one of a chord.
+    #[inline(always)]
+    pub fn met(self, simd: S, lanes: u32, chord: Span, [a, b, c, d]: &[Span; 4]) -> Met {
+        let (low, high) = (self.low.split(), self.high.split());
+        let (low, high) = (low.0.max(low.1), high.0.min(high.1));
+        let length = f32x4::splat(simd, chord.length());
+        let slack = chord.length() * CHORD_MOMENT + MOMENT;
+        let low = low.mul_add(length, f32x4::splat(simd, chord.from - slack));
+        let high = high.mul_add(length, f32x4::splat(simd, chord.from + slack));
+        let from = low.max(f32x4::load_array(simd, [a.from, b.from, c.from, d.from]));
+        let to = high.min(f32x4::load_array(simd, [a.to, b.to, c.to, d.to]));
+        let left = from.simd_le(to).to_bitmask() as u32;
+        Met { lanes: lanes & left, from: from.to_array(), to: to.to_array() }
+    }
+}

@@ -1,0 +1,74 @@
+//! Where the links stand at the samples of a motion.
+
+use crate::model::bodies::robot::Robot;
+use crate::model::bodies::validity::frame::Stance;
+use crate::space::{Space, Way};
+
+/// Memory for stances of one motion.
+#[derive(Clone, Debug, Default)]
+pub(in crate::model::bodies::validity) struct Timeline {
+    slots: Vec<(u64, Stance)>,
+    q: Vec<f64>,
+}
+
+/// A power of two; a motion is looked at in a handful of samples, but some of them often.
+const SLOTS_LOG: u32 = 6;
+
+impl Timeline {
+    /// Rubbish, see [`Scratch::poison`](crate::model::bodies::validity::Scratch::poison).
+    pub fn poison(&mut self, rubbish: u64) {
+        self.slots = vec![(rubbish % 50, Stance::default()); rubbish as usize % 3];
+        self.q = vec![f64::NAN; rubbish as usize % 13];
+    }
+}
+
+/// A motion cut into `samples` equal steps, sample 0 being its beginning.
+pub(in crate::model::bodies::validity) struct Clock<'a> {
+    space: &'a Space,
+    robot: &'a Robot,
+    a: &'a [f64],
+    b: &'a [f64],
+    /// Made when it is first asked for: the ends need none.
+    way: Option<Way<'a>>,
+    pub samples: u64,
+    /// A bit for every slot that holds a stance of this motion.
+    held: u64,
+    timeline: &'a mut Timeline,
+}
+
+impl<'a> Clock<'a> {
+    pub fn new(
+        (space, robot): (&'a Space, &'a Robot),
+        (a, b): (&'a [f64], &'a [f64]),
+        samples: u64,
+        timeline: &'a mut Timeline,
+    ) -> Clock<'a> {
+        timeline.slots.resize(1 << SLOTS_LOG, (0, Stance::default()));
+        timeline.q.resize(a.len(), 0.0);
+        Clock { space, robot, a, b, way: None, samples, held: 0, timeline }
+    }
+
+    /// Where the links stand at a sample.
+    pub fn at(&mut self, sample: u64) -> &Stance {
+        // Samples are multiples of powers of two, which this spreads (Fibonacci hashing).
+        let slot = sample.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (u64::BITS - SLOTS_LOG);
+        let Timeline { slots, q } = &mut *self.timeline;
+        let (held, stance) = &mut slots[slot as usize];
+        if *held != sample || self.held & (1 << slot) == 0 {
+            *held = sample;
+            self.held |= 1 << slot;
+            let q = if sample == 0 {
+                self.a
+            } else if sample == self.samples {
+                self.b
+            } else {
+                let way = self.way.get_or_insert_with(|| self.space.way(self.a, self.b));
+                way.at(sample as f64 / self.samples as f64, q);
+                q
+            };
+            self.robot.place(q, &mut stance.poses);
+            stance.update_frames();
+        }
+        stance
+    }
+}

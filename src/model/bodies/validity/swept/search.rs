@@ -1,0 +1,309 @@
+//! The recursion.
+
+use super::chord::{Chord, Course, SweptBoxes};
+use super::clip::MOMENT;
+use super::clock::Clock;
+use super::span::{Samples, Span};
+use super::{Asks, BEND, Finds, Stacks};
+use crate::model::bodies::robot::Rates;
+use crate::model::bodies::validity::frame::Frame;
+use crate::model::bodies::validity::light::Four;
+use crate::model::bodies::validity::meet::Meeting;
+use fearless_simd::Simd;
+
+/// After so many tests of boxes without an answer it is looked whether surfaces meet at one sample, and each
+/// time after half as many times more.
+const PATIENCE: f64 = 48.0;
+/// Where of the last 32 searches so many found something in the way, the first look comes after so many tests,
+/// and is at all of the robot.
+const OFTEN: (u32, f64) = (4, 2.0);
+
+/// Two groups during a motion.
+pub(super) struct Sweep<'a, 'c, S: Simd> {
+    pub(super) simd: S,
+    pub(super) meeting: Meeting<'a>,
+    pub(super) course: Course,
+    pub(super) asks: Asks,
+    pub(super) asked: Samples,
+    pub(super) clock: &'c mut Clock<'a>,
+    pub(super) stacks: &'c mut Stacks,
+    /// Surfaces were found to meet at a sample between the ends.
+    pub(super) meets: bool,
+    /// The next look is at all of the robot.
+    whole: bool,
+    /// Tests of boxes until a sample is looked at.
+    patience: f64,
+    /// From then to the next look.
+    rest: f64,
+}
+
+impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
+    pub fn new(
+        simd: S,
+        meeting: Meeting<'a>,
+        rates: Rates,
+        asks: Asks,
+        clock: &'c mut Clock<'a>,
+        stacks: &'c mut Stacks,
+    ) -> Sweep<'a, 'c, S> {
+        let half_step = 0.5 / clock.samples as f64;
+        let spare = if asks == Asks::Samples { 0.0 } else { half_step };
+        let whole = stacks.blocked.count_ones() >= OFTEN.0;
+        let patience = if whole { OFTEN.1 } else { PATIENCE };
+        let Meeting { slack, grain, .. } = meeting;
+        let course = Course { rates, spare, slack, grain };
+        let samples = clock.samples;
+        let asked = match asks {
+            Asks::AllTimes => Samples { from: 0, to: samples },
+            Asks::Samples => Samples { from: 1, to: samples - 1 },
+        };
+        let (meets, rest) = (false, PATIENCE);
+        Sweep { simd, meeting, course, asks, asked, clock, stacks, meets, whole, patience, rest }
+    }
+
+    /// Whether it is as asked.
+    pub fn finds(&mut self) -> Finds {
+        let last = self.clock.samples;
+        if self.asked.from > self.asked.to {
+            return Finds::Free;
+        }
+        self.stacks.near.clear();
+        self.stacks.halves.clear();
+        self.stacks.children.clear();
+        self.stacks.found.clear();
+        let Some(span) = self.near_the_ball() else { return Finds::Free };
+        let part = Samples::around(span, last);
+        let all = 2 * part.length() > last;
+        let samples = if all { Samples { from: 0, to: last } } else { part };
+        let blocked = self.blocked(0, samples);
+        self.stacks.blocked = self.stacks.blocked << 1 | u32::from(blocked);
+        match (blocked, self.meets) {
+            (false, _) => Finds::Free,
+            (true, false) => Finds::Near,
+            (true, true) => Finds::Meets,
+        }
+    }
+
+    fn step(&self) -> f64 {
+        1.0 / self.clock.samples as f64
+    }
+
+    pub(super) fn frame(&mut self, sample: u64) -> Frame {
+        let Meeting { mover_link, still_link, .. } = self.meeting;
+        self.clock.at(sample).seen(mover_link, still_link)
+    }
+
+    /// Whether anything in a box comes near anything below the nodes that are open, at a sample of theirs
+    /// within the chord.
+    fn blocked(&mut self, node: u32, samples: Samples) -> bool {
+        let simd = self.simd;
+        let frames = [self.frame(samples.from), self.frame(samples.to)];
+        let step = self.step();
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let chord =
+                    Chord::new(simd, &self.course, (samples, step), [&frames[0], &frames[1]]);
+                self.stacks.work.count(|work| work.placed += 1);
+                let own = Four::same(simd, &self.meeting.mover.tree.boxes[node as usize]);
+                let swept = SweptBoxes::new(simd, &self.course, &chord, &own);
+                let base = self.stacks.near.len();
+                self.find_near(node, &chord, &swept)
+                    || self.comes_near(node, &chord, (&swept, None), base)
+            },
+        )
+    }
+
+    /// Tests a box in all lanes against what is open. Whether meanwhile a look at a sample found that surfaces
+    /// meet.
+    #[inline(always)]
+    fn find_near(&mut self, node: u32, chord: &Chord<S>, swept: &SweptBoxes<S>) -> bool {
+        let simd = self.simd;
+        let (asks, last) = (self.asks, self.clock.samples);
+        let tree = &self.meeting.still.tree;
+        let Stacks { open, near, work, .. } = &mut *self.stacks;
+        let tests = open.len();
+        for batch in open.chunks(4) {
+            let end = batch.len() - 1;
+            let [a, b, c, d] = [batch[0], batch[end.min(1)], batch[end.min(2)], batch[end]];
+            let four = Four::new(simd, tree.gathered(&[a.0, b.0, c.0, d.0]));
+            let met = swept.meets(simd, &four, chord.span, &[a.1, b.1, c.1, d.1]);
+            work.count(|work| work.tested(batch.len()));
+            let met = met.spans(batch.len()).filter(|(_, span)| asks.about(*span, last));
+            near.extend(met.map(|(lane, span)| (batch[lane].0, span)));
+        }
+        let first = open.first().map_or((0, Span::ALL), |first| *first);
+        open.clear();
+        self.tires(tests, (node, first.0, first.1))
+    }
+
+    /// The same of nodes that are near, from `base` on, and a box, which may have a lane among others.
+    #[inline(always)]
+    fn comes_near(
+        &mut self,
+        node: u32,
+        chord: &Chord<S>,
+        (swept, lane): (&SweptBoxes<S>, Option<usize>),
+        base: usize,
+    ) -> bool {
+        let simd = self.simd;
+        let (asks, last) = (self.asks, self.clock.samples);
+        let Meeting { mover, still: other, .. } = self.meeting;
+        let (own, other) = (&mover.tree, &other.tree);
+        let (leaf, radius) = (own.is_leaf(node), own.boxes[node as usize].radius());
+        let bend = swept.bend(lane.unwrap_or(0));
+        let mut alone = None;
+        let (halves, children) = (self.stacks.halves.len(), self.stacks.children.len());
+        while self.stacks.near.len() > base {
+            let (still, span) = self.stacks.near.pop().expect("more than the base");
+            let (end, size) = (other.is_leaf(still), other.boxes[still as usize].radius());
+            if leaf && end {
+                if self.touches(node, still, span) {
+                    return true;
+                }
+            } else if chord.samples.length() > 1 && bend > BEND as f32 * radius.max(size) {
+                self.stacks.halves.push((still, span));
+            } else if !leaf && (end || radius > size) {
+                self.stacks.children.push((still, span));
+            } else {
+                let nodes = other.children(still);
+                let four = Four::new(simd, other.gathered(nodes));
+                let swept = match (lane, &alone) {
+                    (None, _) => swept,
+                    (_, Some(alone)) => alone,
+                    (Some(lane), None) => alone.insert(swept.only(simd, lane)),
+                };
+                let met = swept.meets(simd, &four, chord.span, &[span; 4]);
+                let Stacks { near, work, .. } = &mut *self.stacks;
+                work.count(|work| work.tested(nodes.len()));
+                let met = met.spans(nodes.len()).filter(|(_, span)| asks.about(*span, last));
+                near.extend(met.map(|(lane, span)| (nodes[lane], span)));
+                if self.tires(nodes.len(), (node, still, span)) {
+                    return true;
+                }
+            }
+        }
+        if self.stacks.halves.len() > halves && self.halves_blocked(node, chord, halves) {
+            return true;
+        }
+        self.stacks.children.len() > children && self.children_blocked(node, chord, children)
+    }
+
+    /// [`Sweep::blocked`] over shorter chords, of the nodes in the list of halves from `list` on.
+    #[inline(never)]
+    fn halves_blocked(&mut self, node: u32, chord: &Chord<S>, list: usize) -> bool {
+        let spans = self.stacks.halves[list..].iter().map(|(_, span)| *span);
+        let whole = spans.reduce(Span::with).unwrap_or(chord.span);
+        let last = self.clock.samples;
+        let Samples { from, to } = chord.samples;
+        let middle = from + (to - from) / 2;
+        let part = Samples::around(whole, last);
+        let part = Samples { from: part.from.max(from), to: part.to.min(to) };
+        // What is left, if that is less than half; else one half after the other.
+        let (parts, count) = if 2 * part.length() <= to - from {
+            ([(part, whole); 2], 1)
+        } else {
+            let half = (middle as f64 / last as f64) as f32;
+            let first = Span { to: half + MOMENT, ..chord.span };
+            let second = Span { from: half - MOMENT, ..chord.span };
+            let (first, second) =
+                ((Samples { from, to: middle }, first), (Samples { from: middle, to }, second));
+            ([first, second], 2)
+        };
+        for (chord, asked) in &parts[..count] {
+            let Stacks { open, halves, .. } = &mut *self.stacks;
+            open.extend(halves[list..].iter().filter_map(|(still, span)| {
+                let span = Span { from: span.from.max(asked.from), to: span.to.min(asked.to) };
+                (span.from <= span.to).then_some((*still, span))
+            }));
+            if !open.is_empty() && self.blocked(node, *chord) {
+                return true;
+            }
+        }
+        self.stacks.halves.truncate(list);
+        false
+    }
+
+    /// [`Sweep::blocked`] of the children of a box, with the nodes in the list of children from `list` on.
+    #[inline(always)]
+    fn children_blocked(&mut self, node: u32, chord: &Chord<S>, list: usize) -> bool {
+        let simd = self.simd;
+        let (asks, last) = (self.asks, self.clock.samples);
+        let Meeting { mover, still: other, .. } = self.meeting;
+        let tree = &mover.tree;
+        let nodes = tree.children(node);
+        let own = Four::new(simd, tree.gathered(nodes));
+        let swept = SweptBoxes::new(simd, &self.course, chord, &own);
+        self.stacks.work.count(|work| work.placed += nodes.len() as u64);
+        let Stacks { children, found, work, .. } = &mut *self.stacks;
+        let first = found.len();
+        for (still, span) in &children[list..] {
+            let four = Four::same(simd, &other.tree.boxes[*still as usize]);
+            let met = swept.meets(simd, &four, chord.span, &[*span; 4]);
+            work.count(|work| work.tested(nodes.len()));
+            let met = met.spans(nodes.len()).filter(|(_, span)| asks.about(*span, last));
+            found.extend(met.map(|(lane, span)| (lane as u32, *still, span)));
+        }
+        let tests = nodes.len() * (children.len() - list);
+        let (still, span) = children[list];
+        children.truncate(list);
+        if self.tires(tests, (node, still, span)) {
+            return true;
+        }
+        for (lane, child) in nodes.iter().enumerate() {
+            let Stacks { near, found, .. } = &mut *self.stacks;
+            let base = near.len();
+            let of_child = found[first..].iter().filter(|(of, ..)| *of == lane as u32);
+            near.extend(of_child.map(|(_, still, span)| (*still, *span)));
+            if near.len() > base && self.child_blocked(*child, chord, &swept, lane, base) {
+                return true;
+            }
+        }
+        self.stacks.found.truncate(first);
+        false
+    }
+
+    #[inline(never)]
+    fn child_blocked(
+        &mut self,
+        node: u32,
+        chord: &Chord<S>,
+        swept: &SweptBoxes<S>,
+        lane: usize,
+        base: usize,
+    ) -> bool {
+        let simd = self.simd;
+        simd.vectorize(
+            #[inline(always)]
+            || self.comes_near(node, chord, (swept, Some(lane)), base),
+        )
+    }
+
+    /// Whether, after so many more tests of boxes, it is time to look at one sample, and surfaces meet there:
+    /// any, or those of two nodes that may meet during a span.
+    #[inline(always)]
+    fn tires(&mut self, tests: usize, near: (u32, u32, Span)) -> bool {
+        self.patience -= tests as f64;
+        self.patience <= 0.0 && self.meets_at_a_sample(near)
+    }
+
+    #[inline(never)]
+    fn meets_at_a_sample(&mut self, (node, still, span): (u32, u32, Span)) -> bool {
+        let last = self.clock.samples;
+        if last < 2 {
+            return false;
+        }
+        // What is in the way is often so half way, else where the search is.
+        let (pair, sample) = if std::mem::take(&mut self.whole) {
+            ((0, 0), last / 2)
+        } else {
+            let Samples { from, to } = Samples::around(span, last);
+            ((node, still), (from + (to - from) / 2).clamp(1, last - 1))
+        };
+        self.patience = self.rest;
+        self.rest *= 1.5;
+        self.stacks.work.count(|work| work.looks += 1);
+        self.meets = self.meeting.any_meet(pair, self.clock.at(sample), &mut self.stacks.pairs);
+        self.meets
+    }
+}

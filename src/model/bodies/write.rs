@@ -1,0 +1,173 @@
+//! Rigid robots and obstacles written out as the tables of a problem file.
+
+use super::Bodies;
+use super::robot::{JointKind, Limits, Link};
+use crate::digest::Digest;
+use crate::model::Documents;
+use crate::scene::{Body, Mesh, Pose, Shape};
+use crate::source::value;
+use crate::space::Motion;
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// Appends the tables.
+pub(super) fn write(bodies: &Bodies, documents: &mut Documents) {
+    let mut text = String::new();
+    let mut writer = Writer { documents };
+    writer.tables(bodies, &mut text).expect("writing to memory cannot fail");
+    documents.text += &text;
+}
+
+struct Writer<'a> {
+    documents: &'a mut Documents,
+}
+
+impl Writer<'_> {
+    fn tables(&mut self, bodies: &Bodies, out: &mut String) -> std::fmt::Result {
+        let (robot, bounds) = (&bodies.robot, &bodies.bounds);
+        let axes = robot.motion.bounded_axes();
+        writeln!(out, "\n[space]\nmotion = {}", value(&robot.motion))?;
+        writeln!(out, "min = {:?}\nmax = {:?}", &bounds.min[..axes], &bounds.max[..axes])?;
+        writeln!(out, "bounds = {}", value(&bounds.meaning))?;
+        writeln!(out, "resolution = {:?}", bodies.resolution)?;
+        writeln!(out, "edges = {}", value(&bodies.edges))?;
+        writeln!(out, "rotation_length = {:?}", bodies.rotation_length)?;
+
+        writeln!(out, "\n[robot]\nname = {}", value(&robot.links[0].name))?;
+        if robot.motion == Motion::Fixed {
+            writeln!(out, "base = {}", frame(&robot.base))?;
+        }
+        self.link_bodies(&robot.links[0], out)?;
+        let name = |link: u32| value(&robot.links[link as usize].name);
+        if !robot.may_touch.is_empty() {
+            let pair = |(a, b): &(u32, u32)| format!("[{}, {}]", name(*a), name(*b));
+            let pairs: Vec<String> = robot.may_touch.iter().map(pair).collect();
+            writeln!(out, "may_touch = [{}]", pairs.join(", "))?;
+        }
+        for link in &robot.links[1..] {
+            let joint = link.joint.as_ref().expect("every link but the base hangs on a joint");
+            writeln!(out, "\n[[robot.links]]\nname = {}", value(&link.name))?;
+            self.link_bodies(link, out)?;
+            writeln!(out, "[robot.links.joint]\nname = {}", value(&joint.name))?;
+            writeln!(out, "parent = {}\nkind = {}", name(joint.parent), kind(&joint.kind))?;
+            for (key, pose) in [("before", &joint.before), ("after", &joint.after)] {
+                writeln!(out, "{key} = {}", frame(pose))?;
+            }
+        }
+
+        for (index, body) in bodies.obstacles.iter().enumerate() {
+            writeln!(out, "\n[[obstacles]]")?;
+            writeln!(out, "shape = {}", self.shape(&body.shape, &format!("obstacle-{index}")))?;
+            for (key, array) in pose_keys(&body.pose) {
+                writeln!(out, "{key} = {array}")?;
+            }
+            if let Shape::Mesh(_) = body.shape {
+                writeln!(out, "solid = {}", body.solid)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn link_bodies(&mut self, link: &Link, out: &mut String) -> std::fmt::Result {
+        if link.bodies.is_empty() {
+            return Ok(());
+        }
+        writeln!(out, "bodies = [")?;
+        for (index, body) in link.bodies.iter().enumerate() {
+            let name = match index {
+                0 => link.name.clone(),
+                _ => format!("{}-{index}", link.name),
+            };
+            writeln!(out, "    {{ {} }},", self.body(body, &name))?;
+        }
+        writeln!(out, "]")
+    }
+
+    fn body(&mut self, body: &Body, name: &str) -> String {
+        let mut text = format!("shape = {}", self.shape(&body.shape, name));
+        for (key, array) in pose_keys(&body.pose) {
+            text += &format!(", {key} = {array}");
+        }
+        if let Shape::Mesh(_) = body.shape {
+            text += &format!(", solid = {}", body.solid);
+        }
+        text
+    }
+
+    fn shape(&mut self, shape: &Shape, name: &str) -> String {
+        match shape {
+            Shape::Point => "{ point = {} }".to_owned(),
+            Shape::Box { size } => format!("{{ box = {{ size = {size:?} }} }}"),
+            Shape::Sphere { radius } => format!("{{ sphere = {{ radius = {radius:?} }} }}"),
+            Shape::Cylinder { radius, height } => {
+                format!("{{ cylinder = {{ radius = {radius:?}, height = {height:?} }} }}")
+            }
+            Shape::Capsule { radius, height } => {
+                format!("{{ capsule = {{ radius = {radius:?}, height = {height:?} }} }}")
+            }
+            Shape::Mesh(mesh) => {
+                let mesh = self.mesh(mesh, name);
+                let file = format!("{}/{mesh}", self.documents.folder);
+                format!("{{ mesh = {{ file = {} }} }}", value(&file))
+            }
+        }
+    }
+
+    /// The file of a mesh: that of an equal one, or a new one of a name that none has.
+    fn mesh(&mut self, mesh: &Mesh, name: &str) -> String {
+        let digest = Digest::of(&crate::wire::encode(mesh));
+        if let Some(file) = self.documents.names.get(&digest) {
+            return file.clone();
+        }
+        // Some file systems take capitals and small letters for the same.
+        let taken: BTreeSet<String> =
+            self.documents.files.iter().map(|(file, _)| file.to_lowercase()).collect();
+        let mut file = format!("{name}.obj");
+        for count in 2.. {
+            if !taken.contains(&file.to_lowercase()) {
+                break;
+            }
+            file = format!("{name}-{count}.obj");
+        }
+        self.documents.files.push((file.clone(), mesh.to_obj()));
+        self.documents.names.insert(digest, file.clone());
+        file
+    }
+}
+
+/// The keys of a pose that moves something.
+fn pose_keys(pose: &Pose) -> Vec<(&'static str, String)> {
+    // By bits: −0 is not 0 in a digest.
+    let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+    let (position, orientation) = (&pose.translation, &pose.rotation);
+    let mut keys = Vec::new();
+    if bits(position) != bits(&Pose::IDENTITY.translation) {
+        keys.push(("position", format!("{position:?}")));
+    }
+    if bits(orientation) != bits(&Pose::IDENTITY.rotation) {
+        keys.push(("orientation", format!("{orientation:?}")));
+    }
+    keys
+}
+
+fn frame(pose: &Pose) -> String {
+    let keys: Vec<String> =
+        pose_keys(pose).into_iter().map(|(key, array)| format!("{key} = {array}")).collect();
+    if keys.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", keys.join(", ")) }
+}
+
+fn kind(kind: &JointKind) -> String {
+    match kind {
+        JointKind::Fixed => "{ fixed = {} }".to_owned(),
+        JointKind::Spherical => "{ spherical = {} }".to_owned(),
+        JointKind::Revolute { axis, limits: None } => {
+            format!("{{ revolute = {{ axis = {axis:?} }} }}")
+        }
+        JointKind::Revolute { axis, limits: Some(Limits { min, max }) } => {
+            format!("{{ revolute = {{ axis = {axis:?}, radians = [{min:?}, {max:?}] }} }}")
+        }
+        JointKind::Prismatic { axis, limits: Limits { min, max } } => {
+            format!("{{ prismatic = {{ axis = {axis:?}, range = [{min:?}, {max:?}] }} }}")
+        }
+    }
+}

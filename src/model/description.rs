@@ -1,0 +1,82 @@
+use super::bodies::foreign::SceneOptions;
+use super::{Figure, Model, ModelKind, NodeValue};
+use crate::digest::SourceFile;
+use crate::source::{ProblemError, Source};
+use crate::space::Space;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The side of a model that is plain data: what a problem file says of it.
+pub trait Description {
+    /// The configuration space.
+    fn space(&self) -> Space;
+
+    /// What numbers every milestone of a roadmap carries; see [`Model::node_values`].
+    fn node_values(&self) -> &'static [NodeValue] {
+        &[]
+    }
+
+    /// Makes the model ready for work.
+    fn prepare(&self) -> Box<dyn Model>;
+
+    /// The first thing in which another description of the same kind of model differs, for people to read
+    /// ("the robot"); `None` where they are equal.
+    fn difference(&self, other: &ModelKind) -> Option<&'static str>;
+
+    /// What `check` says of it before the query: lines of a word of 16 characters and a text.
+    fn describe(&self, out: &mut String);
+
+    /// Writes its tables as they stand in a problem file, so that what is read from them is equal to the
+    /// last bit.
+    fn write(&self, documents: &mut Documents);
+
+    /// How it is drawn, if it can be.
+    fn figure(&self) -> Option<&dyn Figure> {
+        None
+    }
+}
+
+/// A problem file in the making, with the files that it names.
+#[derive(Debug)]
+pub struct Documents {
+    /// The text so far.
+    pub text: String,
+    /// The folder of the other files, a path from the problem file's own folder.
+    pub folder: String,
+    /// The other files: name and contents.
+    pub files: Vec<(String, String)>,
+    /// By the digest of what a file holds: its name.
+    pub(crate) names: BTreeMap<crate::digest::Digest, String>,
+}
+
+/// A problem that another program's file describes, as far as that file goes.
+#[derive(Debug)]
+pub struct Imported {
+    /// Its name there.
+    pub name: String,
+    /// What is planned for.
+    pub model: ModelKind,
+    /// Start and goal, as they are written.
+    pub query: Option<[Vec<f64>; 2]>,
+    /// What was chosen where the file leaves a choice.
+    pub notes: Vec<String>,
+    /// The files that were read.
+    pub sources: Vec<SourceFile>,
+}
+
+/// How a description is read from a problem file.
+pub(crate) trait ReadTables: Sized {
+    /// The keys of the tables of the file that describe the model; no other model has one of them.
+    const TABLES: &'static [&'static str];
+
+    /// Reads and checks these tables. `notes` gets what was chosen where the file leaves a choice.
+    fn read(source: &Source, notes: &mut Vec<String>) -> Result<Self, ProblemError>;
+}
+
+/// Reads the file of another program, told apart by its extension; `None` for any other file.
+pub(crate) fn import(
+    path: &Path,
+    options: &SceneOptions,
+) -> Option<Result<Imported, ProblemError>> {
+    super::bodies::import(path, options)
+}

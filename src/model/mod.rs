@@ -1,0 +1,156 @@
+//! Models: what is planned for. One folder per model.
+//!
+//! A model has two sides. Its *description* is plain data, as a problem file gives it: it travels between
+//! processes, enters the problem's digest, is written back as a file, described for people and drawn. From
+//! it a process *prepares* the model itself, which answers the questions of planning: what is valid, what
+//! a motion costs. Samplers, connections and evaluators know a model by the trait [`Model`] alone. What
+//! not every model can say, such as how far the nearest obstacle is, is a capability, asked for.
+
+mod clearance;
+mod cost;
+mod description;
+mod figure;
+mod scratch;
+
+pub mod bodies;
+
+pub use bodies::foreign::SceneOptions;
+pub use clearance::{Clearance, Clearances};
+pub use cost::{Cost, Directed};
+pub use description::{Description, Documents, Imported};
+pub use figure::{Figure, Placement};
+pub use scratch::{Asked, ModelScratch, Scratch};
+
+pub(crate) use description::{ReadTables, import};
+
+use crate::source::{ProblemError, Source};
+use crate::space::Space;
+use bincode::{Decode, Encode};
+use std::any::Any;
+
+/// The models' enum, with what follows from their list.
+macro_rules! models {
+    ($($variant:ident($description:ty),)+) => {
+        /// The models, each by its description.
+        #[derive(Clone, Debug, PartialEq, Encode, Decode)]
+        pub enum ModelKind {
+            $(#[allow(missing_docs)] $variant($description),)+
+        }
+
+        impl ModelKind {
+            /// The description behind its role.
+            pub fn description(&self) -> &dyn Description {
+                match self {
+                    $(ModelKind::$variant(description) => description,)+
+                }
+            }
+
+            /// The keys of the tables of the model that a problem file describes: the first listed of which it
+            /// has a table.
+            pub(crate) fn tables_in(source: &Source) -> &'static [&'static str] {
+                let listed = [$(<$description as ReadTables>::TABLES),+];
+                let described = |keys: &&&[&str]| keys.iter().any(|key| source.has(key));
+                listed.iter().find(described).unwrap_or(&listed[0])
+            }
+
+            /// Reads the tables of that model. `notes` gets what was chosen where the file leaves a choice.
+            pub(crate) fn read(
+                source: &Source,
+                notes: &mut Vec<String>,
+            ) -> Result<ModelKind, ProblemError> {
+                let tables = ModelKind::tables_in(source);
+                $(if tables == <$description as ReadTables>::TABLES {
+                    return ReadTables::read(source, notes).map(ModelKind::$variant);
+                })+
+                unreachable!("the tables are those of a listed model")
+            }
+        }
+    };
+}
+
+models! {
+    Bodies(bodies::Bodies), // new ones at the end, since ledgers know models by number
+}
+
+impl ModelKind {
+    /// The description of rigid bodies, if that is what the model is.
+    pub fn bodies(&self) -> Option<&bodies::Bodies> {
+        match self {
+            ModelKind::Bodies(bodies) => Some(bodies),
+            _ => None,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn bodies_mut(&mut self) -> Option<&mut bodies::Bodies> {
+        match self {
+            ModelKind::Bodies(bodies) => Some(bodies),
+            _ => None,
+        }
+    }
+}
+
+/// Whether a configuration is valid, and if it is not, in which of two ways.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Validity {
+    /// It is within its bounds, and nothing forbids it.
+    Valid,
+    /// It is not within its bounds; whether something else forbids it is not known.
+    OutOfBounds,
+    /// It is within its bounds but forbidden: of bodies, the robot touches an obstacle or itself.
+    Invalid,
+}
+
+/// A number that a model gives every milestone, such as an energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NodeValue {
+    /// Its name in exported files.
+    pub name: &'static str,
+    /// Its unit, `1` for a number without one.
+    pub unit: &'static str,
+}
+
+/// A model made ready for work.
+///
+/// All answers are pure functions of the arguments: what a [`Scratch`] remembers may change how fast an
+/// answer comes, never the answer. Chance (which configurations are kept, say) stays in samplers.
+pub trait Model: Any + Send + Sync {
+    /// The configuration space.
+    fn space(&self) -> &Space;
+
+    /// Whether `q` is valid. Bounds are looked at first.
+    fn validity(&self, q: &[f64], scratch: &mut Scratch) -> Validity;
+
+    /// Whether `q` is valid.
+    fn is_valid(&self, q: &[f64], scratch: &mut Scratch) -> bool {
+        self.validity(q, scratch) == Validity::Valid
+    }
+
+    /// What the motion from `a` to `b` along [`Space::interpolate`], whose ends are valid, costs; `None` if
+    /// it is not valid. It is looked at `refinement` times finer than the problem asks for.
+    fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> Option<Cost>;
+
+    /// The energy at `q`; `None` where a configuration is valid or not and that is all there is to say.
+    fn energy(&self, _q: &[f64], _scratch: &mut Scratch) -> Option<f64> {
+        None
+    }
+
+    /// What makes a configuration invalid, for people to read: "the robot collides or leaves the bounds".
+    fn invalidity(&self) -> &'static str;
+
+    /// Whether some configuration within the bounds could be invalid.
+    fn is_obstructed(&self) -> bool;
+
+    /// What numbers every milestone of a roadmap carries, in the order of [`Model::values`].
+    fn node_values(&self) -> &'static [NodeValue] {
+        &[]
+    }
+
+    /// Appends these numbers for the milestone `q`.
+    fn values(&self, _q: &[f64], _out: &mut Vec<f64>, _scratch: &mut Scratch) {}
+
+    /// Distances to obstacles, of a model that has them.
+    fn clearances(&self) -> Option<&dyn Clearances> {
+        None
+    }
+}

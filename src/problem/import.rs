@@ -1,0 +1,38 @@
+//! Problems that files of other programs describe, with the defaults that a problem file would have.
+
+use super::{DEFAULT_SEED, Problem, building};
+use crate::context::Ends;
+use crate::evaluate::{EvaluatorKind, Query};
+use crate::model::Imported;
+use crate::source::ProblemError;
+use std::path::Path;
+
+/// The problem of what was read from the file `path`.
+pub(super) fn problem_of(path: &Path, imported: Imported) -> Result<Problem, ProblemError> {
+    let Imported { name, model, query, notes, sources } = imported;
+    let (strategies, schedule, sets_per_round) = building::defaults();
+    let mut problem = Problem {
+        name,
+        seed: DEFAULT_SEED,
+        model,
+        query: None,
+        strategies,
+        schedule,
+        adaptive: None,
+        sets_per_round,
+        evaluators: Vec::new(),
+        limits: building::default_limits(),
+        notes,
+        sources,
+        earlier: Vec::new(),
+    };
+    if let Some([mut start, mut goal]) = query {
+        let cx = problem.context();
+        for (name, q) in [("start", &mut start), ("goal", &mut goal)] {
+            cx.accept(q).map_err(|error| ProblemError::file(path, format!("{name}: {error}")))?;
+        }
+        problem.query = Some(Ends { start, goal });
+        problem.evaluators = vec![EvaluatorKind::Query(Query::default())];
+    }
+    Ok(problem)
+}

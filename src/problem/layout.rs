@@ -1,0 +1,235 @@
+//! The bytes of a problem, which ledgers keep and worker processes are given.
+//!
+//! A layout never changes: a ledger of years ago must stay readable, and its problem's digest what it was. A
+//! problem that the first layout can say, one of bodies whose sets are all sampled, has it; every other
+//! problem has the second. What is new comes as new variants at the end of the enums in the second layout, and
+//! what even that cannot say will be a third.
+
+use super::{Earlier, Limits, Problem};
+use crate::BITS_VERSION;
+use crate::connect::{AmongKind, WithinKind};
+use crate::context::Ends;
+use crate::digest::{Digest, SourceFile};
+use crate::evaluate::EvaluatorKind;
+use crate::generator::{GeneratorKind, Sample};
+use crate::model::ModelKind;
+use crate::model::bodies::Bodies;
+use crate::sampler::SamplerKind;
+use crate::schedule::Adaptive;
+use crate::strategy::Strategy;
+use crate::wire::{self, WireError};
+use bincode::de::Decoder;
+use bincode::enc::Encoder;
+use bincode::error::{DecodeError, EncodeError};
+use bincode::{Decode, Encode};
+
+/// How a problem's bytes are laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Encode, Decode)]
+pub enum Layout {
+    /// Bodies, and strategies that sample.
+    First,
+    /// Any model and any strategy.
+    Second,
+}
+
+/// A strategy in the first layout.
+#[derive(Encode, Decode)]
+struct FirstStrategy {
+    label: String,
+    nodes: u32,
+    sampler: SamplerKind,
+    within: WithinKind,
+    among: AmongKind,
+}
+
+/// A problem in the first layout.
+#[derive(Encode, Decode)]
+struct FirstProblem {
+    name: String,
+    seed: u64,
+    bodies: Bodies,
+    rest: Rest<FirstStrategy>,
+}
+
+/// A strategy in the second layout.
+#[derive(Encode, Decode)]
+struct SecondStrategy {
+    label: String,
+    nodes: u32,
+    generator: GeneratorKind,
+    among: AmongKind,
+}
+
+/// A problem in the second layout.
+#[derive(Encode, Decode)]
+struct SecondProblem {
+    name: String,
+    seed: u64,
+    model: ModelKind,
+    rest: Rest<SecondStrategy>,
+}
+
+/// What both layouts end with.
+#[derive(Encode, Decode)]
+struct Rest<S> {
+    query: Option<Ends>,
+    strategies: Vec<S>,
+    schedule: Vec<u32>,
+    adaptive: Option<Adaptive>,
+    sets_per_round: u32,
+    evaluators: Vec<EvaluatorKind>,
+    limits: Limits,
+    notes: Vec<String>,
+    sources: Vec<SourceFile>,
+    earlier: Vec<Earlier>,
+}
+
+impl From<FirstStrategy> for Strategy {
+    fn from(first: FirstStrategy) -> Strategy {
+        let FirstStrategy { label, nodes, sampler, within, among } = first;
+        Strategy {
+            label,
+            nodes,
+            generator: GeneratorKind::Sample(Sample { sampler, within }),
+            among,
+        }
+    }
+}
+
+impl From<SecondStrategy> for Strategy {
+    fn from(second: SecondStrategy) -> Strategy {
+        let SecondStrategy { label, nodes, generator, among } = second;
+        Strategy { label, nodes, generator, among }
+    }
+}
+
+/// The strategies in the first layout, if it can say them.
+fn first_strategies(strategies: &[Strategy]) -> Option<Vec<FirstStrategy>> {
+    let first = |strategy: &Strategy| {
+        let Sample { sampler, within } = strategy.generator.as_sample()?.clone();
+        let Strategy { label, nodes, among, .. } = strategy.clone();
+        Some(FirstStrategy { label, nodes, sampler, within, among })
+    };
+    strategies.iter().map(first).collect()
+}
+
+fn second_strategies(strategies: &[Strategy]) -> Vec<SecondStrategy> {
+    let second = |Strategy { label, nodes, generator, among }| SecondStrategy {
+        label,
+        nodes,
+        generator,
+        among,
+    };
+    strategies.iter().cloned().map(second).collect()
+}
+
+impl<S> Rest<S> {
+    fn of(problem: &Problem, strategies: Vec<S>) -> Rest<S> {
+        Rest {
+            query: problem.query.clone(),
+            strategies,
+            schedule: problem.schedule.clone(),
+            adaptive: problem.adaptive,
+            sets_per_round: problem.sets_per_round,
+            evaluators: problem.evaluators.clone(),
+            limits: problem.limits,
+            notes: problem.notes.clone(),
+            sources: problem.sources.clone(),
+            earlier: problem.earlier.clone(),
+        }
+    }
+
+    fn with(self, name: String, seed: u64, model: ModelKind) -> Problem
+    where
+        Strategy: From<S>,
+    {
+        Problem {
+            name,
+            seed,
+            model,
+            query: self.query,
+            strategies: self.strategies.into_iter().map(Strategy::from).collect(),
+            schedule: self.schedule,
+            adaptive: self.adaptive,
+            sets_per_round: self.sets_per_round,
+            evaluators: self.evaluators,
+            limits: self.limits,
+            notes: self.notes,
+            sources: self.sources,
+            earlier: self.earlier,
+        }
+    }
+}
+
+/// What the first layout has to say a problem: its model and its strategies, if it can.
+fn first(problem: &Problem) -> Option<(&Bodies, Vec<FirstStrategy>)> {
+    Some((problem.model.bodies()?, first_strategies(&problem.strategies)?))
+}
+
+impl Problem {
+    /// The problem's bytes, and how they are laid out.
+    pub fn to_bytes(&self) -> (Layout, Vec<u8>) {
+        let (name, seed) = (self.name.clone(), self.seed);
+        match first(self) {
+            Some((bodies, strategies)) => {
+                let (bodies, rest) = (bodies.clone(), Rest::of(self, strategies));
+                (Layout::First, wire::encode(&FirstProblem { name, seed, bodies, rest }))
+            }
+            None => {
+                let strategies = second_strategies(&self.strategies);
+                let (model, rest) = (self.model.clone(), Rest::of(self, strategies));
+                (Layout::Second, wire::encode(&SecondProblem { name, seed, model, rest }))
+            }
+        }
+    }
+
+    /// The problem that bytes stand for.
+    ///
+    /// # Errors
+    /// When they are those of no problem.
+    pub fn from_bytes(layout: Layout, bytes: &[u8]) -> Result<Problem, WireError> {
+        Ok(match layout {
+            Layout::First => {
+                let FirstProblem { name, seed, bodies, rest } = wire::decode(bytes)?;
+                rest.with(name, seed, ModelKind::Bodies(bodies))
+            }
+            Layout::Second => {
+                let SecondProblem { name, seed, model, rest } = wire::decode(bytes)?;
+                rest.with(name, seed, model)
+            }
+        })
+    }
+}
+
+/// The layout, then the bytes as a list.
+impl Encode for Problem {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        self.to_bytes().encode(encoder)
+    }
+}
+
+impl<Context> Decode<Context> for Problem {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Problem, DecodeError> {
+        let (layout, bytes): (Layout, Vec<u8>) = Decode::decode(decoder)?;
+        let problem = Problem::from_bytes(layout, &bytes);
+        problem.map_err(|error| DecodeError::OtherString(error.to_string()))
+    }
+}
+bincode::impl_borrow_decode!(Problem);
+
+/// See [`Problem::digest`].
+pub(super) fn digest(problem: &Problem) -> Digest {
+    let schedule = (&problem.schedule, problem.adaptive, problem.sets_per_round, &problem.earlier);
+    let bytes = match first(problem) {
+        Some((bodies, strategies)) => {
+            wire::encode(&(BITS_VERSION, problem.seed, bodies, strategies, schedule))
+        }
+        None => {
+            let strategies = second_strategies(&problem.strategies);
+            // No first layout begins with this text.
+            let name = "roadmill problem 2";
+            wire::encode(&(name, BITS_VERSION, problem.seed, &problem.model, strategies, schedule))
+        }
+    };
+    Digest::of(&bytes)
+}
