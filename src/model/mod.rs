@@ -13,6 +13,7 @@ mod figure;
 mod scratch;
 
 pub mod bodies;
+pub mod landscape;
 
 pub use bodies::foreign::SceneOptions;
 pub use clearance::{Clearance, Clearances};
@@ -69,7 +70,8 @@ macro_rules! models {
 }
 
 models! {
-    Bodies(bodies::Bodies), // new ones at the end, since ledgers know models by number
+    Bodies(bodies::Bodies),
+    Landscape(landscape::Landscape), // new ones at the end, since ledgers know models by number
 }
 
 impl ModelKind {
