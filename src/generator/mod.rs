@@ -4,15 +4,18 @@
 //! generator says that it reads. One that reads nothing is given out to workers ahead of the rounds; one
 //! that *grows* the roadmap reads it as it was at the start of the set's round.
 
+mod expansion;
 mod sample;
 
 methods! {
     /// The generators, as a problem file names them.
     pub enum GeneratorKind: dyn Generator {
-        Sample(sample::Sample), // new ones at the end, since ledgers know methods by number
+        Sample(sample::Sample),
+        Expansion(expansion::Expansion), // new ones at the end, since ledgers know methods by number
     }
 }
 
+pub use expansion::Expansion;
 pub use sample::Sample;
 
 use crate::context::Context;
