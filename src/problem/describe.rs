@@ -46,7 +46,7 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
             }
         }
     }
-    let pairs = problem.robot.self_pairs().len();
+    let pairs = problem.robot.self_pairs().count();
     if problem.robot.links.len() > 1 {
         let links = problem.robot.links.len();
         writeln!(out, "                 {links} links, {pairs} pairs of which must not touch")?;

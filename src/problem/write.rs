@@ -25,7 +25,8 @@ impl Problem {
     /// written with the digits that give it back to the bit, and every mesh as it is used, after all
     /// that its reader joined, turned and moved. Notes become comments.
     pub fn to_toml(&self, folder: &str) -> Written {
-        let mut writer = Writer { folder, meshes: Vec::new(), mesh_of: BTreeMap::new() };
+        let mut writer =
+            Writer { folder, meshes: Vec::new(), taken: BTreeSet::new(), mesh_of: BTreeMap::new() };
         let mut text = String::new();
         writer.problem(self, &mut text).expect("writing to memory cannot fail");
         Written { text, meshes: writer.meshes }
@@ -35,6 +36,8 @@ impl Problem {
 struct Writer<'a> {
     folder: &'a str,
     meshes: Vec<(String, String)>,
+    /// The file names of the meshes in small letters: some file systems take capitals for the same.
+    taken: BTreeSet<String>,
     mesh_of: BTreeMap<Digest, String>,
 }
 
@@ -149,12 +152,9 @@ impl Writer<'_> {
         if let Some(file) = self.mesh_of.get(&digest) {
             return file.clone();
         }
-        // Some file systems take capitals and small letters for the same.
-        let taken: BTreeSet<String> =
-            self.meshes.iter().map(|(file, _)| file.to_lowercase()).collect();
         let mut file = format!("{name}.obj");
         for count in 2.. {
-            if !taken.contains(&file.to_lowercase()) {
+            if self.taken.insert(file.to_lowercase()) {
                 break;
             }
             file = format!("{name}-{count}.obj");
