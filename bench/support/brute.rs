@@ -29,7 +29,7 @@ impl Brute {
             bounds: problem.model.bodies().expect("bodies").bounds,
             links: robot.links.iter().map(|link| convex(&link.bodies)).collect(),
             obstacles: convex(&problem.model.bodies().expect("bodies").obstacles),
-            self_pairs: robot.self_pairs(),
+            self_pairs: robot.self_pairs().collect(),
             robot,
         }
     }

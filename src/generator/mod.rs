@@ -92,4 +92,3 @@ impl GeneratorKind {
         self.method().reads() == Reads::Roadmap
     }
 }
-

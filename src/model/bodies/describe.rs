@@ -37,7 +37,7 @@ pub(super) fn describe(bodies: &Bodies, out: &mut String) -> std::fmt::Result {
             }
         }
     }
-    let pairs = bodies.robot.self_pairs().len();
+    let pairs = bodies.robot.self_pairs().count();
     if bodies.robot.links.len() > 1 {
         let links = bodies.robot.links.len();
         writeln!(out, "                 {links} links, {pairs} pairs of which must not touch")?;

@@ -9,6 +9,7 @@ use crate::source;
 use crate::source::Step::{self, Index, Key};
 use crate::source::{ProblemError, Source, fits};
 use crate::space::Motion;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Name of link 0 where the file gives none.
@@ -47,8 +48,13 @@ pub(super) fn robot_of(
         let message = format!("{found} found; at most {LINKS_MAX} expected");
         return Err(source.error(&[Key("robot"), Key("links")], message));
     }
+    let mut index_of: BTreeMap<String, usize> = BTreeMap::new();
+    for (index, link) in robot.links.iter().enumerate() {
+        index_of.insert(link.name.clone(), index);
+    }
     for (index, link) in table.links.iter().enumerate() {
-        let link = link_of(source, &robot, index, link, notes)?;
+        let link = link_of(source, &index_of, index, link, notes)?;
+        index_of.insert(link.name.clone(), robot.links.len());
         robot.links.push(link);
     }
     if motion == Motion::Fixed && robot.links.iter().all(|link| !moves(link)) {
@@ -59,11 +65,10 @@ pub(super) fn robot_of(
         let mut pair = Vec::new();
         for name in names {
             let place = [Key("robot"), Key("may_touch"), Index(index)];
-            let link = robot.links.iter().position(|link| link.name == *name);
-            let link = link.ok_or_else(|| {
+            let link = index_of.get(name).ok_or_else(|| {
                 source.error(&place, format!("`{name}` found; the name of a link expected"))
             })?;
-            pair.push(link as u32);
+            pair.push(*link as u32);
         }
         robot.may_touch.push((pair[0].min(pair[1]), pair[0].max(pair[1])));
     }
@@ -94,18 +99,24 @@ fn urdf_links(
     Ok(fitting_names(robot.links))
 }
 
-/// The links with names that fit and that no two have.
+/// The links with names that fit and that no two have: where one is taken, the first of `NAME-2`, `NAME-3`, …
+/// that is not.
 pub(super) fn fitting_names(mut links: Vec<Link>) -> Vec<Link> {
-    for index in 0..links.len() {
-        let fitting = source::fitting(&links[index].name);
+    let mut taken: BTreeSet<String> = BTreeSet::new();
+    // For each name of which several links have made one of their own: the first number not tried. Names stay
+    // taken, so that the numbers before it need not be tried again.
+    let mut next_count: BTreeMap<String, u64> = BTreeMap::new();
+    for link in &mut links {
+        let fitting = source::fitting(&link.name);
         let mut name = if fitting.is_empty() { "link".to_owned() } else { fitting.clone() };
-        let mut count = 2;
-        while links[..index].iter().any(|other| other.name == name) {
+        while taken.contains(&name) {
+            let count = next_count.entry(fitting.clone()).or_insert(2);
             name = format!("{fitting}-{count}");
-            count += 1;
+            *count += 1;
         }
-        links[index].name = name;
-        if let Some(joint) = &mut links[index].joint {
+        taken.insert(name.clone());
+        link.name = name;
+        if let Some(joint) = &mut link.joint {
             joint.name = source::fitting(&joint.name);
         }
     }
@@ -116,24 +127,25 @@ pub(super) fn moves(link: &Link) -> bool {
     link.joint.as_ref().is_some_and(|joint| joint.kind.moves())
 }
 
+/// Reads a link, given the indices of the links before it by their names.
 fn link_of(
     source: &Source,
-    robot: &Robot,
+    index_of: &BTreeMap<String, usize>,
     index: usize,
     table: &LinkTable,
     notes: &mut Vec<String>,
 ) -> Result<Link, ProblemError> {
     let place = [Key("robot"), Key("links"), Index(index)];
     let at = |keys: &[Step<'static>]| [&place[..], keys].concat();
-    let taken = |name: &str| robot.links.iter().any(|link| link.name == name);
-    if !fits(&table.name) || taken(&table.name) {
+    if !fits(&table.name) || index_of.contains_key(&table.name) {
         let message = format!("`{}` found; {NAME_EXPECTED}", table.name);
         return Err(source.error(&at(&[Key("name")]), message));
     }
     let joint = &table.joint;
     let parent = match &joint.parent {
-        None => robot.links.len() - 1,
-        Some(name) => robot.links.iter().position(|link| link.name == *name).ok_or_else(|| {
+        // The link before it. The base, link 0, does not stand among the tables.
+        None => index,
+        Some(name) => *index_of.get(name).ok_or_else(|| {
             // This is what keeps the links a tree.
             let message = format!("`{name}` found; the name of a link before this one expected");
             source.error(&at(&[Key("joint"), Key("parent")]), message)

@@ -97,3 +97,6 @@ impl Description for Bodies {
         Some(self)
     }
 }
+
+#[cfg(test)]
+mod tests;

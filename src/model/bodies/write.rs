@@ -13,13 +13,15 @@ use std::fmt::Write;
 /// Appends the tables.
 pub(super) fn write(bodies: &Bodies, documents: &mut Documents) {
     let mut text = String::new();
-    let mut writer = Writer { documents };
+    let mut writer = Writer { documents, taken: BTreeSet::new() };
     writer.tables(bodies, &mut text).expect("writing to memory cannot fail");
     documents.text += &text;
 }
 
 struct Writer<'a> {
     documents: &'a mut Documents,
+    /// The file names of the meshes in small letters: some file systems take capitals for the same.
+    taken: BTreeSet<String>,
 }
 
 impl Writer<'_> {
@@ -119,12 +121,9 @@ impl Writer<'_> {
         if let Some(file) = self.documents.names.get(&digest) {
             return file.clone();
         }
-        // Some file systems take capitals and small letters for the same.
-        let taken: BTreeSet<String> =
-            self.documents.files.iter().map(|(file, _)| file.to_lowercase()).collect();
         let mut file = format!("{name}.obj");
         for count in 2.. {
-            if !taken.contains(&file.to_lowercase()) {
+            if self.taken.insert(file.to_lowercase()) {
                 break;
             }
             file = format!("{name}-{count}.obj");

@@ -9,7 +9,7 @@ mod rates;
 mod space;
 
 pub use joint::{Joint, JointKind, Limits, TURN_MAX};
-pub(crate) use rates::{Chain, Rates};
+pub(crate) use rates::{Hops, Rates};
 pub use space::Speeds;
 
 use crate::math;
@@ -17,7 +17,8 @@ use crate::scene::{Body, Pose};
 use crate::space::Motion;
 use bincode::{Decode, Encode};
 
-/// The most links that a robot may have: walks along it recurse.
+/// The most links that a robot may have. A robot of so many has half a million pairs of links, each of which is
+/// stored, and looked at for every configuration.
 pub const LINKS_MAX: usize = 1000;
 
 /// A robot.
@@ -59,7 +60,7 @@ impl Robot {
 
     /// The pairs of links, the lower index first, that must not touch: all but neighbours, links fixed
     /// to one another, and those that may. Links on either side of a link without bodies are neighbours.
-    pub fn self_pairs(&self) -> Vec<(usize, usize)> {
+    pub fn self_pairs(&self) -> impl Iterator<Item = (usize, usize)> {
         // Per link the group of links it is fixed to, and the group that this group hangs on.
         let mut groups: Vec<(usize, usize)> = Vec::new();
         for (index, link) in self.links.iter().enumerate() {
@@ -72,18 +73,14 @@ impl Robot {
                 }
             });
         }
-        let mut pairs = Vec::new();
-        for high in 0..groups.len() {
-            for low in 0..high {
-                let ((a, above_a), (b, above_b)) = (groups[low], groups[high]);
-                let neighbors = a == b || above_a == b || above_b == a;
-                let may = self.may_touch.contains(&(low as u32, high as u32));
-                if !neighbors && !may {
-                    pairs.push((low, high));
-                }
-            }
-        }
-        pairs
+        let mut may_touch = self.may_touch.clone();
+        may_touch.sort_unstable();
+        let pairs = (0..groups.len()).flat_map(|high| (0..high).map(move |low| (low, high)));
+        pairs.filter(move |(low, high)| {
+            let ((a, above_a), (b, above_b)) = (groups[*low], groups[*high]);
+            let neighbors = a == b || above_a == b || above_b == a;
+            !neighbors && may_touch.binary_search(&(*low as u32, *high as u32)).is_err()
+        })
     }
 
     fn base_pose(&self, q: &[f64]) -> Pose {
@@ -139,6 +136,8 @@ impl Robot {
     }
 }
 
+#[cfg(test)]
+mod rates_reference;
 #[cfg(test)]
 pub(crate) mod rates_tests;
 #[cfg(test)]

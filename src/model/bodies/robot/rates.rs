@@ -1,10 +1,10 @@
 //! How fast a motion carries a link and how much it bends the ways of its points.
 //!
 //! Along [`Space::interpolate`](crate::space::Space::interpolate), parametrised over `[0, 1]`, every value
-//! changes at a constant rate, so that bounds on velocities and accelerations follow hop by hop along
-//! the chain; `docs/validity.md` derives them.
+//! changes at a constant rate, so that bounds on velocities and accelerations follow joint by joint along
+//! the way from one link to another; `docs/validity.md` derives them.
 
-use super::{Joint, JointKind, Robot};
+use super::{JointKind, Robot};
 use crate::math;
 use crate::scene::Pose;
 use crate::space::Motion;
@@ -40,12 +40,23 @@ pub(crate) struct Steady {
     pub turning: Vector,
 }
 
-/// One joint, in one of its two directions.
+/// The joints of a robot, with what the bounds need of each: one entry per joint, from which the bounds
+/// between any two links follow by walking along the tree.
+#[derive(Clone, Debug)]
+pub(crate) struct Hops {
+    motion: Motion,
+    /// The joint of link `i` stands at `i - 1`, since the base has none.
+    of_links: Vec<Hop>,
+}
+
+/// One joint.
 #[derive(Clone, Debug)]
 struct Hop {
-    /// How far the joint's frame is from where one comes from.
+    /// The parent link, whose index is less than that of the link that the joint moves.
+    parent: u32,
+    /// Distance of the joint's origin from the parent link's.
     before: f64,
-    /// How far the frame that one comes to is from the joint's as moved.
+    /// Distance of the link's origin from the joint's as moved.
     after: f64,
     kind: Kind,
 }
@@ -60,95 +71,104 @@ enum Kind {
     Slide(usize),
 }
 
-/// The joints between two frames.
-#[derive(Clone, Debug)]
-pub(crate) struct Chain {
-    from_world: bool,
-    hops: Vec<Hop>,
-}
-
-impl Robot {
-    /// The chain from the world to a link.
-    pub(crate) fn chain_to(&self, link: usize) -> Chain {
-        let up = self.ancestry(link);
-        Chain {
-            from_world: true,
-            hops: up.iter().rev().map(|link| self.hop(*link, true)).collect(),
-        }
-    }
-
-    /// The chain from one link to another.
-    pub(crate) fn chain_between(&self, from: usize, to: usize) -> Chain {
-        let (up, down) = (self.ancestry(from), self.ancestry(to));
-        let shared = up.iter().rev().zip(down.iter().rev()).take_while(|(a, b)| a == b).count();
-        let up = up[..up.len() - shared].iter().map(|link| self.hop(*link, false));
-        let down = down[..down.len() - shared].iter().rev().map(|link| self.hop(*link, true));
-        Chain { from_world: false, hops: up.chain(down).collect() }
-    }
-
-    /// The links that have joints on the way from a link to the base, itself first.
-    fn ancestry(&self, mut link: usize) -> Vec<usize> {
-        let mut links = Vec::new();
-        while let Some(joint) = &self.links[link].joint {
-            links.push(link);
-            link = joint.parent as usize;
-        }
-        links
-    }
-
-    fn hop(&self, link: usize, down: bool) -> Hop {
-        let joint = |link: usize| -> Option<&Joint> { self.links[link].joint.as_ref() };
-        let own = joint(link).expect("only links with joints are hopped over");
-        let before: usize = (0..link).filter_map(joint).map(|joint| joint.kind.values()).sum();
-        let value = self.motion.values() + before;
-        let length = |pose: &Pose| Vector::from_array(pose.translation).length();
-        let (before, after) = (length(&own.before), length(&own.after));
-        let (before, after) = if down { (before, after) } else { (after, before) };
-        let kind = match own.kind {
-            JointKind::Fixed => Kind::Fixed,
-            JointKind::Revolute { limits, .. } => Kind::Turn(value, limits.is_none()),
-            JointKind::Prismatic { .. } => Kind::Slide(value),
-            JointKind::Spherical => Kind::Ball(value),
-        };
-        Hop { before, after, kind }
-    }
-}
-
 /// Outweighs the rounding in all of this.
-const ROUNDING: f64 = 1.0 + 1e-9;
+pub(super) const ROUNDING: f64 = 1.0 + 1e-9;
 
-impl Chain {
-    /// Bounds on the motion from `a` to `b`.
-    pub(crate) fn rates(&self, motion: Motion, a: &[f64], b: &[f64]) -> Rates {
-        let mut rates = if self.from_world { of_base(motion, a, b) } else { Rates::default() };
-        for Hop { before, after, kind } in &self.hops {
-            rates.steady = None;
-            rates.carry(*before);
-            match *kind {
-                Kind::Fixed => {}
-                Kind::Turn(value, wraps) => {
-                    let change = b[value] - a[value];
-                    let rate = if wraps { math::wrap_angle(change) } else { change };
-                    rates.turn(rate.abs() * ROUNDING);
-                }
-                Kind::Ball(value) => {
-                    let (from, to) = (rotation_at(a, value), rotation_at(b, value));
-                    rates.turn(turn_between(from, to).1 * ROUNDING);
-                }
-                Kind::Slide(value) => {
-                    rates.carry(a[value].abs().max(b[value].abs()));
-                    let rate = (b[value] - a[value]).abs() * ROUNDING;
-                    rates.bend += 2.0 * rates.spin * rate;
-                    rates.speed += rate;
-                }
+impl Hops {
+    /// The joints of a robot.
+    pub fn new(robot: &Robot) -> Hops {
+        let length = |pose: &Pose| Vector::from_array(pose.translation).length();
+        let mut value = robot.motion.values();
+        let joints = robot.links[1..].iter().map(|link| {
+            let joint = link.joint.as_ref().expect("every link but the base has a joint");
+            let kind = match joint.kind {
+                JointKind::Fixed => Kind::Fixed,
+                JointKind::Revolute { limits, .. } => Kind::Turn(value, limits.is_none()),
+                JointKind::Prismatic { .. } => Kind::Slide(value),
+                JointKind::Spherical => Kind::Ball(value),
+            };
+            value += joint.kind.values();
+            let (before, after) = (length(&joint.before), length(&joint.after));
+            Hop { parent: joint.parent, before, after, kind }
+        });
+        Hops { of_links: joints.collect(), motion: robot.motion }
+    }
+
+    fn of_link(&self, link: usize) -> &Hop {
+        &self.of_links[link - 1]
+    }
+
+    /// Bounds on the motion of the link `to` from the configuration `a` to `b`, as seen from the link
+    /// `from`, or from the world.
+    ///
+    /// The joints are taken in the order of the way: up from `from` to the nearest common ancestor of the
+    /// two, then down to `to`. Every sum of the bounds is rounded in that order, and verdicts depend on
+    /// how. `descent` is working memory.
+    pub fn rates(
+        &self,
+        (from, to): (Option<usize>, usize),
+        (a, b): (&[f64], &[f64]),
+        descent: &mut Vec<usize>,
+    ) -> Rates {
+        let (mut rates, mut up) = match from {
+            None => (of_base(self.motion, a, b), 0),
+            Some(from) => (Rates::default(), from),
+        };
+        // A parent has a lower index than its children, so of two different links the one of the higher index
+        // is no ancestor of the other. To replace it by its parent ends at the nearest common ancestor.
+        let mut down = to;
+        descent.clear();
+        while up != down {
+            if up > down {
+                let hop = self.of_link(up);
+                rates.pass(hop, (hop.after, hop.before), (a, b));
+                up = hop.parent as usize;
+            } else {
+                descent.push(down);
+                down = self.of_link(down).parent as usize;
             }
-            rates.carry(*after);
+        }
+        for link in descent.iter().rev() {
+            let hop = self.of_link(*link);
+            rates.pass(hop, (hop.before, hop.after), (a, b));
         }
         rates
+    }
+
+    /// How many joints are stored.
+    #[cfg(test)]
+    pub fn len(&self) -> usize {
+        self.of_links.len()
     }
 }
 
 impl Rates {
+    /// Passes a joint, whose origin is at a distance `before` from where one comes from, and as moved at a
+    /// distance `after` from where one goes to.
+    fn pass(&mut self, hop: &Hop, (before, after): (f64, f64), (a, b): (&[f64], &[f64])) {
+        self.steady = None;
+        self.carry(before);
+        match hop.kind {
+            Kind::Fixed => {}
+            Kind::Turn(value, wraps) => {
+                let change = b[value] - a[value];
+                let rate = if wraps { math::wrap_angle(change) } else { change };
+                self.turn(rate.abs() * ROUNDING);
+            }
+            Kind::Ball(value) => {
+                let (from, to) = (rotation_at(a, value), rotation_at(b, value));
+                self.turn(turn_between(from, to).1 * ROUNDING);
+            }
+            Kind::Slide(value) => {
+                self.carry(a[value].abs().max(b[value].abs()));
+                let rate = (b[value] - a[value]).abs() * ROUNDING;
+                self.bend += 2.0 * self.spin * rate;
+                self.speed += rate;
+            }
+        }
+        self.carry(after);
+    }
+
     /// Moves the origin by a length within the moving frame.
     fn carry(&mut self, length: f64) {
         self.speed += self.spin * length;
@@ -186,13 +206,13 @@ impl Rates {
 }
 
 /// The unit quaternion `w x y z` that begins at an index.
-fn rotation_at(q: &[f64], at: usize) -> Rotation {
+pub(super) fn rotation_at(q: &[f64], at: usize) -> Rotation {
     Rotation::from_xyzw(q[at + 1], q[at + 2], q[at + 3], q[at])
 }
 
 /// The shortest turn from one rotation to another: its axis, which stays where it is in both frames, and
 /// its angle.
-fn turn_between(from: Rotation, to: Rotation) -> (Vector, f64) {
+pub(super) fn turn_between(from: Rotation, to: Rotation) -> (Vector, f64) {
     let between = from.conjugate() * to;
     let sign = if between.w < 0.0 { -1.0 } else { 1.0 };
     let part = Vector::new(between.x, between.y, between.z) * sign;
@@ -201,7 +221,7 @@ fn turn_between(from: Rotation, to: Rotation) -> (Vector, f64) {
     (axis, 2.0 * math::atan2(sine, between.w.abs()))
 }
 
-fn of_base(motion: Motion, a: &[f64], b: &[f64]) -> Rates {
+pub(super) fn of_base(motion: Motion, a: &[f64], b: &[f64]) -> Rates {
     let mut velocity = [0.0; 3];
     for axis in 0..motion.translations() {
         velocity[axis] = b[axis] - a[axis];

@@ -12,13 +12,14 @@ pub(crate) fn drawn_pose(stream: &mut Stream, size: f64) -> Pose {
     Pose { translation: [0; 3].map(|_| size * (2.0 * stream.unit() - 1.0)), rotation }
 }
 
-/// A tree of links with joints of every kind, askew in every way.
-fn drawn_robot(stream: &mut Stream, motion: Motion) -> Robot {
+/// A tree of links with joints of every kind, askew in every way. The parent of each is one of the `near` links
+/// before it: with 1 the tree is a serial chain.
+pub(crate) fn drawn_robot(stream: &mut Stream, motion: Motion, (links, near): (u32, u32)) -> Robot {
     let mut robot = Robot::rigid(motion, Vec::new());
-    for index in 1..6u32 {
+    for index in 1..links {
         let axis = Vector::new(stream.normal(), stream.normal(), stream.normal()).normalize();
         let (axis, limits) = (axis.to_array(), Limits { min: -2.0, max: 1.5 });
-        let kind = match index + (6.0 * stream.unit()) as u32 {
+        let kind = match 1 + (index - 1) % 5 + (6.0 * stream.unit()) as u32 {
             2 | 7 => JointKind::Fixed,
             3 | 6 => JointKind::Prismatic { axis, limits },
             4 | 5 => JointKind::Revolute { axis, limits: None },
@@ -27,7 +28,7 @@ fn drawn_robot(stream: &mut Stream, motion: Motion) -> Robot {
         };
         let joint = Joint {
             name: format!("joint {index}"),
-            parent: (stream.unit() * f64::from(index)) as u32,
+            parent: index - 1 - (stream.unit() * f64::from(near.min(index))) as u32,
             kind,
             before: drawn_pose(stream, 1.0),
             after: drawn_pose(stream, 0.5),
@@ -37,6 +38,9 @@ fn drawn_robot(stream: &mut Stream, motion: Motion) -> Robot {
     }
     robot
 }
+
+pub(super) const MOTIONS: [Motion; 5] =
+    [Motion::Fixed, Motion::Translation2d, Motion::Rigid2d, Motion::Translation3d, Motion::Rigid3d];
 
 /// A link's frame as seen from another or from the world.
 fn seen(
@@ -58,16 +62,16 @@ proptest! {
     #[test]
     fn no_point_is_faster_or_leaves_a_chord_farther_than_the_bounds_say(ordinal in any::<u64>()) {
         let mut stream = Seed::of_set(5, "rates", ordinal).stream(Purpose::Sampling);
-        for motion in [Motion::Fixed, Motion::Translation2d, Motion::Rigid2d, Motion::Translation3d, Motion::Rigid3d] {
-            let robot = drawn_robot(&mut stream, motion);
+        for motion in MOTIONS {
+            let robot = drawn_robot(&mut stream, motion, (6, 6));
+            let hops = Hops::new(&robot);
             let space = robot.space([-2.0; 3], [2.0; 3], 1.0);
             let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);
             space.sample_uniform(&mut stream, &mut a);
             space.sample_uniform(&mut stream, &mut b);
             for to in 0..robot.links.len() {
                 for from in std::iter::once(None).chain((0..to).map(Some)) {
-                    let chain = from.map_or_else(|| robot.chain_to(to), |from| robot.chain_between(from, to));
-                    let rates = chain.rates(motion, &a, &b);
+                    let rates = hops.rates((from, to), (&a, &b), &mut Vec::new());
                     let point = Vector::new(stream.normal(), stream.normal(), stream.normal());
                     let d = rates.distance(point);
                     let (s, t) = (stream.unit(), stream.unit());
@@ -97,12 +101,14 @@ fn the_bounds_are_no_larger_than_they_must_be() {
     let joint = Joint { name, parent: 0, kind: turning, before, after: Pose::IDENTITY };
     robot.links.push(Link { name: "arm".to_owned(), bodies: Vec::new(), joint: Some(joint) });
     let (a, b) = ([0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.1, 0.0]);
-    let rates = robot.chain_to(0).rates(robot.motion, &a, &b);
+    let hops = Hops::new(&robot);
+    let rates_of = |from, to| hops.rates((from, to), (&a, &b), &mut Vec::new());
+    let rates = rates_of(None, 0);
     assert!((rates.speed_at(2.0) - 0.2).abs() < 1e-6 && (rates.bend_at(2.0) - 0.02).abs() < 1e-6);
     // Above the origin nothing turns.
     assert_eq!(rates.distance(Vector::new(0.0, 0.0, 3.0)), 0.0);
-    let rates = robot.chain_to(1).rates(robot.motion, &a, &b);
+    let rates = rates_of(None, 1);
     assert!((rates.speed_at(1.0) - 0.2).abs() < 1e-6 && (rates.bend_at(1.0) - 0.02).abs() < 1e-6);
-    let rates = robot.chain_between(0, 1).rates(robot.motion, &a, &b);
+    let rates = rates_of(Some(0), 1);
     assert_eq!((rates.speed_at(1.0), rates.bend_at(1.0)), (0.0, 0.0));
 }

@@ -1,6 +1,6 @@
 //! The configuration space of a robot, and how far a motion can carry its points.
 
-use super::{JointKind, Robot};
+use super::{JointKind, Link, Robot};
 use crate::math;
 use crate::scene::Pose;
 use crate::space::{Dof, Part, PartKind, Space, rigid_parts};
@@ -12,12 +12,12 @@ impl Robot {
     /// its length.
     pub fn space(&self, min: [f64; 3], max: [f64; 3], rotation_length: f64) -> Space {
         let (mut parts, mut dofs) = rigid_parts(self.motion, min, max, rotation_length);
-        for (index, link) in self.links.iter().enumerate() {
+        for (link, reach) in self.links.iter().zip(self.reaches()) {
             let Some(joint) = &link.joint else { continue };
             let (kind, weight, unit) = match joint.kind {
                 JointKind::Fixed => continue,
                 JointKind::Spherical => {
-                    let weight = self.reach_of_joint(index);
+                    let weight = reach.of_joint;
                     parts.push(Part { kind: PartKind::Rotation, at: dofs.len(), weight });
                     for value in ["qw", "qx", "qy", "qz"] {
                         dofs.push(Dof { name: format!("{}-{value}", joint.name), unit: "1" });
@@ -25,11 +25,11 @@ impl Robot {
                     continue;
                 }
                 JointKind::Revolute { limits: None, .. } => {
-                    (PartKind::Angle, self.reach_of_joint(index), "rad")
+                    (PartKind::Angle, reach.of_joint, "rad")
                 }
                 JointKind::Revolute { limits: Some(limits), .. } => {
                     let kind = PartKind::Real { min: limits.min, max: limits.max };
-                    (kind, self.reach_of_joint(index), "rad")
+                    (kind, reach.of_joint, "rad")
                 }
                 JointKind::Prismatic { limits, .. } => {
                     (PartKind::Real { min: limits.min, max: limits.max }, 1.0, "length")
@@ -41,59 +41,55 @@ impl Robot {
         Space::new(parts, dofs, self.motion.translations())
     }
 
-    /// A bound on the distance of the robot's points from the base's origin, over all configurations.
+    /// A bound on the distance of the robot's points from the base's origin, over all configurations; a length.
     pub fn reach(&self) -> f64 {
-        self.reach_of_link(0)
+        self.reaches()[0].of_link
     }
 
-    /// A bound on the distance of all points of a link, and of the links that it carries, from its
-    /// origin.
-    fn reach_of_link(&self, link: usize) -> f64 {
-        let own = self.links[link].bodies.iter();
-        let own = own.fold(0.0f64, |most, body| most.max(body.shape.reach(&body.pose)));
-        self.children(link).fold(own, |most, child| {
-            let joint = self.links[child].joint.as_ref().expect("a child has a joint");
-            most.max(length(&joint.before) + self.reach_of_joint(child))
-        })
-    }
-
-    /// A bound on the distance of all points that the joint of `link` moves from the joint's origin.
-    fn reach_of_joint(&self, link: usize) -> f64 {
-        let joint = self.links[link].joint.as_ref().expect("asked of links with a joint");
-        let slide = match joint.kind {
-            JointKind::Prismatic { limits, .. } => limits.min.abs().max(limits.max.abs()),
-            JointKind::Fixed | JointKind::Revolute { .. } | JointKind::Spherical => 0.0,
+    /// The reaches of all links.
+    fn reaches(&self) -> Vec<Reach> {
+        let bodies = |link: &Link| {
+            let own = link.bodies.iter();
+            own.fold(0.0f64, |most, body| most.max(body.shape.reach(&body.pose)))
         };
-        slide + length(&joint.after) + self.reach_of_link(link)
-    }
-
-    fn children(&self, link: usize) -> impl Iterator<Item = usize> {
-        let parent = link as u32;
-        let is_child = move |index: &usize| {
-            self.links[*index].joint.as_ref().is_some_and(|joint| joint.parent == parent)
-        };
-        (0..self.links.len()).filter(is_child)
-    }
-
-    /// Per moving joint: a bound on the length that any robot point moves per unit of its value, or per
-    /// radian of its turn.
-    fn joint_speeds(&self) -> Vec<f64> {
-        let joints = self.links.iter().enumerate().filter_map(|(index, link)| {
-            match link.joint.as_ref()?.kind {
-                JointKind::Fixed => None,
-                JointKind::Revolute { .. } | JointKind::Spherical => {
-                    Some(self.reach_of_joint(index))
-                }
-                JointKind::Prismatic { .. } => Some(1.0),
-            }
-        });
-        joints.collect()
+        let own = self.links.iter().map(|link| Reach { of_link: bodies(link), of_joint: 0.0 });
+        let mut reaches: Vec<Reach> = own.collect();
+        // From the last link to the first: children come after their parents, so that a link is complete
+        // when its turn comes.
+        for (index, link) in self.links.iter().enumerate().rev() {
+            let Some(joint) = &link.joint else { continue };
+            let slide = match joint.kind {
+                JointKind::Prismatic { limits, .. } => limits.min.abs().max(limits.max.abs()),
+                JointKind::Fixed | JointKind::Revolute { .. } | JointKind::Spherical => 0.0,
+            };
+            let beyond = slide + length(&joint.after) + reaches[index].of_link;
+            reaches[index].of_joint = beyond;
+            let parent = &mut reaches[joint.parent as usize];
+            parent.of_link = parent.of_link.max(length(&joint.before) + beyond);
+        }
+        reaches
     }
 
     /// The bounds by which motions are cut into steps.
     pub fn speeds(&self) -> Speeds {
-        Speeds { base: self.reach(), joints: self.joint_speeds() }
+        let reaches = self.reaches();
+        let joints = self.links.iter().zip(&reaches).filter_map(|(link, reach)| {
+            match link.joint.as_ref()?.kind {
+                JointKind::Fixed => None,
+                JointKind::Revolute { .. } | JointKind::Spherical => Some(reach.of_joint),
+                JointKind::Prismatic { .. } => Some(1.0),
+            }
+        });
+        Speeds { base: reaches[0].of_link, joints: joints.collect() }
     }
+}
+
+/// Bounds on distances over all configurations.
+struct Reach {
+    /// Of all points of a link, and of the links that it carries, from its origin.
+    of_link: f64,
+    /// Of the same points from the origin of the joint that moves the link; 0 of the base, which has none.
+    of_joint: f64,
 }
 
 /// Bounds on how far robot points move, computed once per robot.
@@ -101,7 +97,8 @@ impl Robot {
 pub struct Speeds {
     /// Length per radian of the base's rotation.
     base: f64,
-    /// Length per unit of each moving joint.
+    /// Per moving joint: the length that any robot point moves per unit of its value, or per radian of its
+    /// turn.
     joints: Vec<f64>,
 }
 

@@ -1,5 +1,9 @@
+use super::rates_tests::drawn_robot;
 use super::*;
+use crate::scene::Shape;
+use crate::seed::{Purpose, Seed, Stream};
 use crate::space::PartKind;
+use proptest::prelude::*;
 
 fn pose(translation: [f64; 3]) -> Pose {
     Pose { translation, ..Pose::IDENTITY }
@@ -75,10 +79,88 @@ fn neighbours_fixed_links_and_links_across_an_empty_one_may_touch() {
     for link in &mut robot.links {
         link.bodies = vec![body.clone()];
     }
-    assert_eq!(robot.self_pairs(), [(0, 2), (0, 3), (1, 4), (2, 4), (3, 4)]);
+    assert_eq!(robot.self_pairs().collect::<Vec<_>>(), [(0, 2), (0, 3), (1, 4), (2, 4), (3, 4)]);
     robot.links[1].bodies.clear();
     // Without the arm's body the hand is the base's neighbour.
-    assert_eq!(robot.self_pairs(), [(2, 4), (3, 4)]);
+    assert_eq!(robot.self_pairs().collect::<Vec<_>>(), [(2, 4), (3, 4)]);
     robot.may_touch = vec![(2, 4)];
-    assert_eq!(robot.self_pairs(), [(3, 4)]);
+    assert_eq!(robot.self_pairs().collect::<Vec<_>>(), [(3, 4)]);
+}
+
+/// A tree of links of which most have a ball somewhere.
+fn with_balls(stream: &mut Stream, links: u32, near: u32) -> Robot {
+    let mut robot = drawn_robot(stream, Motion::Rigid3d, (links, near));
+    for link in &mut robot.links {
+        if stream.unit() < 0.7 {
+            let translation = [0; 3].map(|_| stream.normal());
+            let shape = Shape::Sphere { radius: stream.unit() };
+            link.bodies.push(Body { shape, pose: pose(translation), solid: true });
+        }
+    }
+    robot
+}
+
+/// A bound on the distance of all points of a link, and of the links that it carries, from its origin: looks for the
+/// children of every link anew.
+fn reach_of_link(robot: &Robot, link: usize) -> f64 {
+    let own = robot.links[link].bodies.iter().map(|body| body.shape.reach(&body.pose));
+    let own = own.fold(0.0, f64::max);
+    let children = robot.links.iter().enumerate().filter_map(|(index, child)| {
+        let joint = child.joint.as_ref().filter(|joint| joint.parent as usize == link)?;
+        Some(length(&joint.before) + reach_of_joint(robot, index, joint))
+    });
+    children.fold(own, f64::max)
+}
+
+/// The same of the points that a joint moves, from the joint's origin.
+fn reach_of_joint(robot: &Robot, link: usize, joint: &Joint) -> f64 {
+    let slide = match joint.kind {
+        JointKind::Prismatic { limits, .. } => limits.min.abs().max(limits.max.abs()),
+        _ => 0.0,
+    };
+    slide + length(&joint.after) + reach_of_link(robot, link)
+}
+
+fn length(pose: &Pose) -> f64 {
+    let [x, y, z] = pose.translation;
+    (x * x + y * y + z * z).sqrt()
+}
+
+proptest! {
+    /// Bit for bit, since weights of the metric decide which nodes are neighbours.
+    #[test]
+    fn reaches_found_from_the_leaves_on_are_those_found_from_the_base(
+        ordinal in any::<u64>(), links in 1..40u32, near in 1..40u32,
+    ) {
+        let mut stream = Seed::of_set(5, "reaches", ordinal).stream(Purpose::Sampling);
+        let robot = with_balls(&mut stream, links, near);
+        prop_assert_eq!(robot.reach().to_bits(), reach_of_link(&robot, 0).to_bits());
+        let space = robot.space([-1.0; 3], [1.0; 3], 0.5);
+        let joints = robot.links.iter().enumerate().filter_map(|(index, link)| {
+            let joint = link.joint.as_ref().filter(|joint| joint.kind.moves())?;
+            let slides = matches!(joint.kind, JointKind::Prismatic { .. });
+            Some(if slides { 1.0 } else { reach_of_joint(&robot, index, joint) })
+        });
+        let expected: Vec<u64> = joints.map(f64::to_bits).collect();
+        let base = space.parts().len() - expected.len();
+        let found = space.parts()[base..].iter().map(|part| part.weight.to_bits());
+        prop_assert_eq!(found.collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn pairs_that_may_touch_are_left_out_in_whatever_order_they_are_listed(
+        ordinal in any::<u64>(), links in 2..40u32, listed in 0..60usize,
+    ) {
+        let mut stream = Seed::of_set(5, "may touch", ordinal).stream(Purpose::Sampling);
+        let mut robot = with_balls(&mut stream, links, 3);
+        let all: Vec<(usize, usize)> = robot.self_pairs().collect();
+        let mut drawn = || (f64::from(links) * stream.unit()) as u32;
+        let pairs = (0..listed).map(|_| (drawn(), drawn()));
+        robot.may_touch = pairs.map(|(a, b)| (a.min(b), a.max(b))).collect();
+        let may = |(low, high): &(usize, usize)| {
+            robot.may_touch.contains(&(*low as u32, *high as u32))
+        };
+        let expected: Vec<(usize, usize)> = all.into_iter().filter(|pair| !may(pair)).collect();
+        prop_assert_eq!(robot.self_pairs().collect::<Vec<_>>(), expected);
+    }
 }

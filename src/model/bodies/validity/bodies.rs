@@ -7,7 +7,7 @@ use super::meet::{Group, Meeting};
 use super::piece::Piece;
 use super::swept::Walls;
 use crate::lanes::Lanes;
-use crate::model::bodies::robot::{Chain, Rates, Robot, Speeds};
+use crate::model::bodies::robot::{Hops, Rates, Robot, Speeds};
 use crate::model::{Clearance, Clearances, Cost, Model, Scratch, Validity};
 use crate::scene::Body;
 use crate::space::{Motion, Space};
@@ -58,6 +58,8 @@ pub struct BodyValidity {
     pub(super) space: Space,
     pub(super) robot: Robot,
     speeds: Speeds,
+    /// The joints, for how fast links move.
+    pub(super) hops: Hops,
     pub(super) bounds: Bounds,
     pub(super) resolution: f64,
     pub(super) edges: Edges,
@@ -83,14 +85,13 @@ pub struct BodyValidity {
 pub(super) struct Moving {
     pub link: usize,
     pub group: Group,
-    pub chain: Chain,
 }
 
-/// Indices of moving links, and the joints from the first to the second.
+/// Two links with bodies, as indices into [`BodyValidity::links`]. A robot of a thousand links has half a
+/// million pairs, so that whatever else concerns a pair is derived when it is needed.
 pub(super) struct SelfPair {
-    first: usize,
-    second: usize,
-    chain: Chain,
+    first: u32,
+    second: u32,
 }
 
 impl BodyValidity {
@@ -104,13 +105,16 @@ impl BodyValidity {
     ) -> BodyValidity {
         let links = robot.links.iter().enumerate().filter_map(|(link, bodies)| {
             let group = Group::new(bodies.bodies.iter())?;
-            Some(Moving { link, group, chain: robot.chain_to(link) })
+            Some(Moving { link, group })
         });
         let links: Vec<Moving> = links.collect();
-        let place = |link: usize| links.iter().position(|moving| moving.link == link);
-        let pairs = robot.self_pairs().into_iter().filter_map(|(low, high)| {
-            let chain = robot.chain_between(low, high);
-            Some(SelfPair { first: place(low)?, second: place(high)?, chain })
+        // Where each link of the robot stands among those with bodies.
+        let mut places = vec![None; robot.links.len()];
+        for (place, moving) in links.iter().enumerate() {
+            places[moving.link] = Some(place as u32);
+        }
+        let pairs = robot.self_pairs().filter_map(|(low, high)| {
+            Some(SelfPair { first: places[low]?, second: places[high]? })
         });
         let self_pairs = pairs.collect();
         let obstacles = Group::new(obstacles.iter());
@@ -129,6 +133,7 @@ impl BodyValidity {
         BodyValidity {
             space,
             speeds: robot.speeds(),
+            hops: Hops::new(robot),
             robot: robot.clone(),
             bounds,
             resolution,
@@ -146,18 +151,16 @@ impl BodyValidity {
     }
 
     /// What moves in what: every link among the obstacles, then the pairs of links.
-    pub(super) fn meetings(&self) -> impl Iterator<Item = (Meeting<'_>, &Chain)> {
+    pub(super) fn meetings(&self) -> impl Iterator<Item = Meeting<'_>> {
         let (slack, grain, lanes) = (self.slack, self.grain, self.lanes);
-        let among = self.links.iter().filter_map(move |Moving { link, group, chain }| {
+        let among = self.links.iter().filter_map(move |Moving { link, group }| {
             let still = self.obstacles.as_ref()?;
             let (mover, mover_link) = (group, *link);
-            let meeting =
-                Meeting { mover, mover_link, still, still_link: None, slack, grain, lanes };
-            Some((meeting, chain))
+            Some(Meeting { mover, mover_link, still, still_link: None, slack, grain, lanes })
         });
-        let own = self.self_pairs.iter().map(move |SelfPair { first, second, chain }| {
-            let (still, mover) = (&self.links[*first], &self.links[*second]);
-            let meeting = Meeting {
+        let own = self.self_pairs.iter().map(move |pair| {
+            let [still, mover] = self.links_of(pair);
+            Meeting {
                 mover: &mover.group,
                 mover_link: mover.link,
                 still: &still.group,
@@ -165,10 +168,14 @@ impl BodyValidity {
                 slack,
                 grain,
                 lanes,
-            };
-            (meeting, chain)
+            }
         });
         among.chain(own)
+    }
+
+    /// The two links of a pair.
+    fn links_of(&self, pair: &SelfPair) -> [&Moving; 2] {
+        [pair.first, pair.second].map(|place| &self.links[place as usize])
     }
 
     /// Whether the ball about the base's origin that holds the robot is within the bounds. It settles
@@ -210,7 +217,7 @@ impl BodyValidity {
         }
         let BodyScratch { stance, stacks, .. } = scratch;
         let touching =
-            self.meetings().any(|(meeting, _)| meeting.surfaces_meet(stance, &mut stacks.pairs));
+            self.meetings().any(|meeting| meeting.surfaces_meet(stance, &mut stacks.pairs));
         if touching || self.encloses(stance) { Validity::Invalid } else { Validity::Valid }
     }
 
@@ -231,8 +238,8 @@ impl BodyValidity {
                             && either(piece, &at, other, &ParryPose::IDENTITY)
                     })
                 })
-        }) || self.self_pairs.iter().any(|SelfPair { first, second, .. }| {
-            let (first, second) = (&self.links[*first], &self.links[*second]);
+        }) || self.self_pairs.iter().any(|pair| {
+            let [first, second] = self.links_of(pair);
             let [at, other_at] = [first, second].map(|moving| stance.pose(Some(moving.link)));
             (hollow(&first.group) || hollow(&second.group))
                 && first.group.pieces.iter().any(|piece| {
@@ -292,9 +299,9 @@ impl Clearances for BodyValidity {
         self.robot.place(q, &mut scratch.stance.poses);
         scratch.stance.update_frames();
         let BodyScratch { stance, stacks, .. } = scratch;
-        let among = self.meetings().take_while(|(meeting, _)| meeting.still_link.is_none());
+        let among = self.meetings().take_while(|meeting| meeting.still_link.is_none());
         let best =
-            among.fold(None, |best, (meeting, _)| meeting.nearer(stance, &mut stacks.pairs, best));
+            among.fold(None, |best, meeting| meeting.nearer(stance, &mut stacks.pairs, best));
         best.map(|best| best.clearance)
     }
 }

@@ -80,11 +80,10 @@ impl BodyValidity {
         scratch: &mut BodyScratch,
     ) -> Option<Finds> {
         let BodyScratch { timeline, stacks, .. } = scratch;
-        let motion = self.robot.motion;
         let clock = &mut Clock::new((&self.space, &self.robot), (a, b), samples, timeline);
         let inside = bounded
             || self.links.iter().all(|moving| {
-                let rates = moving.chain.rates(motion, a, b);
+                let rates = self.hops.rates((None, moving.link), (a, b), &mut stacks.descent);
                 let tree = &moving.group.tree;
                 stays_inside(&self.walls(), (tree, moving.link), &rates, clock, stacks)
             });
@@ -95,13 +94,13 @@ impl BodyValidity {
         if self.meetings().nth(1).is_some() && samples > 1 {
             stacks.work.count(|work| work.looks += 1);
             let stance = clock.at(samples / 2);
-            if self.meetings().any(|(meeting, _)| meeting.surfaces_meet(stance, &mut stacks.pairs))
-            {
+            if self.meetings().any(|meeting| meeting.surfaces_meet(stance, &mut stacks.pairs)) {
                 return Some(Finds::Meets);
             }
         }
-        let mut found = self.meetings().map(|(meeting, chain)| {
-            let rates = chain.rates(motion, a, b);
+        let mut found = self.meetings().map(|meeting| {
+            let links = (meeting.still_link, meeting.mover_link);
+            let rates = self.hops.rates(links, (a, b), &mut stacks.descent);
             find(meeting, rates, asks, clock, stacks)
         });
         Some(found.find(|finds| *finds != Finds::Free).unwrap_or(Finds::Free))

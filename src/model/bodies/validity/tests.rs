@@ -223,7 +223,7 @@ pub(super) fn chain(links: usize, motion: Motion) -> Robot {
 fn links_that_are_not_neighbours_must_not_touch_unless_they_may() {
     let bounds = Bounds { min: [-9.0; 3], max: [9.0; 3], meaning: BoundsMeaning::Body };
     let mut robot = chain(4, Motion::Fixed);
-    assert_eq!(robot.self_pairs(), [(0, 2), (0, 3), (1, 3)]);
+    assert_eq!(robot.self_pairs().collect::<Vec<_>>(), [(0, 2), (0, 3), (1, 3)]);
     // Turns of 2π/3 close a triangle: the fourth link comes to lie on the first.
     let turn = 2.0 * std::f64::consts::FRAC_PI_3;
     let straight = [0.0, 0.0, 0.0];
@@ -236,6 +236,26 @@ fn links_that_are_not_neighbours_must_not_touch_unless_they_may() {
     robot.may_touch = vec![(0, 2), (0, 3), (1, 3)];
     let validity = BodyValidity::new(space, &robot, bounds, (Edges::Swept, 0.05), &[]);
     assert!(valid(&validity, &closed));
+}
+
+/// What is stored grows with the number of joints and of pairs, not with the joints between the links of every pair.
+#[test]
+fn a_long_chain_stores_one_entry_per_joint_and_two_numbers_per_pair() {
+    let links = 1000;
+    let robot = chain(links, Motion::Fixed);
+    let far = 2.0 * links as f64;
+    let bounds = Bounds { min: [-far; 3], max: [far; 3], meaning: BoundsMeaning::Body };
+    let space = robot.space(bounds.min, bounds.max, 1.0);
+    let validity = BodyValidity::new(space, &robot, bounds, (Edges::Swept, 0.05), &[]);
+    assert_eq!(validity.hops.len(), links - 1);
+    assert_eq!(validity.links.len(), links);
+    assert_eq!(validity.self_pairs.len(), (links - 1) * (links - 2) / 2);
+    assert_eq!(size_of_val(&validity.self_pairs[0]), 8);
+    let mut q = vec![0.0; links - 1];
+    assert!(valid(&validity, &q));
+    // Turns by a third of a circle, one after the other, close a triangle.
+    q[links - 4..].fill(2.1);
+    assert!(!valid(&validity, &q));
 }
 
 #[test]

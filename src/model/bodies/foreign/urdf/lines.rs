@@ -22,7 +22,12 @@ impl Lines {
         let document = Document::parse(text).map_err(|error| {
             ForeignError::line(path, error.pos().row as usize, format!("not a URDF: {error}"))
         })?;
-        let line = |node: Node| document.text_pos_at(node.range().start).row as usize;
+        // Counted once: `Document::text_pos_at` counts from the beginning of the text at every call.
+        let breaks: Vec<usize> = text.match_indices('\n').map(|(at, _)| at).collect();
+        let line = |node: Node| {
+            let start = node.range().start;
+            1 + breaks.partition_point(|at| *at < start)
+        };
         let root = document.root_element();
         for node in root.descendants().filter(Node::is_element) {
             check(node).map_err(|message| ForeignError::line(path, line(node), message))?;

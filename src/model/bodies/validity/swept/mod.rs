@@ -48,6 +48,8 @@ pub(super) struct Stacks {
     /// Not told apart from one of these, the first, the second, …
     found: Vec<(u32, u32, Span)>,
     pub pairs: Vec<(u32, u32)>,
+    /// Of the bounds on the motion of a link: the links on the way down to it.
+    pub descent: Vec<usize>,
     /// Of the bounds: nodes, and when they are to be looked at.
     inside: Vec<(u32, Samples)>,
     /// A bit for each of the last searches, set where something was in the way.
@@ -66,6 +68,7 @@ impl Stacks {
         self.children = vec![entry; rubbish as usize % 2];
         self.found = vec![(7, u32::MAX, span); rubbish as usize % 4];
         self.pairs = vec![(u32::MAX, 7); rubbish as usize % 3];
+        self.descent = vec![usize::MAX; rubbish as usize % 4];
         self.inside = vec![(u32::MAX, Samples { from: 7, to: rubbish }); rubbish as usize % 6];
         self.blocked = rubbish as u32;
     }

@@ -153,14 +153,16 @@ impl BodyValidity {
         };
         (0..=samples).any(|sample| {
             let stance = clock.at(sample);
-            self.meetings().any(|(meeting, chain)| {
-                let rates = chain.rates(self.robot.motion, a, b);
+            self.meetings().any(|meeting| {
+                let links = (meeting.still_link, meeting.mover_link);
+                let rates = self.hops.rates(links, (a, b), &mut stacks.descent);
                 let tolerance = 0.5 * time * rates.speed_at(reach(meeting.mover, &rates));
                 let way = meeting.nearer(stance, &mut stacks.pairs, None);
                 way.is_some_and(|best| best.clearance.distance <= tolerance + finest + self.slack)
             }) || self.bounds.meaning == BoundsMeaning::Body
                 && self.links.iter().any(|moving| {
-                    let rates = moving.chain.rates(self.robot.motion, a, b);
+                    let seen = (None, moving.link);
+                    let rates = self.hops.rates(seen, (a, b), &mut stacks.descent);
                     let space = &moving.group.tree.nodes[0].space;
                     let far = space.radius + rates.distance(space.centre);
                     let between = 0.5 * time * rates.speed_at(far);
