@@ -1,3 +1,4 @@
+use super::markup::escaped;
 use super::tessellate::tessellate;
 use crate::problem::Problem;
 use crate::query::Path;
@@ -54,7 +55,7 @@ pub fn animation(problem: &Problem, path: &Path) -> String {
     put("configs", &list(sampled.iter().map(|q| numbers(q.iter().copied()))));
     put("way", &list(sampled.iter().map(|q| numbers(robot.marker(q)))));
     data.push('}');
-    PAGE.replacen("ROADMILL_NAME", &html(&problem.name), 1).replacen("ROADMILL_DATA", &data, 1)
+    PAGE.replacen("ROADMILL_NAME", &escaped(&problem.name), 1).replacen("ROADMILL_DATA", &data, 1)
 }
 
 /// Bodies in the frame of their owner, each as its vertices and triangles.
@@ -94,8 +95,4 @@ fn quoted(text: &str) -> String {
     }
     out.push('"');
     out
-}
-
-fn html(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

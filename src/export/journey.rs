@@ -1,6 +1,7 @@
 //! Obstacles, the robot on its way, and the path.
 
 use super::drawing::{Drawing, INK, PAPER, STONE, WARM, WAY, blend};
+use super::paint_order::paint_order;
 use super::solid::{Solid, solids};
 use super::union::join;
 use crate::query;
@@ -195,7 +196,7 @@ impl Drawing<'_> {
             );
         }
         let solids: Vec<&Solid> = items.iter().map(|(solid, _)| solid).collect();
-        for index in self.view.paint_order(&solids) {
+        for index in paint_order(&self.view, &solids) {
             self.put(format_args!("{}", items[index].1));
         }
         self.put(format_args!("{through}"));

@@ -1,6 +1,7 @@
 //! Bodies as they are drawn: flat patches and the edges between them.
 
-use super::view::{View, cross, dot};
+use super::vector::{cross, dot, sub};
+use super::view::View;
 use crate::math;
 use crate::scene::{Body, Mesh, Pose, Shape, box_surface};
 use std::collections::BTreeMap;
@@ -64,10 +65,7 @@ impl Solid {
 /// The pieces of a body; `frame` is the pose of the body's owner in the world.
 pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
     let place = |p: [f64; 3]| frame.apply(body.pose.apply(p));
-    let turn = |axis: [f64; 3]| {
-        let (tip, origin) = (place(axis), place([0.0; 3]));
-        [0, 1, 2].map(|i| tip[i] - origin[i])
-    };
+    let turn = |axis: [f64; 3]| sub(place(axis), place([0.0; 3]));
     match &body.shape {
         Shape::Box { size } => {
             let (corners, triangles) = box_surface(*size);
@@ -172,8 +170,7 @@ fn polyhedron(
     let normals: Vec<[f64; 3]> = corners_of
         .iter()
         .map(|[a, b, c]| {
-            let (u, v) = ([0, 1, 2].map(|i| b[i] - a[i]), [0, 1, 2].map(|i| c[i] - a[i]));
-            let normal = cross(u, v);
+            let normal = cross(sub(*b, *a), sub(*c, *a));
             let length = dot(normal, normal).sqrt();
             let sign = if closed || dot(normal, view.toward) > 0.0 { outward } else { -outward };
             normal.map(|value| value / length * sign)

@@ -1,4 +1,5 @@
 use super::drawing::{Drawing, FLOOR, INK, PAPER, RULE, WARM, blend, decimal};
+use super::markup::escaped;
 use super::view::{MARGIN_PX, View};
 use crate::problem::Problem;
 use crate::query;
@@ -256,8 +257,4 @@ fn round_length(length: f64) -> f64 {
         unit *= 10.0;
     }
     [5.0, 2.0].into_iter().map(|times| times * unit).find(|round| *round <= length).unwrap_or(unit)
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -1,7 +1,7 @@
 //! Boxes that touch are drawn as one: what lies against another box is not seen.
 
 use super::solid::{Edge, Solid};
-use super::view::dot;
+use super::vector::dot;
 
 /// Of more boxes each is drawn whole.
 const BOXES_MAX: usize = 300;
