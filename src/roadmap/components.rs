@@ -1,21 +1,10 @@
 use super::Configs;
 use super::centre::CentreSum;
-use super::finder::Finder;
+use super::component::Component;
+use super::indices::Indices;
 use crate::shelf::Shelf;
 use crate::space::Space;
 use std::sync::Arc;
-
-/// A connected component.
-#[derive(Clone, Debug)]
-pub struct Component {
-    /// The smallest node id in it: its name.
-    pub name: u32,
-    /// Its nodes, in no particular order.
-    pub members: Vec<u32>,
-    /// The average of its nodes; up to date after every fold.
-    pub centre: Vec<f64>,
-    sum: CentreSum,
-}
 
 /// The connected components of a graph that only grows.
 ///
@@ -30,13 +19,14 @@ pub struct Components {
     free: Vec<u32>,
     /// Slots that got a component since the last refresh of the centres, or whose component grew.
     changed: Vec<u32>,
-    pub(super) finder: Finder,
+    /// Indices for searches of nodes and components, built when searches first need them.
+    pub(super) indices: Indices,
 }
 
 impl Components {
     /// Those of no graph yet, with a place for what its index will have in common with others.
     pub(super) fn with_shelf(shelf: Arc<dyn Shelf>) -> Components {
-        Components { finder: Finder::with_shelf(shelf), ..Components::default() }
+        Components { indices: Indices::with_shelf(shelf), ..Components::default() }
     }
 
     /// The components of a graph given whole.
@@ -172,7 +162,7 @@ impl Components {
                 component.centre = component.sum.centre(space, fallback);
             }
         }
-        self.finder.centres_changed(&self.slots, &changed);
+        self.indices.centres_changed(&self.slots, &changed);
     }
 }
 

@@ -1,18 +1,21 @@
 //! Roadmaps: configurations, edges, connected components, and the fold that grows them.
 
 mod centre;
+mod component;
 mod components;
 mod digest;
 mod edges;
 mod finder;
 mod forest;
 mod increment;
+mod indices;
 mod search;
 mod tally;
 
 pub use crate::digest::Digest;
 pub use crate::space::Configs;
-pub use components::{Component, Components};
+pub use component::Component;
+pub use components::Components;
 pub use edges::Edges;
 pub(crate) use forest::Forest;
 pub use increment::{Edge, Increment};
