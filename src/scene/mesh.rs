@@ -16,7 +16,7 @@ pub struct Mesh {
 impl Mesh {
     /// The triangles that have an area: the surface. Nothing can meet the others without meeting these.
     pub fn faces(&self) -> impl Iterator<Item = [u32; 3]> {
-        super::weld::faces_of(&self.vertices, &self.triangles)
+        faces_of(&self.vertices, &self.triangles)
     }
 
     /// Number of edges that an odd number of triangles share: 0 for a closed surface.
@@ -79,4 +79,22 @@ pub(super) fn odd_edges(triangles: &[[u32; 3]]) -> usize {
         }
     }
     count_of.values().filter(|count| **count % 2 == 1).count()
+}
+
+/// The triangles that have an area.
+pub(super) fn faces_of(
+    vertices: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+) -> impl Iterator<Item = [u32; 3]> {
+    triangles.iter().copied().filter(|corners| {
+        let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
+        area_squared(a, b, c) > 0.0
+    })
+}
+
+fn area_squared(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
+    let u = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
+    let v = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
+    let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    n[0] * n[0] + n[1] * n[1] + n[2] * n[2]
 }

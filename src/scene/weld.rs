@@ -1,7 +1,7 @@
 //! From triangles as stored to a mesh: vertices joined, repeated and flat triangles dropped.
 
 use super::Mesh;
-use super::mesh::odd_edges;
+use super::mesh::{faces_of, odd_edges};
 use super::raw::RawMesh;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -121,24 +121,6 @@ fn without_unused(vertices: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Mesh
 fn distance_squared(a: [f64; 3], b: [f64; 3]) -> f64 {
     let d = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
     d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
-}
-
-/// The triangles that have an area.
-pub(super) fn faces_of(
-    vertices: &[[f64; 3]],
-    triangles: &[[u32; 3]],
-) -> impl Iterator<Item = [u32; 3]> {
-    triangles.iter().copied().filter(|corners| {
-        let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
-        area_squared(a, b, c) > 0.0
-    })
-}
-
-fn area_squared(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
-    let u = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
-    let v = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
-    let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    n[0] * n[0] + n[1] * n[1] + n[2] * n[2]
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! One `<mesh>`: sources of coordinates and the groups of triangles and lines that use them.
 
-use super::nodes::{Affine, apply};
+use super::affine::Affine;
 use super::{Dae, child, children};
 use crate::scene::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
 use roxmltree::Node;
@@ -43,7 +43,7 @@ impl Geometry {
             return Err(format!("more than {MESH_ITEMS_MAX} vertices or triangles"));
         }
         for vertex in &self.vertices {
-            let placed = apply(frame, *vertex);
+            let placed = frame.apply(*vertex);
             if !placed.iter().all(|value| value.is_finite()) {
                 return Err(format!("a vertex comes to stand at {placed:?}, which is not finite"));
             }

@@ -7,6 +7,7 @@
 //! Vertices are stored the way importers do, for their mean may become the origin: once for each
 //! group of triangles or lines that uses them, apart where normals differ. Lines give no triangles.
 
+mod affine;
 mod geometry;
 mod nodes;
 
