@@ -141,8 +141,4 @@ pub struct GaveUp {
 }
 
 #[cfg(test)]
-mod laws;
-#[cfg(test)]
-mod maprm_laws;
-#[cfg(test)]
 mod tests;

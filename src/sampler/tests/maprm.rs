@@ -1,9 +1,11 @@
 //! The law of medial axis sampling: equally far from two witnesses, and on axes that are known.
 
-use super::laws::{fits, follows, plane, points};
-use super::tests::{context, sampler, sets};
-use super::*;
+use super::statistics::{fits, follows};
+use super::{context, plane, points, sampler, sets};
+use crate::context::Context;
 use crate::math;
+use crate::roadmap::Configs;
+use crate::validity::Scratch;
 use std::f64::consts::TAU;
 
 /// With a hair more for rounding.
