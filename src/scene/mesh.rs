@@ -1,10 +1,13 @@
 //! Triangle meshes: what is kept of a file, and whether it encloses anything.
 
 use bincode::{Decode, Encode};
-use std::collections::BTreeMap;
+use petgraph::unionfind::UnionFind;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// A triangle mesh: welded vertices and unique triangles. They have an area, but for those that close the
-/// seams of a surface whose corners do not meet: flat triangles between three corners in a line.
+/// A triangle mesh: welded vertices, and triangles of which no two have the same corners.
+///
+/// Triangles have an area, with one exception: flat triangles, whose corners lie in a line, are kept where they close
+/// the seam between neighbours whose corners do not coincide, as without them the surface would not be closed.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Mesh {
     /// Vertices `x y z` in the mesh's frame.
@@ -14,7 +17,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The triangles that have an area: the surface. Nothing can meet the others without meeting these.
+    /// The triangles that have an area: the surface. A flat triangle lies on the edges of these, so that whatever
+    /// meets it meets one of them.
     pub fn faces(&self) -> impl Iterator<Item = [u32; 3]> {
         faces_of(&self.vertices, &self.triangles)
     }
@@ -29,31 +33,24 @@ impl Mesh {
         self.odd_edges() == 0
     }
 
-    /// The first vertex of each connected piece of the surface.
+    /// A point of each connected piece of the surface: its first vertex. Pieces are connected by vertices
+    /// in common.
     pub(crate) fn witnesses(&self) -> Vec<[f64; 3]> {
-        let mut piece: Vec<u32> = (0..self.vertices.len() as u32).collect();
-        fn root(piece: &mut [u32], mut i: u32) -> u32 {
-            while piece[i as usize] != i {
-                piece[i as usize] = piece[piece[i as usize] as usize];
-                i = piece[i as usize];
-            }
-            i
-        }
+        let mut pieces = UnionFind::new(self.vertices.len());
         let mut used = vec![false; self.vertices.len()];
         for corners in &self.triangles {
-            let roots = corners.map(|corner| root(&mut piece, corner));
-            let least = roots[0].min(roots[1]).min(roots[2]);
-            for other in roots {
-                piece[other as usize] = least;
-            }
-            for corner in corners {
-                used[*corner as usize] = true;
+            let [a, b, c] = corners.map(|corner| corner as usize);
+            pieces.union(a, b);
+            pieces.union(a, c);
+            for corner in [a, b, c] {
+                used[corner] = true;
             }
         }
-        let mut seen = std::collections::BTreeSet::new();
-        (0..self.vertices.len() as u32)
-            .filter(|i| used[*i as usize] && seen.insert(root(&mut piece, *i)))
-            .map(|i| self.vertices[i as usize])
+        let mut seen = BTreeSet::new();
+        let labels: Vec<usize> = pieces.into_labeling();
+        (0..self.vertices.len())
+            .filter(|i| used[*i] && seen.insert(labels[*i]))
+            .map(|i| self.vertices[i])
             .collect()
     }
 

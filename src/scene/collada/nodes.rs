@@ -1,4 +1,4 @@
-//! The tree of nodes: what is instantiated, and where.
+//! The scene's tree of nodes: which geometries are instantiated, and under which transformations.
 
 use super::affine::Affine;
 use super::geometry::{Geometry, Sources};
@@ -7,9 +7,9 @@ use crate::scene::raw::{MeshError, RawMesh};
 use roxmltree::Node;
 use std::collections::BTreeMap;
 
-/// The deepest nesting of nodes. Nodes may instantiate one another, in a circle too.
+/// The deepest nesting of nodes, so that nodes that instantiate each other in a circle are an error.
 const DEPTH_MAX: usize = 64;
-/// The most nodes and geometries visited: instances of instances double at every step.
+/// The most nodes and geometries visited, so that a small file of instances of instances cannot take for ever.
 const VISITS_MAX: usize = 1 << 20;
 
 struct Walk<'d, 'a> {
@@ -44,7 +44,7 @@ impl<'a> Walk<'_, 'a> {
             let message = format!("nodes nested or instantiated more than {DEPTH_MAX} deep");
             return Err(self.dae.error(node, message));
         }
-        // Transformations come first, and each acts before the ones above it.
+        // The transformations of a node compose in the order of the file: the last one acts first on its points.
         let mut frame = *parent;
         for element in node.children().filter(Node::is_element) {
             match element.tag_name().name() {
