@@ -117,7 +117,7 @@ fn milestones_follow_from_the_seed_and_from_nothing_that_is_remembered() {
     }
 }
 
-/// The ball fills the room, or, for those that need one, there is next to nothing to collide with.
+/// Either obstacles fill the whole room, or, for samplers near obstacles, there is next to nothing to collide with.
 #[test]
 fn a_sampler_that_can_find_nothing_gives_up() {
     let full = context(&SCENE.replace("radius = 1.0", "radius = 9.0"));

@@ -1,6 +1,6 @@
 //! Tests of distributions at the level 0.001. Seeds are fixed, so that a test never fails by chance later.
 
-/// Kolmogorov and Smirnov: the sample has the distribution function `law`.
+/// The test of Kolmogorov and Smirnov: the sample has the distribution function `law`.
 pub(super) fn follows(mut sample: Vec<f64>, law: impl Fn(f64) -> f64) {
     sample.sort_by(f64::total_cmp);
     let n = sample.len() as f64;
@@ -11,7 +11,7 @@ pub(super) fn follows(mut sample: Vec<f64>, law: impl Fn(f64) -> f64) {
     assert!(n >= 1000.0 && gap < 1.95 / n.sqrt(), "gap {gap} of {n}");
 }
 
-/// Chi-square: the counts come from the probabilities.
+/// The chi-square test: counts of cells agree with probabilities, which need not sum to 1.
 pub(super) fn fits(counts: &[usize], probabilities: &[f64]) {
     let n: usize = counts.iter().sum();
     let whole: f64 = probabilities.iter().sum();
