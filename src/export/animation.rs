@@ -81,7 +81,7 @@ fn number(value: f64) -> String {
     (value as f32 + 0.0).to_string()
 }
 
-/// A text as a JSON string that cannot end the element it stands in.
+/// A text as a JSON string, in which no character could end the HTML element around it.
 fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {

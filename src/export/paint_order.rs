@@ -5,7 +5,8 @@ use super::solid::Solid;
 use super::vector::dot;
 use super::view::View;
 
-/// How far, in the scene's unit, a point may lie behind a separating face and still count as before it.
+/// How far, in the scene's unit, a point may lie on the inner side of a face and still be outside by
+/// rounding.
 const MARGIN: f64 = 1e-9;
 
 /// The order in which solids are painted, as indices of `solids`.

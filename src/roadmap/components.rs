@@ -13,6 +13,7 @@ use std::sync::Arc;
 /// look-ups without side effects.
 #[derive(Clone, Debug, Default)]
 pub struct Components {
+    /// Per node, the slot of its component.
     slot_of: Vec<u32>,
     slots: Vec<Option<Component>>,
     /// Slots without a component.
@@ -24,7 +25,7 @@ pub struct Components {
 }
 
 impl Components {
-    /// Those of no graph yet, with a place for what its index will have in common with others.
+    /// The components of the empty graph, whose node index will share its segments on a shelf.
     pub(super) fn with_shelf(shelf: Arc<dyn Shelf>) -> Components {
         Components { indices: Indices::with_shelf(shelf), ..Components::default() }
     }
@@ -34,7 +35,7 @@ impl Components {
         Components::built(space, configs, configs.iter(), edges.iter().copied())
     }
 
-    /// The components of a graph over the first of `configs`, `nodes`.
+    /// The components of a graph over `nodes`, which are the first of `configs`.
     pub(super) fn built<'a>(
         space: &Space,
         configs: &Configs,
@@ -88,7 +89,7 @@ impl Components {
         self.slots.iter().flatten()
     }
 
-    /// Where a node's component is kept, until the graph next changes.
+    /// The slot of a node's component; valid until the graph next changes.
     pub(super) fn slot_of(&self, node: u32) -> u32 {
         self.slot_of[node as usize]
     }
@@ -133,7 +134,7 @@ impl Components {
         if a == b {
             return;
         }
-        // Which of two equally large ones is kept changes no result: sums commute.
+        // Which of two equally large components is kept changes no result, since adding two sums commutes.
         let size = |slot: u32| self.slots[slot as usize].as_ref().map_or(0, |c| c.members.len());
         let (kept, gone) = if size(a) >= size(b) { (a, b) } else { (b, a) };
         let smaller = self.slots[gone as usize].take().expect("labels are current");

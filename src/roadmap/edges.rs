@@ -7,13 +7,13 @@ const BLOCK: usize = if cfg!(test) { 1 << 5 } else { 1 << 12 };
 /// Bytes of an edge in a block.
 const BYTES: usize = size_of::<f64>() + 2 * size_of::<u32>() + 1;
 
-/// A roadmap's edges in a row.
+/// The list of a roadmap's edges.
 #[derive(Clone, Debug, Default)]
 pub struct Edges {
-    /// The first ones, as far as they are on a shelf, [`BLOCK`] in each: all weights, then all lower ids,
-    /// all higher ids, all planners.
+    /// The blocks of [`BLOCK`] edges that are kept on a shelf: the beginning of the list. A block holds all weights,
+    /// then all lower ids, all higher ids and all planners.
     blocks: Vec<Block>,
-    /// The others.
+    /// The remaining edges.
     rest: Vec<Edge>,
 }
 
@@ -61,7 +61,7 @@ impl Edges {
     }
 }
 
-/// The parts of a block.
+/// The columns of a block.
 struct Columns<'a> {
     weights: &'a [f64],
     ids: [&'a [u32]; 2],

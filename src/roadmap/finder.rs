@@ -80,7 +80,7 @@ impl Components {
         let centres = read(&self.indices.centres);
         let centres = centres.as_ref().expect("made");
         centres
-            .loose
+            .unindexed
             .iter()
             .filter_map(|slot| self.slots()[*slot as usize].as_ref())
             .for_each(&mut offer);

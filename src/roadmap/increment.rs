@@ -30,12 +30,12 @@ pub struct Increment {
     pub configs: Configs,
     /// Edges among them, in the order in which they were found.
     pub edges: Vec<Edge>,
-    /// What the set cost.
+    /// The validity checks that making the increment took.
     pub asked: Asked,
 }
 
 impl Increment {
-    /// Whether the increment is one that a strategy could have made: what decoded bytes must be.
+    /// Whether the increment is well-formed: a check of decoded bytes.
     pub fn is_sound(&self, dofs: usize) -> bool {
         let nodes = self.configs.len() as u64;
         self.configs.is_sound(dofs)

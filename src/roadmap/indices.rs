@@ -71,8 +71,8 @@ pub(super) struct Centres {
     pub(super) slots: Vec<u32>,
     /// Per slot, the entry with the present centre of its component; [`NO_ENTRY`] where there is none.
     pub(super) entry_of: Vec<u32>,
-    /// Slots of the components that changed in the last fold.
-    pub(super) loose: Vec<u32>,
+    /// Slots of the components that changed in the last fold and so have no entry.
+    pub(super) unindexed: Vec<u32>,
     /// Any configuration: the centre of entries whose component is gone.
     pub(super) nowhere: Vec<f64>,
 }
@@ -83,7 +83,7 @@ impl Centres {
             index: Index::new(space),
             slots: Vec::new(),
             entry_of: vec![NO_ENTRY; slots.len()],
-            loose: Vec::new(),
+            unindexed: Vec::new(),
             nowhere: vec![0.0; space.len()],
         };
         for slot in 0..slots.len() as u32 {
@@ -107,8 +107,8 @@ impl Centres {
         for slot in changed {
             self.entry_of[*slot as usize] = NO_ENTRY;
         }
-        let loose = changed.iter().copied().filter(|slot| slots[*slot as usize].is_some());
-        for slot in std::mem::replace(&mut self.loose, loose.collect()) {
+        let unindexed = changed.iter().copied().filter(|slot| slots[*slot as usize].is_some());
+        for slot in std::mem::replace(&mut self.unindexed, unindexed.collect()) {
             if changed.binary_search(&slot).is_err() {
                 self.enter(slots, slot);
             }

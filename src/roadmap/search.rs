@@ -4,11 +4,14 @@ use super::Edge;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
-/// A graph prepared for searching: the neighbours of each node in the order of the edges.
+/// A graph prepared for searching: the neighbours of each node, in the order of the edges.
 #[derive(Debug)]
 pub struct Graph {
+    /// Per node the index of its first arc, and at the end the number of arcs.
     start: Vec<u32>,
+    /// Node by node, the neighbours and the edges that lead to them.
     arcs: Vec<(u32, u32)>,
+    /// Per edge its weight.
     weights: Vec<f64>,
 }
 
@@ -51,7 +54,7 @@ impl Graph {
         let mut best: Vec<Option<(f64, u32, u32)>> = vec![None; self.start.len() - 1];
         let mut settled = vec![false; best.len()];
         let mut open = BinaryHeap::new();
-        // Lengths are not negative, so their bits order as they do.
+        // Lengths are not negative, so that their bits, as integers, are in the same order.
         open.push(Reverse((0f64.to_bits(), from)));
         best[from as usize] = Some((0.0, from, u32::MAX));
         while let Some(Reverse((bits, node))) = open.pop() {
