@@ -5,24 +5,24 @@ use super::meet::Meeting;
 use super::obb::Obb;
 use parry3d_f64::math::Vector;
 
-/// The shortest way from the robot's surface to that of an obstacle.
+/// The distance of the robot's surface from the nearest obstacle's surface, and the nearest points of the two (the
+/// witnesses of the distance).
 ///
-/// Among equally near ones it is that of the obstacle named first, then of its first triangle, then of
-/// the robot's first link and triangle.
+/// Ties go to the obstacle named first, then to its first triangle, then to the robot's first link and triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearance {
-    /// The distance of the surfaces: 0 where they meet. Inside an obstacle it is that from its surface;
-    /// only [`Validity::state`](super::Validity::state) knows of insides.
+    /// The distance of the surfaces, in the scene's unit: 0 where they meet. It is positive inside an obstacle, too:
+    /// [`Validity::state`](super::Validity::state) tells whether the robot is inside.
     pub distance: f64,
-    /// Where it ends on the robot, in the world's frame.
+    /// The nearest point of the robot, in the world's frame.
     pub on_robot: [f64; 3],
-    /// Where it ends on the obstacle.
+    /// The nearest point of the obstacle, in the world's frame.
     pub on_obstacle: [f64; 3],
     /// Index of the obstacle.
     pub obstacle: usize,
 }
 
-/// A clearance and what breaks ties.
+/// A clearance together with what breaks ties.
 #[derive(Clone, Copy)]
 pub(super) struct Best {
     pub clearance: Clearance,
@@ -31,8 +31,8 @@ pub(super) struct Best {
 }
 
 impl Meeting<'_> {
-    /// The nearer of `best` and the shortest way between the two groups, of which the one stands still in
-    /// the world.
+    /// The smaller of `best` and the distance of the two groups, the standing one being the obstacles: branch and
+    /// bound over both trees.
     pub fn nearer(
         &self,
         stance: &Stance,
@@ -67,7 +67,7 @@ impl Meeting<'_> {
             } else {
                 [(i, still.left), (i, still.left + 1)]
             };
-            // The nearer on top: it is likely to spare the other.
+            // The nearer pair is examined first: it lowers the bound that may rule out the other.
             let [first, second] = children.map(|(i, j)| {
                 let from = frame.point(movers[i as usize].space.centre);
                 (stills[j as usize].space.centre - from).length_squared()
@@ -95,8 +95,8 @@ impl Meeting<'_> {
     }
 }
 
-/// A bound below the distance of two boxes: that of the balls around them, and the gaps along the axes
-/// of both.
+/// A lower bound on the distance of two boxes: the largest of the distance of their bounding spheres and the gaps along
+/// the axes of both.
 fn apart(mover: &Obb, still: &Obb, frame: &Frame) -> f64 {
     let way = still.centre - frame.point(mover.centre);
     let axes = mover.axes.map(|axis| frame.direction(axis));

@@ -24,7 +24,7 @@ pub use motion::TOLERANCE;
 pub use scratch::{Asked, Scratch};
 pub use work::Work;
 
-/// What is to be said of a configuration.
+/// The verdict on a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
     /// In bounds, and the robot touches nothing.
@@ -40,7 +40,7 @@ pub enum State {
 /// Verdicts are pure functions of their arguments: what a [`Scratch`] remembers may change how
 /// fast a verdict comes, never the verdict.
 pub trait Validity: Send + Sync {
-    /// What is to be said of the robot at `q`. Bounds are looked at first.
+    /// The verdict on the robot at `q`. Bounds are checked first.
     fn state(&self, q: &[f64], scratch: &mut Scratch) -> State;
 
     /// Whether the robot at `q` is in bounds and touches nothing.
@@ -61,7 +61,7 @@ pub trait Validity: Send + Sync {
     /// the problem's resolution divided by `refinement` in one of them.
     fn steps(&self, a: &[f64], b: &[f64], refinement: u32) -> u64;
 
-    /// The shortest way from the robot at `q` to an obstacle; `None` if there are none.
+    /// The distance from the robot at `q` to the nearest obstacle, and where; `None` if there are no obstacles.
     fn clearance(&self, q: &[f64], scratch: &mut Scratch) -> Option<Clearance>;
 }
 

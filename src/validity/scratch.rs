@@ -4,8 +4,8 @@ use super::work::Work;
 use crate::scene::Pose;
 use bincode::{Decode, Encode};
 
-/// What was asked of validity checking, counted where it is asked for: a measure of cost that is
-/// the same on every machine.
+/// Numbers of validity checks, counted by those that ask for them: a measure of cost that is the same on every
+/// machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Encode, Decode)]
 pub struct Asked {
     /// Configurations whose validity was asked for.
@@ -24,14 +24,14 @@ impl std::ops::AddAssign for Asked {
 /// Working memory of one thread: buffers and counters.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    /// What was asked through this scratch since [`Scratch::take_asked`].
+    /// The validity checks asked for with this scratch since the last [`Scratch::take_asked`].
     pub(crate) asked: Asked,
-    /// Where the links stand.
+    /// The poses of the links at the configuration at hand.
     pub(super) stance: Stance,
-    /// Where they stand during a motion.
+    /// Their poses at the samples of the motion at hand.
     pub(super) timeline: Timeline,
     pub(super) stacks: Stacks,
-    /// A configuration between two others.
+    /// A configuration on the motion at hand.
     pub(crate) between: Vec<f64>,
 }
 
@@ -46,12 +46,12 @@ impl Scratch {
         std::mem::take(&mut self.asked)
     }
 
-    /// The steps since the last call; see [`Work`].
+    /// The counts of collision tests since the last call; see [`Work`].
     pub fn take_work(&mut self) -> Work {
         std::mem::take(&mut self.stacks.work)
     }
 
-    /// Fills the memory with rubbish that could mislead: for tests of the law that it never does.
+    /// Fills the memory with rubbish, for tests of the law that what a scratch remembers changes no verdict.
     #[doc(hidden)]
     pub fn poison(&mut self, rubbish: u64) {
         let nowhere = Pose { translation: [f64::NAN; 3], rotation: [0.0; 4] };
