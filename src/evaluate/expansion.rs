@@ -251,7 +251,7 @@ mod tests {
     }
 
     impl Expansion {
-        /// Those of the round before, as far as there is one, and those of now.
+        /// The layouts of the round before, if there is one, and of the present round.
         fn layouts(&self, space: &Space, roadmap: &Roadmap) -> (Layout, Layout) {
             let now = self.layout(space, roadmap, roadmap.components(), None);
             let before = roadmap.rounds().iter().rev().nth(1).copied().unwrap_or_default();

@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct InformationGain {
-    /// How many of the last rounds are looked at together.
+    /// How many of the last rounds are judged together.
     #[serde(default = "default_rounds")]
     pub rounds: u32,
     /// The largest percentage at which the criterion is satisfied.

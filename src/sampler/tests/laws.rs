@@ -144,7 +144,7 @@ fn a_sampler_that_can_find_nothing_gives_up() {
         let error = sampler.method().sample(cx, &seed, 1, &mut scratch, &mut configs).unwrap_err();
         assert_eq!(error, GaveUp { attempts: 50 }, "{text}");
         let asked = scratch.take_asked().configurations;
-        // At most so many steps in so many directions for each.
+        // MAPRM may check up to 3 steps of a push and 3 steps in each of 4 directions for every attempt.
         let most = if text.starts_with("maprm") { 50 * (3 + 4 * 3) } else { u64::MAX };
         assert!((50..=most).contains(&asked), "{text}: {asked}");
     }

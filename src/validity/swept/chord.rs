@@ -39,7 +39,7 @@ pub(super) struct Course {
 /// The motion between two samples, every point being thought to go straight.
 pub(super) struct Chord<S: Simd> {
     pub samples: Samples,
-    /// The same in time.
+    /// The same stretch in time, from 0 at the beginning of the motion to 1 at its end.
     pub span: Span,
     frames: Frames<f32x8<S>>,
     /// How far points of the moving body may leave their straight lines.

@@ -20,9 +20,9 @@ impl<S: Simd> Sweep<'_, '_, S> {
     /// Whether the elements of two leaves come nearer to each other, at a sample within the span, than half a step
     /// moves the points of the moving one; with [`Asks::Samples`], whether they meet at one of the samples.
     ///
-    /// The elements are held against each other at the middle sample. Since the velocity of the points is bounded,
-    /// their gap there proves that they stay apart for some time before and after; the samples that are left on
-    /// either side are examined in the same way.
+    /// The gap between the elements is computed at the middle sample. Since the velocity of their points is bounded, it
+    /// proves that they stay apart for some time before and after; the samples that are left on either side are
+    /// examined in the same way.
     #[inline(never)]
     pub(super) fn touches(&mut self, moving: u32, node: u32, span: Span) -> bool {
         let meeting = self.meeting;
