@@ -95,3 +95,43 @@ fn nearer(view: &View, a: &Solid, b: &Solid) -> f64 {
     }
     best
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::solid::solids;
+    use crate::scene::{Body, Pose, Shape};
+
+    fn block(size: [f64; 3], translation: [f64; 3], view: &View) -> Solid {
+        let pose = Pose { translation, ..Pose::IDENTITY };
+        let body = Body { shape: Shape::Box { size }, pose, solid: true };
+        solids(&body, &Pose::IDENTITY, view).remove(0)
+    }
+
+    /// The middle of the plate is nearer to the eye than the block, which is painted later all the same: the plate's
+    /// upper face separates the two.
+    #[test]
+    fn a_block_on_a_plate_is_painted_after_the_plate() {
+        let view = View::new(false, &[[0.0; 3], [10.0; 3]]);
+        let [x, y, _] = view.toward;
+        let plate = block([20.0, 20.0, 0.1], [4.0 * x, 4.0 * y, -0.05], &view);
+        let on_it = block([1.0; 3], [0.0, 0.0, 0.5], &view);
+        let depth = |solid: &Solid| solid.points.iter().map(|p| dot(view.toward, *p)).sum::<f64>();
+        assert!(depth(&plate) > depth(&on_it));
+        assert_eq!(paint_order(&view, &[&plate, &on_it]), [0, 1]);
+        assert_eq!(paint_order(&view, &[&on_it, &plate]), [1, 0]);
+    }
+
+    /// Where nothing overlaps in the picture, the farther one is painted first.
+    #[test]
+    fn blocks_beside_each_other_are_painted_by_depth() {
+        let view = View::new(false, &[[0.0; 3], [10.0; 3]]);
+        let place = |right: f64, toward: f64| {
+            let at = [0, 1, 2].map(|i| right * view.right[i] + toward * view.toward[i]);
+            block([1.0; 3], at, &view)
+        };
+        let (near, far) = (place(-5.0, 3.0), place(5.0, -3.0));
+        assert_eq!(paint_order(&view, &[&near, &far]), [1, 0]);
+        assert_eq!(paint_order(&view, &[&far, &near]), [0, 1]);
+    }
+}
