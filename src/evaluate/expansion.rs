@@ -13,18 +13,18 @@ use std::cmp::Reverse;
 /// and intra-component distances of the connected components … The evaluator returns success if
 /// both sets of distances stabilize."*
 ///
-/// As there, components are as far apart as their centres, and a component is as wide as its two
-/// farthest configurations are far apart. Components merge and appear from round to round, so the
-/// two sets are taken as distributions over the roadmap's nodes, in which components need no
-/// counterparts: *width* is that of the component of a node drawn at random, *separation* the
-/// distance between the centres of the components of two nodes drawn at random, nothing if that is the
-/// same component. A merge moves the nodes of both sides to a larger width and the pairs across to
-/// no separation; a component that appears, disappears or grows counts for its share of the nodes.
+/// As in the report, the distance between two components is that of their centres, and the width of a component is
+/// the distance of its two farthest configurations. From round to round components merge and appear, so that they
+/// cannot be compared one by one. Both measures are therefore taken as distributions over the roadmap's nodes: *width*
+/// is the width of the component of a node drawn at random, *separation* the distance between the components of two
+/// nodes drawn at random, 0 if that is the same component. When two components merge, the nodes of both move to a
+/// larger width and the pairs across to separation 0; a component that appears or grows counts by its share of the
+/// nodes.
 ///
-/// A set has moved by the earth mover's distance between the two distributions: the mean way by
-/// which distances have to change to turn one into the other. The value is the larger of both
-/// moves, between the roadmap now and any of the `rounds` rounds before, over the space's diameter;
-/// so it says that nothing drifted either. Earlier rounds are read from the roadmap's own history.
+/// How far a distribution has moved between two rounds is measured by the earth mover's distance: the mean change of
+/// distance that turns one into the other. The value is the largest move of either distribution between the roadmap
+/// now and any of the `rounds` rounds before, divided by the space's diameter, so that a slow drift is noticed, too.
+/// Earlier rounds are read from the roadmap's own history.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct Expansion {
@@ -83,7 +83,7 @@ impl Evaluator for Expansion {
             later = Some(then);
         }
         let enough = before.len() == self.rounds as usize;
-        // As long as there are too few rounds anything may still happen.
+        // With too few rounds to compare the criterion is not satisfied.
         let value = if enough && diameter > 0.0 { moved[0].max(moved[1]) / diameter } else { 1.0 };
         let means = [mean(&now.width), mean(&now.separation)];
         Verdict {
@@ -107,7 +107,7 @@ impl Evaluator for Expansion {
 /// Distances, ascending, each with the number of nodes or of ordered pairs of nodes for which it stands.
 type Distances = Vec<(f64, u128)>;
 
-/// The distances of a round.
+/// The two distributions of a round.
 struct Layout {
     /// Ids and distance of the farthest configurations of each component.
     widths: Vec<(u32, u32, f64)>,
@@ -116,7 +116,8 @@ struct Layout {
 }
 
 impl Expansion {
-    /// The distances of some components; `later` are those of a later round.
+    /// The distributions for the roadmap whose connected components are `components`; `later`, those of a later round,
+    /// spares searches for farthest pairs that have not changed.
     fn layout(
         &self,
         space: &Space,
@@ -146,8 +147,8 @@ impl Expansion {
     }
 }
 
-/// The two farthest configurations of a component, and their distance. Components only grow: where the
-/// farthest two of a later one are both in this one already, they are its farthest too.
+/// The two farthest configurations of a component, and their distance. Components only grow: if the farthest pair of a
+/// component of a later round lies in this component, then it is this component's farthest pair, too.
 fn ends(
     space: &Space,
     configs: &Configs,
@@ -250,7 +251,7 @@ mod tests {
     }
 
     impl Expansion {
-        /// Those of the round before, as far as there is one, and those of now.
+        /// The layouts of the round before, if there is one, and of the present round.
         fn layouts(&self, space: &Space, roadmap: &Roadmap) -> (Layout, Layout) {
             let now = self.layout(space, roadmap, roadmap.components(), None);
             let before = roadmap.rounds().iter().rev().nth(1).copied().unwrap_or_default();

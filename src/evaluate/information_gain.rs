@@ -23,10 +23,10 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct InformationGain {
-    /// How many of the last rounds are looked at together.
+    /// How many of the last rounds are judged together.
     #[serde(default = "default_rounds")]
     pub rounds: u32,
-    /// The largest percentage that still counts as hardly anything.
+    /// The largest percentage at which the criterion is satisfied.
     #[serde(default = "default_percent")]
     pub percent: f64,
 }
@@ -40,7 +40,7 @@ fn default_percent() -> f64 {
 }
 
 impl InformationGain {
-    /// How much of what came last was unreached, and how much of what was there it united.
+    /// The two shares, *unreached* and *united*.
     fn shares(&self, space: &Space, roadmap: &Roadmap) -> [f64; 2] {
         let before = roadmap.rounds().iter().rev().nth(self.rounds as usize);
         before.filter(|before| before.nodes > 0).map_or([1.0, 1.0], |before| {

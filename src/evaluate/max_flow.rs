@@ -15,22 +15,22 @@ use serde::{Deserialize, Serialize};
 /// configuration to the next, then we can define edge capacity c(e) as 1/w(e). The evaluator returns
 /// success if the max-flow between the two configurations is above some threshold f."*
 ///
-/// The configurations are attached to their nearest nodes as a query's are. Every edge carries its
-/// capacity in each direction. Weights below `least_weight` count as that, since 1/w has no bound. In
-/// units of 2⁻³² of the largest capacity, 1/`least_weight`, capacities are rounded to whole
-/// numbers; of these the flow is exact and equals the least cut, which the verdict holds.
+/// The configurations are attached to their nearest nodes as a query's are. An edge has its capacity in each
+/// direction. Weights below `least_weight` are raised to it, since 1/w has no bound. Capacities are rounded to whole
+/// multiples of 2⁻³² of the largest one, 1/`least_weight`; for the rounded capacities the maximum flow is exact and
+/// equals the minimum cut, which the verdict holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct MaxFlow {
-    /// The least flow that will do, in units of one over those of weights.
+    /// The least flow that satisfies the criterion, in the unit of 1/weight.
     pub flow: f64,
-    /// Where the flow begins; empty: at the query's start.
+    /// The sources of the flow; an empty list stands for the query's start.
     #[serde(default)]
     pub from: Vec<Vec<f64>>,
-    /// Where it ends; empty: at the query's goal.
+    /// The sinks of the flow; an empty list stands for the query's goal.
     #[serde(default)]
     pub to: Vec<Vec<f64>>,
-    /// The least weight that an edge counts with; none: a thousandth of the space's diameter.
+    /// The least weight that an edge counts with; by default a thousandth of the space's diameter.
     pub least_weight: Option<f64>,
     /// How many nearest nodes each configuration tries to connect to.
     #[serde(default = "samples::default_neighbors")]

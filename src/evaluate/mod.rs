@@ -64,12 +64,12 @@ pub trait Evaluator {
         scratch: &mut Scratch,
     ) -> Verdict;
 
-    /// What the numbers are that its verdicts hold beside their value.
+    /// The names of [`Verdict::measures`], in their order.
     fn measures(&self) -> &'static [&'static str] {
         &[]
     }
 
-    /// The criteria of which it is made.
+    /// The criteria that a combined criterion is made of.
     fn parts(&self) -> &[EvaluatorKind] {
         &[]
     }
@@ -79,7 +79,7 @@ pub trait Evaluator {
         self.parts().iter().any(|part| part.method().needs_query())
     }
 
-    /// Of an evaluator that attaches configurations to the roadmap: how it does.
+    /// How the evaluator attaches configurations to the roadmap, if it does.
     fn attachment(&self) -> Option<Attachment> {
         self.parts().iter().find_map(|part| part.method().attachment())
     }
@@ -96,7 +96,7 @@ pub trait Evaluator {
     }
 }
 
-/// The verdict of a criterion made of `parts`, of which so many must be satisfied.
+/// The verdict of a criterion made of `parts`, at least `needed` of which must be satisfied.
 fn combined(
     parts: &[EvaluatorKind],
     needed: usize,
@@ -107,7 +107,7 @@ fn combined(
 ) -> Verdict {
     let mut verdicts = Vec::new();
     let mut asked = Asked::default();
-    // Every part is judged every time, so that its values can be followed over the rounds.
+    // Every part is evaluated in every round, so that its values can be followed over the rounds.
     for (index, part) in parts.iter().enumerate() {
         let verdict = part.method().evaluate(cx, &format!("{path}/{index}"), roadmap, scratch);
         asked += verdict.asked;

@@ -4,7 +4,7 @@ use petgraph::algo::dinics;
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::visit::EdgeRef;
 
-/// More than any flow.
+/// A capacity larger than any flow.
 const UNBOUNDED: u64 = u64::MAX / 4;
 
 /// A directed network with capacities in whole numbers.
@@ -13,7 +13,7 @@ pub(super) struct Network {
 }
 
 impl Network {
-    /// So many nodes without arcs.
+    /// A network of that many nodes without arcs.
     pub fn new(nodes: usize, arcs: usize) -> Network {
         let mut graph = DiGraph::with_capacity(nodes + 2, arcs);
         (0..nodes + 2).for_each(|_| _ = graph.add_node(()));
@@ -25,9 +25,9 @@ impl Network {
         self.graph.add_edge(NodeIndex::from(from), NodeIndex::from(to), capacity);
     }
 
-    /// The largest flow from all of `sources` to all of `sinks`, and for each node whether it is on the
-    /// sources' side of the least cut nearest to them. That side is what a largest flow leaves
-    /// reachable, and the same whichever largest flow it is.
+    /// The value of a maximum flow from all of `sources` to all of `sinks`, and for each node whether it is on the
+    /// sources' side of the minimum cut nearest to the sources: the nodes reachable from them in the residual network,
+    /// which are the same for every maximum flow.
     pub fn flow(mut self, sources: &[u32], sinks: &[u32]) -> (u64, Vec<bool>) {
         let nodes = self.graph.node_count() as u32 - 2;
         let (source, sink) = (nodes, nodes + 1);
@@ -61,7 +61,7 @@ mod tests {
 
     const NODES: u32 = 7;
 
-    /// What a side of the nodes lets out.
+    /// The capacity of the cut between one side of the nodes and the others.
     fn capacity(arcs: &[(u32, u32, u64)], side: impl Fn(u32) -> bool) -> u64 {
         let severed = arcs.iter().filter(|(from, to, _)| side(*from) && !side(*to));
         severed.map(|(_, _, capacity)| capacity).sum()

@@ -29,16 +29,16 @@ pub(super) fn default_planners() -> Vec<Planner> {
     Attachment::default().planners
 }
 
-/// Where the samples come from. They are valid, the same in every round, and never become nodes of the
-/// roadmap or connect parts of it.
+/// Where the samples come from. Samples are valid, the same in every round, and never become nodes of the roadmap or
+/// connect parts of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(rename_all = "kebab-case")]
 pub enum Samples {
-    /// So many, drawn uniformly among the valid configurations.
+    /// That many samples, drawn uniformly among the valid configurations.
     Random(u32),
-    /// These.
+    /// The configurations of a list.
     Listed(Vec<Vec<f64>>),
-    /// So many from each of several samplers: TR05-007 §4.2 expects *"improvement … when a mixture of
+    /// Samples drawn by several samplers: TR05-007 §4.2 expects *"improvement … when a mixture of
     /// configurations generated using different sampling strategies are used"*.
     Drawn(Vec<Drawn>),
 }
@@ -75,7 +75,7 @@ impl Samples {
         }
     }
 
-    /// Brings listed samples into stored form and checks them, and whether samplers suit the problem.
+    /// Checks listed samples and brings them into stored form; checks whether samplers suit the problem.
     pub(super) fn accept(&mut self, cx: &Context) -> Result<(), String> {
         if let Samples::Drawn(parts) = self {
             for (index, part) in parts.iter().enumerate() {
@@ -97,7 +97,7 @@ impl Samples {
             Samples::Drawn(parts) => {
                 for (index, Drawn { sampler, count }) in parts.iter().enumerate() {
                     let seed = Seed::of_evaluator(cx.base_seed, path).part(index as u64);
-                    // What a sampler that gave up did not find counts as missing.
+                    // Samples that a sampler gave up looking for count as unreached.
                     let _ =
                         sampler.method().sample(cx, &seed, *count as usize, scratch, &mut configs);
                 }
@@ -107,7 +107,7 @@ impl Samples {
                 let mut stream = seed.stream(Purpose::Sampling);
                 let mut q = vec![0.0; cx.space.len()];
                 for _ in 0..*count {
-                    // Where hardly anything is valid fewer samples are drawn, and they count as missing.
+                    // Where hardly any configuration is valid fewer samples are found; the others count as unreached.
                     for _ in 0..ATTEMPTS_MAX {
                         cx.space.sample_uniform(&mut stream, &mut q);
                         if cx.model.is_valid(&q, scratch) {
@@ -129,8 +129,8 @@ impl Samples {
         }
     }
 
-    /// Per sample the names of the components that it reaches: each tries to connect to its nearest
-    /// nodes, those of components already reached excepted.
+    /// Per sample the names of the components that it can be connected to. Each sample tries its nearest nodes, except
+    /// those of components that it has reached already.
     pub(super) fn reached(
         &self,
         cx: &Context,
@@ -157,7 +157,7 @@ impl Samples {
     }
 }
 
-/// The verdict on a share of something.
+/// The verdict on the share `part / whole`, which must be at least `threshold`.
 pub(super) fn share(part: usize, whole: usize, threshold: f64, asked: Asked) -> Verdict {
     let value = if whole == 0 { 0.0 } else { part as f64 / whole as f64 };
     Verdict::at_least(threshold, value, asked)

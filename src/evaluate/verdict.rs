@@ -4,26 +4,26 @@ use crate::wire::decode_nested;
 use bincode::{Decode, Encode};
 use serde::Serialize;
 
-/// What an evaluator says of a roadmap.
+/// An evaluator's verdict on a roadmap.
 #[derive(Clone, Debug, PartialEq, Encode)]
 pub struct Verdict {
     /// Whether the criterion is met.
     pub satisfied: bool,
     /// The measured value.
     pub value: f64,
-    /// What it is compared with.
+    /// The number that the value is compared with.
     pub threshold: f64,
-    /// How it is compared.
+    /// On which side of the threshold the value must be.
     pub bound: Bound,
     /// Further numbers; [`Evaluator::measures`](super::Evaluator::measures) names them.
     pub measures: Vec<f64>,
-    /// Of the query evaluator: the answer, with the path.
+    /// The answer to the query, with the path; of the query evaluator only.
     pub answer: Option<Answer>,
-    /// Of the max-flow evaluator: a least cut, the one nearest to where the flow begins.
+    /// A minimum cut, the one nearest to the sources; of the max-flow evaluator only.
     pub cut: Option<Vec<CutEdge>>,
-    /// Of a criterion made of others: what they say.
+    /// The verdicts of the parts of a combined criterion.
     pub parts: Vec<Verdict>,
-    /// What the evaluation cost.
+    /// The validity checks that the evaluation took.
     pub asked: Asked,
 }
 
@@ -33,21 +33,21 @@ decode_nested!(Verdict { satisfied, value, threshold, bound, measures, answer, c
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Encode, Decode)]
 #[serde(rename_all = "kebab-case")]
 pub enum Bound {
-    /// The threshold is the least value that does.
+    /// The value must be at least the threshold.
     AtLeast,
-    /// The threshold is the largest value that does.
+    /// The value must be at most the threshold.
     AtMost,
 }
 
-/// An edge that a cut severs. Ids beyond the roadmap's name the evaluator's own configurations, in
-/// their order: first those where the flow begins, then those where it ends.
+/// An edge of a cut. Ids that follow those of the roadmap's nodes are the evaluator's own configurations, in their
+/// order: first the sources of the flow, then the sinks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Encode, Decode)]
 pub struct CutEdge {
-    /// The end on the side where the flow begins.
+    /// The end on the sources' side.
     pub from: u32,
-    /// The other end.
+    /// The end on the sinks' side.
     pub to: u32,
-    /// How much flows through it at most.
+    /// The most that can flow through the edge.
     pub capacity: f64,
 }
 
@@ -77,7 +77,7 @@ impl Verdict {
         }
     }
 
-    /// The answer to the problem's query, wherever in the tree it was asked.
+    /// The answer to the problem's query, if this verdict or one of its parts, at any depth, has it.
     pub fn answer(&self) -> Option<&Answer> {
         self.answer.as_ref().or_else(|| self.parts.iter().find_map(Verdict::answer))
     }

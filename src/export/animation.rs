@@ -1,3 +1,4 @@
+use super::markup::escaped;
 use super::tessellate::tessellate;
 use crate::problem::Problem;
 use crate::query::Path;
@@ -53,7 +54,7 @@ pub fn animation(problem: &Problem, path: &Path) -> Option<String> {
     put("configs", &list(sampled.iter().map(|q| numbers(q.iter().copied()))));
     put("way", &list(sampled.iter().map(|q| numbers(figure.marker(q)))));
     data.push('}');
-    let page = PAGE.replacen("ROADMILL_NAME", &html(&problem.name), 1);
+    let page = PAGE.replacen("ROADMILL_NAME", &escaped(&problem.name), 1);
     Some(page.replacen("ROADMILL_DATA", &data, 1))
 }
 
@@ -80,7 +81,7 @@ fn number(value: f64) -> String {
     (value as f32 + 0.0).to_string()
 }
 
-/// A text as a JSON string that cannot end the element it stands in.
+/// A text as a JSON string, in which no character could end the HTML element around it.
 fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
@@ -94,8 +95,4 @@ fn quoted(text: &str) -> String {
     }
     out.push('"');
     out
-}
-
-fn html(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -9,13 +9,13 @@ pub(super) const PAPER: &str = "#fbfaf6";
 pub(super) const FLOOR: &str = "#f1efe8";
 pub(super) const RULE: &str = "#d9d5c8";
 pub(super) const INK: &str = "#33393f";
-/// Of obstacles in the shade and in the light.
+/// Colour of obstacles in the shade and in the light.
 pub(super) const STONE: [[f64; 3]; 2] = [[74.0, 82.0, 92.0], [150.0, 158.0, 168.0]];
-/// Of the robot at the start and at the goal.
+/// Colour of the robot at the start and at the goal.
 pub(super) const WARM: [[f64; 3]; 2] = [[240.0, 165.0, 60.0], [178.0, 38.0, 74.0]];
 pub(super) const WAY: &str = "#9d1f41";
 
-/// A picture in the making.
+/// A picture that is being drawn: the problem, how it is seen, and the text of the file so far.
 pub(super) struct Drawing<'a> {
     pub problem: &'a Problem,
     pub figure: &'a dyn Figure,
@@ -25,6 +25,7 @@ pub(super) struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
+    /// Appends a line to the file.
     pub fn put(&mut self, text: std::fmt::Arguments) {
         self.out.write_fmt(text).expect("writing to memory cannot fail");
         self.out.push('\n');
@@ -36,6 +37,7 @@ impl Drawing<'_> {
         format!("{} {}", decimal(x), decimal(y))
     }
 
+    /// A polyline through points of the world, as the data of an SVG path.
     pub fn line(&self, points: impl IntoIterator<Item = [f64; 3]>) -> String {
         let mut line = String::new();
         for (index, point) in points.into_iter().enumerate() {

@@ -1,9 +1,10 @@
+use super::markup::escaped;
 use super::planner_name;
 use crate::problem::Problem;
 use crate::roadmap::Roadmap;
 use std::fmt::Write;
 
-/// What nodes have besides their degrees of freedom.
+/// The attribute of nodes that is no degree of freedom.
 const COMPONENT: &str = "component";
 
 /// A roadmap as GraphML (U. Brandes et al. 2002), an undirected graph with typed attributes.
@@ -39,7 +40,7 @@ pub fn graphml(problem: &Problem, roadmap: &Roadmap) -> String {
         key(name, "graph", name, "string", "");
     }
     for (index, dof) in space.dofs().iter().enumerate() {
-        // Two attributes of one name would be one to whoever reads them.
+        // Programs that read attributes by name could not tell two of the same name apart.
         let clash = if dof.name == COMPONENT { "dof " } else { "" };
         key(&format!("q{index}"), "node", &format!("{clash}{}", dof.name), "double", dof.unit);
     }
@@ -74,33 +75,4 @@ pub fn graphml(problem: &Problem, roadmap: &Roadmap) -> String {
     put(format_args!("</graph>"));
     put(format_args!("</graphml>"));
     xml
-}
-
-/// A text as XML holds it, in attributes too. Characters that XML cannot hold at all become U+FFFD.
-fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\t' | '\n' | '\r' => {
-                write!(out, "&#{};", u32::from(c)).expect("writing to memory cannot fail");
-            }
-            '\0'..' ' | '\u{FFFE}' | '\u{FFFF}' => out.push('\u{FFFD}'),
-            c => out.push(c),
-        }
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::escaped;
-
-    #[test]
-    fn any_name_can_be_written() {
-        assert_eq!(escaped("a<b>&\"c\"\n\u{1}"), "a&lt;b&gt;&amp;&quot;c&quot;&#10;\u{FFFD}");
-    }
 }

@@ -1,6 +1,7 @@
-//! Obstacles, the robot on its way, and the path.
+//! Obstacles, the robot at poses along the path, and the path itself.
 
 use super::drawing::{Drawing, INK, PAPER, STONE, WARM, WAY, blend};
+use super::paint_order::paint_order;
 use super::solid::{Solid, solids};
 use super::union::join;
 use crate::query;
@@ -10,9 +11,9 @@ use std::fmt::Write;
 
 /// Poses of the robot drawn along a path, both ends included.
 const POSES: usize = 18;
-/// Metric length of a path is summed over this many steps of each of its motions.
+/// The length of a path is summed over this many steps of each of its motions.
 const STEPS: usize = 32;
-/// Pieces that a path is cut into so that walls can hide parts of it.
+/// Pieces into which a path in 3D is cut, each painted in its own turn, so that walls can hide parts of the path.
 const CUTS: usize = 160;
 
 /// The configurations at these fractions of a path's length, ascending from 0 to 1.
@@ -46,7 +47,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Bodies whose owner stands at a pose; boxes that touch become one.
+    /// Bodies given in the world's frame, as they are drawn; boxes that touch are drawn as one.
     pub(super) fn stand(&self, bodies: &[Body]) -> Vec<Solid> {
         let mut standing: Vec<Solid> =
             bodies.iter().flat_map(|body| solids(body, &Pose::IDENTITY, &self.view)).collect();
@@ -77,7 +78,7 @@ impl Drawing<'_> {
                 outline.push_str(&self.line(polygon.iter().copied()));
                 outline.push('Z');
             }
-            // The light comes from the upper left, behind the eye.
+            // The light comes from the upper left, from behind the eye.
             let view = &self.view;
             let light: f64 = (0..3)
                 .map(|i| {
@@ -99,7 +100,8 @@ impl Drawing<'_> {
         text
     }
 
-    /// The robot at poses along the path, or at the query's ends where there is no path.
+    /// The configurations at which the robot is drawn, each with its share of the path: evenly along the path, or,
+    /// without a path, the query's start and goal.
     fn poses(&self, path: Option<&query::Path>) -> Vec<(f64, Vec<f64>)> {
         match (path, &self.problem.query) {
             (Some(path), _) => {
@@ -159,7 +161,7 @@ impl Drawing<'_> {
     /// Obstacles, poses and the path of a 3D problem, what is hidden first.
     pub(super) fn solids_and_journey(&mut self, path: Option<&query::Path>) {
         let mut items: Vec<(Solid, String)> = Vec::new();
-        // The whole path, faint, on top of what hides it.
+        // The whole path, painted faintly over everything, so that hidden parts of it show through.
         let mut through = String::new();
         for solid in self.stand(self.figure.obstacles()) {
             let text = self.obstacle(&solid);
@@ -174,7 +176,7 @@ impl Drawing<'_> {
                 .iter()
                 .map(|q| self.figure.marker(q))
                 .collect();
-            // Its shadow on the floor tells how far away it is.
+            // The path's shadow on the floor shows where in depth the path is.
             let floor = self.figure.bounds()[0][2];
             let shadow = self.line(way.iter().map(|p| [p[0], p[1], floor]));
             self.put(format_args!(
@@ -195,7 +197,7 @@ impl Drawing<'_> {
             );
         }
         let solids: Vec<&Solid> = items.iter().map(|(solid, _)| solid).collect();
-        for index in self.view.paint_order(&solids) {
+        for index in paint_order(&self.view, &solids) {
             self.put(format_args!("{}", items[index].1));
         }
         self.put(format_args!("{through}"));

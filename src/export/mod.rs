@@ -5,13 +5,16 @@ mod csv;
 mod drawing;
 mod graphml;
 mod journey;
+mod markup;
 mod npz;
+mod paint_order;
 mod parasol;
 mod path_csv;
 mod solid;
 mod svg;
 mod tessellate;
 mod union;
+mod vector;
 mod view;
 
 pub use animation::animation;

@@ -54,7 +54,7 @@ impl Archive {
         shape: &str,
         data: impl Iterator<Item = u8>,
     ) -> io::Result<()> {
-        // A time of day, a compressor's release or the system must not reach the bytes.
+        // The bytes must not depend on the time of day, on the version of a compressor or on the system.
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
             .last_modified_time(DateTime::DEFAULT)

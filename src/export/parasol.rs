@@ -25,7 +25,7 @@ pub fn parasol_map(problem: &Problem, cx: &Context, roadmap: &Roadmap) -> String
         adjacent[edge.low as usize].push(index);
         adjacent[edge.high as usize].push(index);
     }
-    // A name is one word there.
+    // In the file a name is a single word.
     let name: String =
         problem.name.chars().map(|c| if c.is_whitespace() { '_' } else { c }).collect();
     let mut map = format!("#####ENVFILESTART#####\n{name}.env\n#####ENVFILESTOP#####\n");

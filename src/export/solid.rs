@@ -1,21 +1,23 @@
 //! Bodies as they are drawn: flat patches and the edges between them.
 
-use super::view::{View, cross, dot};
+use super::vector::{cross, dot, sub};
+use super::view::View;
 use crate::math;
 use crate::scene::{Body, Mesh, Pose, Shape, box_surface};
+use petgraph::unionfind::UnionFind;
 use std::collections::BTreeMap;
 
 /// Meshes of more triangles are drawn as their convex outline.
 const TRIANGLES_MAX: usize = 4000;
 /// Corners of a drawn circle.
 const CIRCLE: usize = 40;
-/// Two triangles meet in a drawn edge when the cosine between their normals is below this.
+/// The edge between two triangles is drawn when the cosine of the angle between their normals is below this.
 const SMOOTH: f64 = 0.9;
 
 /// Faces that lie in one plane, or nearly.
 pub(super) struct Patch {
     pub polygons: Vec<Vec<[f64; 3]>>,
-    /// Outward, of unit length.
+    /// The outward unit normal.
     pub normal: [f64; 3],
 }
 
@@ -23,30 +25,31 @@ pub(super) struct Patch {
 #[derive(Clone, Copy)]
 pub(super) struct Edge {
     pub ends: [[f64; 3]; 2],
-    /// Outward normals of the two faces that meet in it; `None` on a rim.
+    /// Outward normals of the two faces that meet in the edge; `None` if it is the rim of a single face.
     pub normals: Option<[[f64; 3]; 2]>,
 }
 
-/// A connected piece of a body in the world's frame, with what the eye sees of it.
+/// A connected piece of a body in the world's frame: the faces and edges that the eye may see.
 pub(super) struct Solid {
     pub patches: Vec<Patch>,
     pub edges: Vec<Edge>,
     /// Points whose convex hull holds the piece.
     pub points: Vec<[f64; 3]>,
-    /// The faces of a box around the piece: outward normals and their offsets.
+    /// The faces of a box around the piece: outward unit normals `n`, and offsets `n · p` of the points `p` on each
+    /// face.
     pub planes: Vec<([f64; 3], f64)>,
     /// Whether that box is the piece itself.
     pub is_box: bool,
 }
 
 impl Solid {
-    /// Points without faces of their own, to be put in order among solids.
+    /// A thin line through points. It has no faces, but takes its place in the order in which solids are painted.
     pub fn thread(points: &[[f64; 3]]) -> Solid {
         let (patches, edges, planes) = (Vec::new(), Vec::new(), Vec::new());
         Solid { patches, edges, points: points.to_vec(), planes, is_box: false }
     }
 
-    /// The largest distance along an axis of the world between two of the points.
+    /// The largest side of the axis-aligned bounding box of the points.
     pub fn extent(&self) -> f64 {
         let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let lengths = axes.map(|axis| {
@@ -64,10 +67,7 @@ impl Solid {
 /// The pieces of a body; `frame` is the pose of the body's owner in the world.
 pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
     let place = |p: [f64; 3]| frame.apply(body.pose.apply(p));
-    let turn = |axis: [f64; 3]| {
-        let (tip, origin) = (place(axis), place([0.0; 3]));
-        [0, 1, 2].map(|i| tip[i] - origin[i])
-    };
+    let turn = |axis: [f64; 3]| sub(place(axis), place([0.0; 3]));
     match &body.shape {
         Shape::Box { size } => {
             let (corners, triangles) = box_surface(*size);
@@ -108,32 +108,30 @@ pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
     }
 }
 
-/// The triangles of each piece of a mesh. Pieces hang together by edges of two triangles: where
-/// more meet, pieces merely touch.
+/// The triangles of each connected piece of a mesh. Two triangles are connected by an edge that they alone
+/// share: where more than two meet in an edge, pieces merely touch.
 fn pieces(mesh: &Mesh) -> Vec<Vec<[u32; 3]>> {
     let triangles: Vec<[u32; 3]> = mesh.faces().collect();
-    let mut label: Vec<usize> = (0..triangles.len()).collect();
-    fn root(label: &mut [usize], mut i: usize) -> usize {
-        while label[i] != i {
-            label[i] = label[label[i]];
-            i = label[i];
-        }
-        i
-    }
+    let mut connected = UnionFind::new(triangles.len());
     for sides in sides_of(&triangles).values() {
         if let [one, other] = sides[..] {
-            let roots = (root(&mut label, one), root(&mut label, other));
-            label[roots.0.max(roots.1)] = roots.0.min(roots.1);
+            connected.union(one, other);
         }
     }
-    let mut pieces: BTreeMap<usize, Vec<[u32; 3]>> = BTreeMap::new();
-    for (index, corners) in triangles.iter().enumerate() {
-        pieces.entry(root(&mut label, index)).or_default().push(*corners);
+    let labels: Vec<usize> = connected.into_labeling();
+    let mut pieces: Vec<Vec<[u32; 3]>> = Vec::new();
+    let mut piece_of = BTreeMap::new();
+    for (corners, label) in triangles.into_iter().zip(labels) {
+        let piece = *piece_of.entry(label).or_insert(pieces.len());
+        if piece == pieces.len() {
+            pieces.push(Vec::new());
+        }
+        pieces[piece].push(corners);
     }
-    pieces.into_values().collect()
+    pieces
 }
 
-/// The triangles at each edge.
+/// The indices of the triangles at each edge, which is named by its two vertices in ascending order.
 fn sides_of(triangles: &[[u32; 3]]) -> BTreeMap<(u32, u32), Vec<usize>> {
     let mut sides_of: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
     for (index, [a, b, c]) in triangles.iter().enumerate() {
@@ -144,7 +142,8 @@ fn sides_of(triangles: &[[u32; 3]]) -> BTreeMap<(u32, u32), Vec<usize>> {
     sides_of
 }
 
-/// What the eye sees of a surface of triangles.
+/// The drawing of a surface of triangles: those that face the eye (all of an open surface), and the sharp edges and
+/// outlines among them. `place` and `turn` map points and directions of the body's frame to the world's.
 fn polyhedron(
     vertices: &[[f64; 3]],
     triangles: &[[u32; 3]],
@@ -172,8 +171,7 @@ fn polyhedron(
     let normals: Vec<[f64; 3]> = corners_of
         .iter()
         .map(|[a, b, c]| {
-            let (u, v) = ([0, 1, 2].map(|i| b[i] - a[i]), [0, 1, 2].map(|i| c[i] - a[i]));
-            let normal = cross(u, v);
+            let normal = cross(sub(*b, *a), sub(*c, *a));
             let length = dot(normal, normal).sqrt();
             let sign = if closed || dot(normal, view.toward) > 0.0 { outward } else { -outward };
             normal.map(|value| value / length * sign)
@@ -182,7 +180,7 @@ fn polyhedron(
     let seen: Vec<bool> =
         normals.iter().map(|normal| !closed || dot(*normal, view.toward) > 1e-9).collect();
 
-    // Triangles of one direction become one patch, so that no seam shows between them.
+    // Triangles with nearly the same normal become one patch, so that no seam shows between them.
     let mut patches: BTreeMap<[i64; 3], Patch> = BTreeMap::new();
     for (index, corners) in corners_of.iter().enumerate().filter(|(index, _)| seen[*index]) {
         let normal = normals[index];
@@ -225,7 +223,8 @@ fn polyhedron(
     }
 }
 
-/// The convex outline of `points`, which lie in a box of the body's frame.
+/// The drawing of a convex body as its outline: the convex hull, in the picture, of points of the world's frame. The
+/// box holds the body in the body's own frame.
 fn silhouette(
     points: &[[f64; 3]],
     (min, max): ([f64; 3], [f64; 3]),
@@ -267,12 +266,14 @@ fn silhouette(
     }
 }
 
+/// The sides of a polygon.
 fn rim(polygon: &[[f64; 3]]) -> Vec<Edge> {
     let next = |i: usize| polygon[(i + 1) % polygon.len()];
     polygon.iter().enumerate().map(|(i, p)| Edge { ends: [*p, next(i)], normals: None }).collect()
 }
 
-/// The hull of balls about `centres` on the z axis. A point is drawn as a small ball.
+/// The drawing of the convex hull of balls around `centres` on the body's z axis: a ball or a capsule. A point, of
+/// radius 0, is drawn as a small ball.
 fn ball_like(
     centres: &[[f64; 3]],
     radius: f64,
@@ -295,7 +296,7 @@ fn ball_like(
     silhouette(&rim, (high.map(|value| -value), high), place, turn, view)
 }
 
-/// The faces of the box `min`..`max` of a body's frame, in the world's.
+/// The faces of the box `min`..`max` of a body's frame as normals and offsets in the world's frame.
 fn planes(
     (min, max): ([f64; 3], [f64; 3]),
     place: impl Fn([f64; 3]) -> [f64; 3],

@@ -1,4 +1,5 @@
 use super::drawing::{Drawing, FLOOR, INK, PAPER, RULE, WARM, blend, decimal};
+use super::markup::escaped;
 use super::view::{MARGIN_PX, View};
 use crate::model::Figure;
 use crate::problem::Problem;
@@ -14,7 +15,7 @@ const FONT: &str = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
 /// The most nodes and edges that are drawn.
 const NODES_MAX: usize = 2500;
 const EDGES_MAX: usize = 6000;
-/// Of the largest component, then of the others, over and over.
+/// The colour of the largest component, and those of the others, which take turns.
 const CALM: &str = "#4f7ea8";
 const OTHERS: [&str; 8] =
     ["#3f9b6c", "#8460b5", "#c9a21f", "#2c9fa3", "#c0629e", "#7b8a2e", "#6b6fc9", "#9a6a45"];
@@ -52,7 +53,8 @@ pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> 
     Some(drawing.out)
 }
 
-/// The bounds, and the robot wherever it is drawn: bounds may hold its reference point alone.
+/// Points that must be in the picture: the corners of the bounds, and, where only the robot's reference point must
+/// stay within the bounds, what the robot reaches at every configuration of the path and of the query.
 fn points_to_hold(
     problem: &Problem,
     figure: &dyn Figure,
@@ -107,7 +109,7 @@ impl Drawing<'_> {
              stroke-width=\"{}\"/>",
             if self.planar { "2.5" } else { "1" }
         ));
-        // Lines a round length apart: about a dozen along the longer side.
+        // Grid lines, their spacing a round number: about a dozen along the longer side.
         let extent = [0, 1].map(|axis| corners[3][axis] - corners[0][axis]);
         let step = round_length(extent[0].max(extent[1]) / 12.0);
         let mut lines = String::new();
@@ -125,7 +127,7 @@ impl Drawing<'_> {
             "<path class=\"grid\" d=\"{lines}\" stroke=\"{RULE}\" stroke-width=\"0.8\" fill=\"none\"/>"
         ));
         if !self.planar {
-            // The nine edges that the floor leaves, the back ones and the front ones alike faint.
+            // The eight edges of the bounds besides those of the floor, all equally faint.
             let rest = [[0, 4], [1, 5], [2, 6], [3, 7], [4, 5], [5, 7], [7, 6], [6, 4]];
             let lines: String =
                 rest.iter().map(|pair| self.line(pair.map(|i| corners[i]))).collect();
@@ -173,7 +175,7 @@ impl Drawing<'_> {
             let dot = format!("M{}h0", self.at(place(*node)));
             layers[rank_of(*node)].1.push_str(&dot);
         }
-        // The more lines, the fainter each.
+        // The more there is to draw, the fainter and smaller it is drawn.
         let crowd = (drawn.len() as f64 / 600.0).clamp(0.0, 1.0);
         let (faint, dot) = (0.5 - 0.28 * crowd, 4.4 - 1.6 * crowd);
         for (rank, (edges, nodes)) in layers.into_iter().enumerate() {
@@ -199,7 +201,8 @@ impl Drawing<'_> {
         };
         for (name, q, share) in [("start", &ends.start, 0.0), ("goal", &ends.goal, 1.0)] {
             let [x, y] = self.view.px(self.figure.marker(q));
-            // Of a linkage that stands, the word belongs to what is marked, not to the highest link.
+            // Of a linkage with a fixed base the last link is marked, so that the word stands above that link rather
+            // than above the highest one.
             let bodies = match self.figure.place(q).marked {
                 Some(link) => self.figure.bodies_of_link(link, q),
                 None => self.figure.bodies_at(q),
@@ -254,8 +257,4 @@ fn round_length(length: f64) -> f64 {
         unit *= 10.0;
     }
     [5.0, 2.0].into_iter().map(|times| times * unit).find(|round| *round <= length).unwrap_or(unit)
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -4,7 +4,7 @@ use crate::math;
 use crate::scene::{Shape, box_surface};
 use std::f64::consts::PI;
 
-/// Corners of a drawn circle; even, so that a half ball has whole rings.
+/// Corners of a drawn circle; a multiple of 4, so that a quarter of a circle is a whole number of steps.
 const AROUND: usize = 32;
 
 /// Vertices and, per triangle, the indices of its corners, seen from outside counter-clockwise.
@@ -50,8 +50,8 @@ fn capsule(radius: f64, height: f64) -> Surface {
     turned(&outline)
 }
 
-/// The surface that an outline of distances from the z axis and heights, from bottom to top, draws
-/// as it turns about the axis.
+/// The surface of revolution of an outline about the z axis; the outline is given from bottom to top as distances
+/// from the axis and heights.
 fn turned(outline: &[(f64, f64)]) -> Surface {
     let mut surface = Surface::default();
     let mut rings: Vec<Vec<u32>> = Vec::new();

@@ -1,9 +1,9 @@
 //! Boxes that touch are drawn as one: what lies against another box is not seen.
 
 use super::solid::{Edge, Solid};
-use super::view::dot;
+use super::vector::dot;
 
-/// Of more boxes each is drawn whole.
+/// With more boxes than this each is drawn whole, since every two must be compared.
 const BOXES_MAX: usize = 300;
 
 /// A face of a box: its outward normal and offset.
@@ -11,7 +11,7 @@ type Plane = ([f64; 3], f64);
 /// Whether some box holds a point.
 type Occupied<'a> = dyn Fn([f64; 3]) -> bool + 'a;
 
-/// Takes from boxes the parts of their faces and edges that lie inside or against another box.
+/// Removes from boxes the parts of their faces and edges that lie inside another box or against it.
 /// Solids of other kinds stay as they are.
 pub(super) fn join(solids: &mut [Solid]) {
     let boxes: Vec<usize> = (0..solids.len()).filter(|i| solids[*i].is_box).collect();
@@ -54,18 +54,20 @@ pub(super) fn join(solids: &mut [Solid]) {
     }
 }
 
-/// Whether no face of the box separates the solid from it, with a margin.
+/// Whether a solid touches a box or is within `margin` of it, as far as the faces of the box can tell them apart.
 fn meets(solid: &Solid, planes: &[Plane], margin: f64) -> bool {
     planes.iter().all(|(normal, offset)| {
         solid.points.iter().any(|point| dot(*normal, *point) <= offset + margin)
     })
 }
 
+/// Whether a point lies in a box.
 fn holds(planes: &[Plane], point: [f64; 3]) -> bool {
     planes.iter().all(|(normal, offset)| dot(*normal, point) <= *offset)
 }
 
-/// The parts of a convex polygon that, moved by `outward`, lie outside the box.
+/// Appends to `out` the parts of a convex polygon that lie outside a box when they are moved by `outward`. The short
+/// way outward makes faces that lie against the box count as inside.
 fn subtract(
     polygon: Vec<[f64; 3]>,
     outward: [f64; 3],
@@ -93,7 +95,7 @@ fn subtract(
         };
         let (far, near) = (cut(1.0), cut(-1.0));
         if far.len() >= 3 && near.len() < 3 {
-            // All of what is left is outside: cutting it up further would only leave seams.
+            // The rest lies outside as a whole: more cuts would only leave seams.
             outside.push(left);
             out.append(&mut outside);
             return;
@@ -109,8 +111,9 @@ fn subtract(
     out.append(&mut outside);
 }
 
-/// The stretches of an edge along which the surface bends: of the four places around it one,
-/// three or two across from one another are occupied. It may change where a box begins or ends.
+/// The parts of a box's edge that are edges of the union of all boxes. At a point of the edge the four places around
+/// it, `beside` away, are tested: the union has an edge there if one or three of them are occupied, or two that lie
+/// opposite each other. That can only change where a face of another box crosses the edge.
 fn bare(edge: &Edge, near: &[&Vec<Plane>], beside: f64, occupied: &Occupied) -> Vec<Edge> {
     let Some([u, v]) = edge.normals else { return vec![*edge] };
     let [from, to] = edge.ends;

@@ -1,17 +1,17 @@
 use super::Scratch;
 
-/// The shortest way from the robot's surface to that of an obstacle.
+/// The distance of the robot's surface from the nearest obstacle's surface, and the nearest points of the two (the
+/// witnesses of the distance).
 ///
-/// Among equally near ones it is that of the obstacle named first, then of its first triangle, then of
-/// the robot's first link and triangle.
+/// Ties go to the obstacle named first, then to its first triangle, then to the robot's first link and triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearance {
-    /// The distance of the surfaces: 0 where they meet. Inside an obstacle it is the distance to the obstacle's
-    /// surface; only [`Model::validity`](super::Model::validity) knows of insides.
+    /// The distance of the surfaces, in the scene's unit: 0 where they meet. It is positive inside an obstacle, too:
+    /// [`Model::validity`](super::Model::validity) tells whether the robot is inside.
     pub distance: f64,
-    /// Where the way ends on the robot, in the world's frame.
+    /// The nearest point of the robot, in the world's frame.
     pub on_robot: [f64; 3],
-    /// Where the way ends on the obstacle, in the world's frame.
+    /// The nearest point of the obstacle, in the world's frame.
     pub on_obstacle: [f64; 3],
     /// Index of the obstacle.
     pub obstacle: usize,

@@ -47,8 +47,8 @@ impl Path {
         lengths
     }
 
-    /// Configurations evenly along the path by length, both ends included. They are for showing: not
-    /// in stored form, and one after the other without jumps in a quaternion's sign.
+    /// `count` configurations evenly along the path by length, both ends included. They are meant for display: they
+    /// are not in stored form, so that a quaternion's sign does not jump from one to the next.
     ///
     /// # Panics
     /// If fewer than two are asked for.

@@ -5,8 +5,8 @@ use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed};
 
-/// Every so many tries look at the whole path, those between at a half, a quarter, … of it: where the
-/// way winds, only near places see one another.
+/// Number of window sizes. Tries take turns with windows of the whole path, a half, a quarter, and so on: where a path
+/// winds, only places close to each other can be joined by a straight motion.
 const SCALES: u32 = 5;
 
 /// Shortens a path by shortcuts (R. Geraerts, M. H. Overmars, *Creating high-quality paths for motion
@@ -34,13 +34,13 @@ pub fn shorten(cx: &Context, path: &Path, tries: u32, scratch: &mut Scratch) -> 
     short
 }
 
-/// The path with a straight motion between two places, fractions of its length in ascending order,
-/// if that is free and makes it shorter.
+/// The path with a straight motion between two places, which are given as fractions of its length in ascending order;
+/// `None` if that motion is not free or does not make the path shorter.
 fn shortcut(cx: &Context, path: &Path, from: f64, to: f64, scratch: &mut Scratch) -> Option<Path> {
     let lengths = path.lengths(&cx.space);
     let whole = lengths[lengths.len() - 1];
     let (first, last) = (leg(&lengths, from * whole), leg(&lengths, to * whole));
-    // A leg is straight already.
+    // Between two places of one leg the path is straight already.
     if first.0 == last.0 {
         return None;
     }

@@ -8,7 +8,8 @@ use crate::math;
 use crate::space::{PartKind, Space, canonical};
 use nalgebra::Matrix4;
 
-/// How far from degenerate a mean direction must be to be one.
+/// A mean angle or rotation is defined only where the directions do not cancel out: where the mean vector, or the gap
+/// between the two largest eigenvalues, is larger than this.
 const DEGENERATE: f64 = 1e-9;
 
 /// The additive state of one component's centre.
@@ -75,6 +76,7 @@ impl CentreSum {
     }
 }
 
+/// The principal eigenvector of a mean of q qᵀ, given the upper triangle of the sum; `None` where it is not unique.
 fn principal(upper: &[f64], count: f64) -> Option<[f64; 4]> {
     let mut matrix = Matrix4::zeros();
     let mut entries = upper.iter();

@@ -1,21 +1,10 @@
 use super::Configs;
 use super::centre::CentreSum;
-use super::finder::Finder;
+use super::component::Component;
+use super::indices::Indices;
 use crate::shelf::Shelf;
 use crate::space::Space;
 use std::sync::Arc;
-
-/// A connected component.
-#[derive(Clone, Debug)]
-pub struct Component {
-    /// The smallest node id in it: its name.
-    pub name: u32,
-    /// Its nodes, in no particular order.
-    pub members: Vec<u32>,
-    /// The average of its nodes; up to date after every fold.
-    pub centre: Vec<f64>,
-    sum: CentreSum,
-}
 
 /// The connected components of a graph that only grows.
 ///
@@ -24,19 +13,21 @@ pub struct Component {
 /// look-ups without side effects.
 #[derive(Clone, Debug, Default)]
 pub struct Components {
+    /// Per node, the slot of its component.
     slot_of: Vec<u32>,
     slots: Vec<Option<Component>>,
     /// Slots without a component.
     free: Vec<u32>,
     /// Slots that got a component since the last refresh of the centres, or whose component grew.
     changed: Vec<u32>,
-    pub(super) finder: Finder,
+    /// Indices for searches of nodes and components, built when searches first need them.
+    pub(super) indices: Indices,
 }
 
 impl Components {
-    /// Those of no graph yet, with a place for what its index will have in common with others.
+    /// The components of the empty graph, whose node index will share its segments on a shelf.
     pub(super) fn with_shelf(shelf: Arc<dyn Shelf>) -> Components {
-        Components { finder: Finder::with_shelf(shelf), ..Components::default() }
+        Components { indices: Indices::with_shelf(shelf), ..Components::default() }
     }
 
     /// The components of a graph given whole.
@@ -44,7 +35,7 @@ impl Components {
         Components::built(space, configs, configs.iter(), edges.iter().copied())
     }
 
-    /// The components of a graph over the first of `configs`, `nodes`.
+    /// The components of a graph over `nodes`, which are the first of `configs`.
     pub(super) fn built<'a>(
         space: &Space,
         configs: &Configs,
@@ -98,7 +89,7 @@ impl Components {
         self.slots.iter().flatten()
     }
 
-    /// Where a node's component is kept, until the graph next changes.
+    /// The slot of a node's component; valid until the graph next changes.
     pub(super) fn slot_of(&self, node: u32) -> u32 {
         self.slot_of[node as usize]
     }
@@ -143,7 +134,7 @@ impl Components {
         if a == b {
             return;
         }
-        // Which of two equally large ones is kept changes no result: sums commute.
+        // Which of two equally large components is kept changes no result, since adding two sums commutes.
         let size = |slot: u32| self.slots[slot as usize].as_ref().map_or(0, |c| c.members.len());
         let (kept, gone) = if size(a) >= size(b) { (a, b) } else { (b, a) };
         let smaller = self.slots[gone as usize].take().expect("labels are current");
@@ -172,7 +163,7 @@ impl Components {
                 component.centre = component.sum.centre(space, fallback);
             }
         }
-        self.finder.centres_changed(&self.slots, &changed);
+        self.indices.centres_changed(&self.slots, &changed);
     }
 }
 

@@ -10,7 +10,7 @@ const PIECE_BYTES: usize = 1 << 16;
 #[derive(Clone)]
 pub(super) struct RoadmapHasher {
     hasher: blake3::Hasher,
-    /// What comes next: long pieces are hashed several times faster than short ones.
+    /// Bytes that are not hashed yet: long pieces are hashed several times faster than short ones.
     bytes: Vec<u8>,
 }
 
@@ -47,7 +47,7 @@ impl RoadmapHasher {
         }
     }
 
-    /// Hashes what was added, which digests would do again and again otherwise.
+    /// Hashes the bytes that were added, so that later digests need not hash them each time.
     pub(super) fn take_in(&mut self) {
         self.hasher.update(&self.bytes);
         self.bytes.clear();

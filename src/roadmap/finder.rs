@@ -3,15 +3,14 @@
 //! What is found is what brute force finds, so the indices may come and go as it pays. Who never asks
 //! (a coordinator, a ledger's reader) never builds one.
 
-use super::components::{Component, Components};
+use super::component::Component;
+use super::components::Components;
+use super::indices::{Centres, NO_ENTRY, TAIL, read};
 use crate::neighbor::{self, Best, Candidates, Index, NearPair, Neighbor};
-use crate::shelf::Shelf;
 use crate::space::{Configs, Space};
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Arc, RwLock, RwLockReadGuard};
+use std::sync::RwLockReadGuard;
+use std::sync::atomic::Ordering;
 
-/// Fewer new nodes than this are searched one by one.
-const TAIL: u32 = 128;
 /// More new nodes are added to the index once they have been searched so often: that costs about as
 /// much as adding them.
 const SEARCHES: u32 = 32;
@@ -19,47 +18,6 @@ const SEARCHES: u32 = 32;
 const FEW_MEMBERS: usize = 256;
 /// At most so many components are compared one by one.
 const FEW_COMPONENTS: usize = 64;
-/// Stands for no entry.
-const NONE: u32 = u32::MAX;
-
-/// The indices over a graph's nodes and over its components' centres, as far as there are any.
-#[derive(Debug, Default)]
-pub(super) struct Finder {
-    nodes: RwLock<Option<Index>>,
-    shelf: Option<Arc<dyn Shelf>>,
-    /// How often nodes were searched since the index last grew.
-    searches: AtomicU32,
-    centres: RwLock<Option<Centres>>,
-}
-
-impl Clone for Finder {
-    fn clone(&self) -> Finder {
-        Finder {
-            nodes: RwLock::new(read(&self.nodes).clone()),
-            shelf: self.shelf.clone(),
-            searches: AtomicU32::new(self.searches.load(Ordering::Relaxed)),
-            centres: RwLock::new(read(&self.centres).clone()),
-        }
-    }
-}
-
-fn read<T>(lock: &RwLock<T>) -> RwLockReadGuard<'_, T> {
-    lock.read().expect("no search panics")
-}
-
-impl Finder {
-    /// For nodes whose index is kept on a shelf.
-    pub(super) fn with_shelf(shelf: Arc<dyn Shelf>) -> Finder {
-        Finder { shelf: Some(shelf), ..Finder::default() }
-    }
-
-    /// Takes in that the components in some slots, ascending, are new, gone or have new centres.
-    pub(super) fn centres_changed(&mut self, slots: &[Option<Component>], changed: &[u32]) {
-        if let Some(centres) = self.centres.get_mut().expect("no search panics") {
-            centres.update(slots, changed);
-        }
-    }
-}
 
 /// Searches of nodes and components.
 impl Components {
@@ -115,14 +73,14 @@ impl Components {
             self.iter().for_each(offer);
             return best.into_items();
         }
-        if read(&self.finder.centres).is_none() {
-            let mut centres = self.finder.centres.write().expect("no search panics");
+        if read(&self.indices.centres).is_none() {
+            let mut centres = self.indices.centres.write().expect("no search panics");
             centres.get_or_insert_with(|| Centres::new(space, self.slots()));
         }
-        let centres = read(&self.finder.centres);
+        let centres = read(&self.indices.centres);
         let centres = centres.as_ref().expect("made");
         centres
-            .loose
+            .unindexed
             .iter()
             .filter_map(|slot| self.slots()[*slot as usize].as_ref())
             .for_each(&mut offer);
@@ -142,22 +100,22 @@ impl Components {
         searches: u32,
     ) -> RwLockReadGuard<'_, Option<Index>> {
         let lacks = |index: &Option<Index>| self.nodes() - index.as_ref().map_or(0, Index::len);
-        let finder = &self.finder;
-        let index = read(&finder.nodes);
-        let before = finder.searches.fetch_add(searches, Ordering::Relaxed);
+        let indices = &self.indices;
+        let index = read(&indices.nodes);
+        let before = indices.searches.fetch_add(searches, Ordering::Relaxed);
         let wanted = lacks(&index) >= TAIL && before.saturating_add(searches) >= SEARCHES;
         if index.is_some() && !wanted {
             return index;
         }
         drop(index);
-        let mut index = finder.nodes.write().expect("no search panics");
-        let made = index.get_or_insert_with(|| Index::with_shelf(space, finder.shelf.clone()));
+        let mut index = indices.nodes.write().expect("no search panics");
+        let made = index.get_or_insert_with(|| Index::with_shelf(space, indices.shelf.clone()));
         if wanted {
             made.extend(self.nodes(), |node| configs.get(node as usize), |node| self.slot_of(node));
-            finder.searches.store(0, Ordering::Relaxed);
+            indices.searches.store(0, Ordering::Relaxed);
         }
         drop(index);
-        read(&finder.nodes)
+        read(&indices.nodes)
     }
 }
 
@@ -191,86 +149,6 @@ impl Candidates for Members<'_> {
     }
 }
 
-/// The centres of components, each in an entry of its own.
-///
-/// Components that changed in the last fold are loose: most change again at once (the largest in every
-/// fold), and are compared one by one. Those that did not get an entry in the index, which counts until
-/// they change. When more than half of the entries no longer count, all are made anew.
-#[derive(Clone, Debug)]
-struct Centres {
-    index: Index,
-    /// Per entry the slot of its component.
-    slots: Vec<u32>,
-    /// Per slot the entry that counts, or [`NONE`].
-    entry_of: Vec<u32>,
-    loose: Vec<u32>,
-    /// Stands for the centre of a component that is gone.
-    nowhere: Vec<f64>,
-}
-
-impl Centres {
-    fn new(space: &Space, slots: &[Option<Component>]) -> Centres {
-        let mut centres = Centres {
-            index: Index::new(space),
-            slots: Vec::new(),
-            entry_of: vec![NONE; slots.len()],
-            loose: Vec::new(),
-            nowhere: vec![0.0; space.len()],
-        };
-        for slot in 0..slots.len() as u32 {
-            centres.enter(slots, slot);
-        }
-        centres.grow(slots);
-        centres
-    }
-
-    fn enter(&mut self, slots: &[Option<Component>], slot: u32) {
-        if slots[slot as usize].is_some() {
-            self.entry_of[slot as usize] = self.slots.len() as u32;
-            self.slots.push(slot);
-        }
-    }
-
-    fn update(&mut self, slots: &[Option<Component>], changed: &[u32]) {
-        self.entry_of.resize(slots.len(), NONE);
-        for slot in changed {
-            self.entry_of[*slot as usize] = NONE;
-        }
-        let loose = changed.iter().copied().filter(|slot| slots[*slot as usize].is_some());
-        for slot in std::mem::replace(&mut self.loose, loose.collect()) {
-            if changed.binary_search(&slot).is_err() {
-                self.enter(slots, slot);
-            }
-        }
-        if self.slots.len() > 2 * slots.len() + TAIL as usize {
-            self.renew(slots);
-        }
-        self.grow(slots);
-    }
-
-    /// Drops the entries that do not count.
-    fn renew(&mut self, slots: &[Option<Component>]) {
-        let entries = std::mem::take(&mut self.slots);
-        self.index.clear();
-        for (entry, slot) in entries.into_iter().enumerate() {
-            if self.entry_of[slot as usize] == entry as u32 {
-                self.enter(slots, slot);
-            }
-        }
-    }
-
-    fn grow(&mut self, slots: &[Option<Component>]) {
-        let end = self.slots.len() as u32;
-        if end - self.index.len() >= TAIL {
-            let Centres { index, slots: slot_of, nowhere, .. } = self;
-            let component = |entry: u32| slots[slot_of[entry as usize] as usize].as_ref();
-            let centre =
-                |entry| component(entry).map_or(&nowhere[..], |component| &component.centre);
-            index.extend(end, centre, |_| 0);
-        }
-    }
-}
-
 /// The entries that count, under the names of their components.
 struct Entries<'a> {
     centres: &'a Centres,
@@ -294,6 +172,6 @@ impl Candidates for Entries<'_> {
     }
 
     fn name(&self, entry: u32) -> u32 {
-        self.component(entry).map_or(NONE, |component| component.name)
+        self.component(entry).map_or(NO_ENTRY, |component| component.name)
     }
 }

@@ -1,7 +1,7 @@
-/// Which nodes are connected, and nothing else: four bytes per node.
+/// Which nodes of a graph are connected, in four bytes per node: a union-find forest (R. E. Tarjan 1975).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Forest {
-    /// Per node another of its component, with a lower id but for the lowest one.
+    /// Per node its parent: a node of the same component with a lower id, or, for the lowest one, the node itself.
     lower: Vec<u32>,
 }
 
@@ -11,12 +11,13 @@ impl Forest {
         self.lower.len() as u32
     }
 
-    /// Appends so many nodes, each on its own.
+    /// Appends that many nodes without edges.
     pub fn grow(&mut self, nodes: u32) {
         self.lower.extend(self.len()..self.len() + nodes);
     }
 
-    /// Unites the components of two nodes; what their lowest nodes were, the lower one first.
+    /// Unites the components of two nodes. Returns the lowest nodes that the two components had, the lower one first;
+    /// they are the same if it was one component already.
     pub fn unite(&mut self, a: u32, b: u32) -> [u32; 2] {
         let (a, b) = (self.lowest(a), self.lowest(b));
         let (low, high) = (a.min(b), a.max(b));
@@ -24,6 +25,7 @@ impl Forest {
         [low, high]
     }
 
+    /// The lowest node of a node's component; halves the path to it on the way.
     fn lowest(&mut self, mut node: u32) -> u32 {
         while self.lower[node as usize] != node {
             let next = self.lower[node as usize];

@@ -90,7 +90,7 @@ pub struct Increment {
     pub configs: Configs,
     /// Edges among them, in the order in which they were found.
     pub edges: Vec<Edge>,
-    /// What the set cost.
+    /// The validity checks that making the increment took.
     pub asked: Asked,
     /// The numbers that the model gives every milestone, milestone after milestone; see
     /// [`Model::node_values`](crate::model::Model::node_values).

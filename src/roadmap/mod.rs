@@ -1,6 +1,7 @@
 //! Roadmaps: configurations, edges, connected components, and the fold that grows them.
 
 mod centre;
+mod component;
 mod components;
 mod digest;
 mod edges;
@@ -8,12 +9,14 @@ mod encoding;
 mod finder;
 mod forest;
 mod increment;
+mod indices;
 mod search;
 mod tally;
 
 pub use crate::digest::Digest;
 pub use crate::space::Configs;
-pub use components::{Component, Components};
+pub use component::Component;
+pub use components::Components;
 pub use edges::Edges;
 pub use encoding::Full;
 pub(crate) use forest::Forest;
@@ -40,12 +43,13 @@ pub struct Roadmap {
     rounds: Vec<Extent>,
     tally: Tally,
     keeps_edges: bool,
-    /// Where what never changes any more goes; with none it stays.
+    /// Where full blocks of nodes and edges, which never change any more, are kept for all replicas; `None` keeps
+    /// everything in this roadmap.
     shelf: Option<Arc<dyn Shelf>>,
 }
 
-/// How far a roadmap went at the end of a round: everything before is what it then was, since nodes
-/// and edges are only ever appended.
+/// The size of a roadmap at the end of a round. Since nodes and edges are only ever appended, the first `nodes` nodes
+/// and the first `edges` edges are the roadmap as it then was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Extent {
     /// Number of node sets.
@@ -71,9 +75,9 @@ impl Roadmap {
         }
     }
 
-    /// The same for one of several replicas, which has in common with the others what stands on a shelf, and is
-    /// not hashed. Where nothing is judged it can do without edges: [`Roadmap::edges`] and
-    /// [`Roadmap::rounds`] stay empty.
+    /// The empty roadmap of a worker, which is one of several replicas: they share what is on the shelf, and compute
+    /// no digest. A worker that evaluates nothing needs no edges (`keeps_edges`): [`Roadmap::edges`] and
+    /// [`Roadmap::rounds`] then stay empty.
     pub fn of_worker(space: &Space, shelf: Arc<dyn Shelf>, keeps_edges: bool) -> Roadmap {
         let components = Components::with_shelf(shelf.clone());
         let tally = Tally::unhashed();
@@ -180,7 +184,7 @@ impl Roadmap {
         Components::built(space, &self.configs, nodes, self.edges.iter().take(extent.edges))
     }
 
-    /// What the roadmap comes to.
+    /// The roadmap's size and digest.
     pub fn tally(&self) -> &Tally {
         &self.tally
     }

@@ -4,11 +4,14 @@ use super::Edge;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
-/// A graph prepared for searching: the neighbours of each node in the order of the edges.
+/// A graph prepared for searching: the neighbours of each node, in the order of the edges.
 #[derive(Debug)]
 pub struct Graph {
+    /// Per node the index of its first arc, and at the end the number of arcs.
     start: Vec<u32>,
+    /// Node by node, the neighbours and the edges that lead to them.
     arcs: Vec<(u32, u32)>,
+    /// Per edge its weight.
     weights: Vec<f64>,
     /// Of directed edges: weights from the higher node to the lower, and peaks.
     back: Vec<f64>,

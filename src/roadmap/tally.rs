@@ -1,4 +1,4 @@
-//! What a roadmap comes to, for those who follow a build without searching it.
+//! The size and the digest of a roadmap, for those who follow a build without searching the roadmap.
 
 use super::digest::RoadmapHasher;
 use super::forest::Forest;
@@ -12,7 +12,7 @@ pub struct Tally {
     nodes: usize,
     edges: usize,
     components: usize,
-    /// `None` where nobody asks for the digest.
+    /// `None` for roadmaps whose digest nobody asks for.
     hasher: Option<RoadmapHasher>,
 }
 
@@ -37,7 +37,7 @@ impl Tally {
         self.edges += increment.edges.len() + increment.links.len() + joins.len();
     }
 
-    /// Ends a fold.
+    /// Sets the number of components, at the end of a fold.
     pub(super) fn set_components(&mut self, components: usize) {
         if let Some(hasher) = &mut self.hasher {
             hasher.take_in();
@@ -74,8 +74,8 @@ impl Tally {
     }
 }
 
-/// A roadmap of which nothing is kept but its tally and, per node, four bytes that tell the components
-/// apart: what a coordinator whose workers search has to know.
+/// The roadmap as a coordinator keeps it while workers do the searching: its tally and, per node, the four bytes from
+/// which the number of components follows.
 #[derive(Clone, Debug)]
 pub struct Outline {
     tally: Tally,
@@ -83,7 +83,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// That of the empty roadmap over a space.
+    /// The outline of the empty roadmap over a space.
     pub fn new(space: &Space) -> Outline {
         Outline { tally: Tally::new(space), forest: Forest::default() }
     }
@@ -106,7 +106,7 @@ impl Outline {
         self.tally.set_components(components);
     }
 
-    /// What the roadmap comes to.
+    /// The roadmap's size and digest.
     pub fn tally(&self) -> &Tally {
         &self.tally
     }

@@ -1,7 +1,5 @@
 use super::gaussian::draw_pair;
-use super::{
-    GaveUp, Sampler, collect, collides, default_attempts, no_attempts, no_length, obstructed,
-};
+use super::{GaveUp, Sampler, collect, collides, default_attempts, no_length, obstructed, zero};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -23,7 +21,7 @@ use serde::{Deserialize, Serialize};
 pub struct Bridge {
     /// σ, a length in the space's metric: about the width of the passages.
     pub deviation: f64,
-    /// Whether to be out of bounds is to collide, so that bridges may also stand on the bounds.
+    /// Whether being out of bounds is to collide, so that the ends of bridges may lie beyond the bounds.
     #[serde(default)]
     pub bounds: bool,
     /// The most pairs drawn for one milestone.
@@ -54,7 +52,7 @@ impl Sampler for Bridge {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        no_length("deviation", self.deviation).or_else(|| no_attempts(self.attempts))
+        no_length("deviation", self.deviation).or_else(|| zero("attempts", self.attempts))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

@@ -1,6 +1,4 @@
-use super::{
-    GaveUp, Sampler, collect, collides, default_attempts, no_attempts, no_length, obstructed,
-};
+use super::{GaveUp, Sampler, collect, collides, default_attempts, no_length, obstructed, zero};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -21,7 +19,7 @@ use serde::{Deserialize, Serialize};
 pub struct Gaussian {
     /// σ, a length in the space's metric.
     pub deviation: f64,
-    /// Whether to be out of bounds is to collide, so that milestones also come to lie near the bounds.
+    /// Whether being out of bounds is to collide, so that milestones also come to lie near the bounds.
     #[serde(default)]
     pub bounds: bool,
     /// The most pairs drawn for one milestone.
@@ -52,7 +50,7 @@ impl Sampler for Gaussian {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        no_length("deviation", self.deviation).or_else(|| no_attempts(self.attempts))
+        no_length("deviation", self.deviation).or_else(|| zero("attempts", self.attempts))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

@@ -1,5 +1,5 @@
-use super::shares::{Shares, default_block, no_block};
-use super::{GaveUp, Sampler, default_attempts, no_attempts};
+use super::shares::{Shares, default_block};
+use super::{GaveUp, Sampler, default_attempts, zero};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -13,16 +13,16 @@ use serde::{Deserialize, Serialize};
 /// degree of freedom (rotations: along each of the three numbers that name one,
 /// [`Space::of_cube`](crate::space::Space::of_cube)), visited in a shuffled order.
 ///
-/// A pass visits every cell once. Its point is uniform in the cell: always the same place would leave a
-/// roadmap with as many different values of each degree of freedom as there are cells, and later passes
-/// with nothing new. The order is i ↦ (a i + c) mod m with a prime to m, drawn for the pass. Invalid points
-/// are passed over. `shares.rs` says how sets share a pass; a sequence there is pass after pass.
+/// A pass visits every cell once, at a point that is uniform in the cell. (If it were the cell's centre, a roadmap would
+/// have only as many different values of each degree of freedom as there are cells along it, and later passes would
+/// add nothing.) The order of the m cells is i ↦ (a i + c) mod m with a coprime to m; a and c are drawn for each pass.
+/// Invalid points are passed over. `shares.rs` says how sets share points; a sequence there is one pass after the other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct Grid {
-    /// Cells along every degree of freedom.
+    /// Number of cells along every degree of freedom.
     pub cells: u32,
-    /// Points that a set takes at a time: best the nodes per set.
+    /// Number of consecutive points that a set owns of each sequence; best the number of nodes per set.
     #[serde(default = "default_block")]
     pub block: u32,
     /// The most points tried for one milestone.
@@ -75,10 +75,9 @@ impl Sampler for Grid {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        if self.cells == 0 {
-            return Some(("cells", "0".to_owned(), "at least 1"));
-        }
-        no_block(self.block).or_else(|| no_attempts(self.attempts))
+        zero("cells", self.cells)
+            .or_else(|| zero("block", self.block))
+            .or_else(|| zero("attempts", self.attempts))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {
@@ -91,7 +90,7 @@ impl Sampler for Grid {
     }
 }
 
-/// A number below `whole` without a common divisor with it, drawn.
+/// Draws a number below `whole` that is coprime to it, by Euclid's algorithm on drawn numbers.
 fn coprime(whole: u64, stream: &mut Stream) -> u64 {
     loop {
         let (mut a, mut b) = (whole, stream.below(whole));

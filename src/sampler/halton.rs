@@ -1,5 +1,5 @@
-use super::shares::{Shares, default_block, no_block};
-use super::{GaveUp, Sampler, default_attempts, no_attempts};
+use super::shares::{Shares, default_block};
+use super::{GaveUp, Sampler, default_attempts, zero};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct Halton {
-    /// Points that a set takes at a time: best the nodes per set.
+    /// Number of consecutive points that a set owns of each sequence; best the number of nodes per set.
     #[serde(default = "default_block")]
     pub block: u32,
     /// The most points tried for one milestone.
@@ -63,7 +63,7 @@ impl Sampler for Halton {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        no_block(self.block).or_else(|| no_attempts(self.attempts))
+        zero("block", self.block).or_else(|| zero("attempts", self.attempts))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

@@ -1,4 +1,4 @@
-use super::{GaveUp, Sampler, collect, collides, no_attempts, no_length, obstructed};
+use super::{GaveUp, Sampler, collect, collides, no_length, obstructed, zero};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::{Clearance, Scratch, Validity};
@@ -13,32 +13,32 @@ use serde::{Deserialize, Serialize};
 /// the free space*, 1999; J.-M. Lien, S. L. Thomas, N. M. Amato, *A general framework for sampling on the
 /// medial axis of the free space*, 2003; TR05-007 §4.1).
 ///
-/// Draws a configuration uniformly. If it collides it is moved out along the least penetration. Then it is
-/// pushed away from its witness, the nearest point of an obstacle, until something else is nearer, and the
-/// last stretch is halved down to the tolerance.
+/// Draws a configuration uniformly. If it collides, it is moved out of the obstacle by the least penetration. Then it is
+/// pushed away from its witness, the nearest point of an obstacle, until another point of an obstacle is nearer, and
+/// the last stretch of the push is bisected down to the tolerance.
 ///
-/// *Clearance.* The base of a robot that moves about is pushed straight away from the witness, turned and
-/// bent as it is: its clearance in the workspace is exactly how far it can be translated anywhere, and along
-/// the push it grows as fast as the robot moves for as long as the witness stays the nearest. So for a robot
-/// that does not turn, as a point, both are exact; for others they are exact among the configurations that
-/// are turned and bent alike. In the many dimensions of the others a few random directions would say less,
-/// at a higher price. Where there is no such push (a base that stands still, nothing but links that must not
-/// touch one another, in the plane an obstacle that is nearest above or below) clearance is approximate: the least
-/// length, over random directions, of the walk in steps that ends in a collision.
+/// *Clearance.* Of a robot whose base can be translated, the base is pushed straight away from the witness; rotation and
+/// joints stay as they are. The clearance in the workspace is exactly the distance that the robot can be translated in
+/// any direction, and it grows by the length of the push for as long as the witness stays the nearest point. So
+/// clearance and push are exact for a robot that cannot turn, and else among the configurations with the same rotation
+/// and joint values. (In spaces of many dimensions a few random directions would tell less at a higher price.) Where
+/// the base cannot be pushed (a fixed base; nothing but links that must not touch one another; for a planar robot a
+/// nearest obstacle above or below it), clearance is approximate: the least length of a walk to a collision, over
+/// random directions.
 ///
-/// *Penetration.* Where the nearest surface of an obstacle is where what collides gets free, as for a point
-/// inside a mesh or a box, it is exact. Else it is approximate: the shortest walk, over random
-/// directions, that gets free. The random directions are drawn anew for each configuration, come in
-/// opposite pairs, and lead through the whole space, rotations and joints included.
+/// *Penetration.* It is exact where moving to the nearest point of an obstacle's surface ends the collision, as for a
+/// point inside a mesh or a box. Else it is approximate: the least length of a walk out of collision, over random
+/// directions. Random directions are drawn anew for each configuration, come in opposite pairs, and lead through the
+/// whole space, rotations and joints included.
 ///
-/// A configuration that gets out of bounds is dropped, unless `bounds` says that this is to collide.
+/// A configuration that gets out of bounds is dropped, unless `bounds` says that being out of bounds is to collide.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct Maprm {
-    /// Length of the steps of a walk in a random direction and of the first push, in the space's metric. Walks
-    /// leap over what is thinner; pushes do not.
+    /// Length of the steps of a walk in a random direction, and of the first push, in the space's metric. Walks may
+    /// pass obstacles thinner than a step unnoticed; pushes do not.
     pub step: f64,
-    /// How much nearer the witness of a milestone may be than the second one, or farther.
+    /// The most by which the distances of a milestone from its two witnesses may differ.
     pub tolerance: f64,
     /// How many random directions: an even number.
     #[serde(default = "default_directions")]
@@ -46,7 +46,7 @@ pub struct Maprm {
     /// The most steps of a walk.
     #[serde(default = "default_steps")]
     pub steps: u32,
-    /// Whether to be out of bounds is to collide, so that milestones also lie between obstacles and bounds.
+    /// Whether being out of bounds is to collide, so that milestones also lie between obstacles and bounds.
     #[serde(default)]
     pub bounds: bool,
     /// The most configurations drawn for one milestone.
@@ -67,9 +67,9 @@ fn default_attempts() -> u64 {
 }
 
 const DIRECTIONS_MAX: u32 = 1000;
-/// The tolerance is no smaller a share of the step.
+/// The least tolerance, as a share of the step.
 const FINEST: f64 = 1e-9;
-/// Of the tolerance a push takes so much; the rest is for the distances of bounds.
+/// The share of the tolerance that a push may use up; the rest is for the distances from the bounds, which are bisected.
 const SHARE: f64 = 0.99;
 
 impl Sampler for Maprm {
@@ -105,10 +105,7 @@ impl Sampler for Maprm {
         if !(1..=DIRECTIONS_MAX).contains(&self.directions) || !self.directions.is_multiple_of(2) {
             return Some(("directions", self.directions.to_string(), "an even number, 2 to 1000"));
         }
-        if self.steps == 0 {
-            return Some(("steps", "0".to_owned(), "at least 1"));
-        }
-        no_attempts(self.attempts)
+        zero("steps", self.steps).or_else(|| zero("attempts", self.attempts))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {
@@ -116,37 +113,38 @@ impl Sampler for Maprm {
     }
 }
 
-/// Makes drawn configurations milestones.
+/// Moves drawn configurations to the medial axis.
 struct Pusher<'a> {
     maprm: &'a Maprm,
     cx: &'a Context,
     stream: Stream,
     scratch: &'a mut Scratch,
-    /// Of the configuration at hand, each for two opposite directions; drawn when first needed.
+    /// Random lines through the configuration at hand, each for two opposite directions; drawn when first needed.
     lines: Vec<Direction>,
-    /// What is looked at.
+    /// The configuration that is checked at present.
     at: Vec<f64>,
 }
 
-/// The way from a witness to the robot, and on.
+/// How a robot is pushed away from its witness.
 struct Way {
+    /// Distance of the witness.
     distance: f64,
-    /// Where the robot is pushed: of unit length.
+    /// The direction of the push, from the witness to the robot: a unit vector.
     away: [f64; 3],
-    /// How far it could be translated before it gets out of bounds, to either side of every axis; without
-    /// end if bounds do not collide.
+    /// How far the base can be translated before the robot is out of bounds, in the negative and the positive
+    /// direction of every axis; infinite if being out of bounds is not to collide.
     room: [[f64; 2]; 3],
 }
 
-/// Where a walk in a random direction meets what is looked for.
+/// A walk in a random direction to where it begins to collide, or ceases to.
 struct Found {
     direction: usize,
-    /// Length of the walk to just behind it.
+    /// Length of the walk to just behind that place.
     length: f64,
 }
 
 impl Pusher<'_> {
-    /// Draws a configuration and pushes it to the axis; whether it got there.
+    /// Draws a configuration and pushes it to the medial axis. Returns whether it got there.
     fn milestone(&mut self, q: &mut [f64]) -> bool {
         self.lines.clear();
         self.cx.space.sample_uniform(&mut self.stream, q);
@@ -165,7 +163,8 @@ impl Pusher<'_> {
         collides(self.cx.model.validity(q, self.scratch), self.maprm.bounds)
     }
 
-    /// The shortest way to an obstacle, and its direction from there. Counts as one configuration asked for.
+    /// The clearance, and the unit vector from the nearest point of an obstacle to that of the robot. Counts as one
+    /// configuration asked for.
     fn clearance(&mut self, q: &[f64]) -> Option<(Clearance, [f64; 3])> {
         self.scratch.count_configuration();
         let clearance = self.cx.model.clearances()?.clearance(q, self.scratch)?;
@@ -174,14 +173,14 @@ impl Pusher<'_> {
         Some((clearance, way.map(|value| value / length)))
     }
 
-    /// Moves the base.
+    /// Sets `at` to `q` with the base translated by `by` in the direction `away`.
     fn shift(&mut self, q: &[f64], away: &[f64; 3], by: f64) {
         self.at.copy_from_slice(q);
         let base = self.cx.space.translations();
         self.at[..base].iter_mut().zip(away).for_each(|(value, share)| *value += by * share);
     }
 
-    /// Whether the base can be moved so.
+    /// Whether the base can be translated in a direction.
     fn leads(&self, away: &[f64; 3]) -> bool {
         let base = self.cx.space.translations();
         away.iter().all(|share| share.is_finite())
@@ -189,7 +188,7 @@ impl Pusher<'_> {
             && away[base..].iter().all(|share| share.abs() < 1e-6)
     }
 
-    /// Moves what collides out of the obstacles, to within the tolerance of their surface.
+    /// Moves a colliding configuration out of the obstacles, to within the tolerance of their surface.
     fn push_out(&mut self, q: &mut [f64]) -> Option<()> {
         if let Some((clearance, away)) = self.clearance(q)
             && self.leads(&away)
@@ -207,7 +206,7 @@ impl Pusher<'_> {
         Some(())
     }
 
-    /// The way from the witness, if the base can be moved along it.
+    /// The push away from the witness, which may also be a side of the bounds; `None` if the base cannot be pushed.
     fn way(&mut self, q: &[f64]) -> Option<Way> {
         let base = self.cx.space.translations();
         let nearest = self.clearance(q).map(|(clearance, away)| (clearance.distance, away));
@@ -232,7 +231,8 @@ impl Pusher<'_> {
         distance.is_finite().then_some(Way { distance, away, room })
     }
 
-    /// How far the base can move to a side before the robot is out of bounds, which are convex.
+    /// How far the base can be translated along an axis (`side` gives the sign) before the robot is out of bounds. Since
+    /// the bounds are convex, that can be bisected.
     fn room(&mut self, q: &[f64], axis: usize, side: f64) -> f64 {
         let PartKind::Real { min, max } = self.cx.space.parts()[axis].kind else { return 0.0 };
         let most = if side < 0.0 { q[axis] - min } else { max - q[axis] };
@@ -243,7 +243,7 @@ impl Pusher<'_> {
             let state = pusher.cx.model.validity(&pusher.at, pusher.scratch);
             Some(state != Validity::OutOfBounds)
         };
-        // A little less than the most, which rounding may put outside.
+        // Checked a little closer, since rounding may put the very end out of bounds.
         if inside(self, most * (1.0 - 1e-12)) == Some(true) {
             return most;
         }
@@ -251,10 +251,10 @@ impl Pusher<'_> {
         halve((0.0, most), fine, |by| inside(self, by)).map_or(0.0, |(near, _)| near)
     }
 
-    /// Pushes the base along a way until something else is nearer than the witness.
+    /// Pushes the base until another point of an obstacle, or of the bounds, is nearer than the witness.
     fn push(&mut self, q: &mut [f64], way: &Way) -> Option<()> {
-        // The balls about the pushed robot that touch the witness lie in one another, so what is nearer once
-        // stays so, and the strides may grow.
+        // Balls around the pushed robot that touch the witness contain all earlier ones. So a point that is nearer than
+        // the witness once stays nearer, and strides may be doubled without missing it.
         let maprm = self.maprm;
         let exit = self.exit(q, &way.away);
         if self.still_nearest(q, way, exit) {
@@ -271,7 +271,7 @@ impl Pusher<'_> {
         Some(())
     }
 
-    /// How far the base can be moved within its intervals.
+    /// How far the base can be translated in a direction within its intervals.
     fn exit(&self, q: &[f64], away: &[f64; 3]) -> f64 {
         let base = self.cx.space.translations();
         let axes = self.cx.space.parts()[..base].iter().zip(q).zip(away);
@@ -282,6 +282,7 @@ impl Pusher<'_> {
         })
     }
 
+    /// Whether, after a push of length `by`, the witness is still the nearest point up to the tolerance.
     fn still_nearest(&mut self, q: &[f64], way: &Way, by: f64) -> bool {
         let least = way.distance + by - SHARE * self.maprm.tolerance;
         let mut room = way.room.iter().zip(way.away);
@@ -294,7 +295,7 @@ impl Pusher<'_> {
         self.clearance(&there).is_none_or(|(clearance, _)| clearance.distance >= least)
     }
 
-    /// The configuration so far from `q` in a direction, into `at`.
+    /// Sets `at` to the configuration at distance `length` from `q` in one of the random directions.
     fn go(&mut self, q: &[f64], direction: usize, length: f64) {
         while self.lines.len() < self.maprm.directions as usize / 2 {
             self.lines.push(self.cx.space.direction(&mut self.stream));
@@ -303,13 +304,15 @@ impl Pusher<'_> {
         self.cx.space.along(q, &self.lines[direction / 2], length, &mut self.at);
     }
 
+    /// Goes there and returns whether the configuration collides.
     fn look(&mut self, q: &[f64], direction: usize, length: f64) -> Option<bool> {
         self.go(q, direction, length);
         collides(self.cx.model.validity(&self.at, self.scratch), self.maprm.bounds)
     }
 
-    /// Walks in all directions at once until, in one of them, what collided is free or what was free
-    /// collides. Of several at the same step it is the nearest, then the one drawn first.
+    /// Walks from `q`, which collides (`inside`) or is free, in all random directions at once until in one of them it is
+    /// the other way round. If that happens in several directions at the same step, the shortest walk counts, then the
+    /// direction drawn first.
     fn walk(&mut self, q: &[f64], inside: bool) -> Option<Found> {
         let maprm = self.maprm;
         let mut going: Vec<usize> = (0..maprm.directions as usize).collect();
@@ -320,7 +323,7 @@ impl Pusher<'_> {
             for direction in going {
                 let Some(collides) = self.look(q, direction, here) else { continue };
                 if collides == inside {
-                    // The intervals are convex: a walk never comes back into them.
+                    // Outside the intervals of the space, which are convex, a walk never comes back.
                     if !inside || self.cx.space.within_bounds(&self.at) {
                         on.push(direction);
                     }
@@ -342,7 +345,8 @@ impl Pusher<'_> {
         None
     }
 
-    /// Steps back from the nearest collision in a random direction until one in another is nearer.
+    /// The push of a robot whose base cannot be pushed: moves away from the nearest collision in a random direction, in
+    /// the opposite direction, until a collision in another direction is nearer.
     fn push_back(&mut self, q: &mut [f64]) -> Option<()> {
         let maprm = self.maprm;
         let witness = self.walk(q, false)?;
@@ -362,7 +366,8 @@ impl Pusher<'_> {
         Some(())
     }
 
-    /// Whether no other direction collides sooner than that of the witness, so far back from it.
+    /// Whether, after moving away from the witness by `by`, no walk in another direction is shorter than the one back to
+    /// the witness.
     fn walked_nearest(&mut self, q: &[f64], witness: &Found, by: f64) -> Option<bool> {
         if self.look(q, witness.direction ^ 1, by)? {
             return Some(false);
@@ -388,8 +393,8 @@ impl Pusher<'_> {
     }
 }
 
-/// Halves an interval whose near end is `near` and whose far end is not, always to the part with two unlike
-/// ends, until it is no longer than `tolerance`. `None` where `near` cannot be told.
+/// Bisects the interval from `near`, for which `is_near` holds, to `far`, for which it does not, until it is no longer
+/// than `tolerance`. `None` if `is_near` cannot decide somewhere.
 fn halve(
     (mut near, mut far): (f64, f64),
     tolerance: f64,
@@ -398,7 +403,7 @@ fn halve(
     while far - near > tolerance {
         let middle = near + (far - near) / 2.0;
         if middle <= near || middle >= far {
-            break; // as fine as numbers are
+            break; // no number lies between
         }
         if is_near(middle)? {
             near = middle;

@@ -12,9 +12,9 @@ use serde::{Deserialize, Serialize};
 /// proportional to its weight (as D. Hsu, T. Jiang, J. Reif, Z. Sun 2003 mix the bridge test with uniform
 /// sampling).
 ///
-/// First all choices are drawn, from a stream of their own; then every sampler draws as many milestones as
-/// were left to it, one sampler after the other, with a seed of its own that follows from the set's. A mix
-/// gives up when one of its samplers does.
+/// First all choices are drawn, from a stream of their own. Then one sampler after the other draws as many milestones
+/// as it was chosen for, with a seed of its own that follows from the set's. A mix gives up when one of its samplers
+/// does.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode)]
 #[serde(transparent)]
 pub struct Mix(pub Vec<Share>);
@@ -37,7 +37,7 @@ fn default_weight() -> f64 {
 decode_nested!(Mix { 0 });
 
 impl Mix {
-    /// How many of `count` milestones are left to each sampler.
+    /// How many of `count` milestones each sampler is to draw.
     pub(super) fn counts(&self, seed: &Seed, count: usize) -> Vec<usize> {
         let mut stream = seed.stream(Purpose::Accepting);
         let whole: f64 = self.0.iter().map(|share| share.weight).sum();

@@ -110,8 +110,8 @@ fn collect(
     Ok(())
 }
 
-/// What samplers near obstacles ask of a state: does it collide, is it free, or (`None`) is it to be
-/// dropped? `bounds` says whether to be out of bounds is to collide.
+/// How samplers near obstacles take a configuration: as colliding, as free, or (`None`) as one to be dropped.
+/// `bounds` says whether a configuration out of bounds is taken as colliding.
 fn collides(validity: Validity, bounds: bool) -> Option<bool> {
     match validity {
         Validity::Valid => Some(false),
@@ -120,17 +120,18 @@ fn collides(validity: Validity, bounds: bool) -> Option<bool> {
     }
 }
 
-/// What is wrong with a setting that is a length; written so that NaN is.
+/// What is wrong with a setting that must be a length: the comparison is written so that NaN fails it.
 fn no_length(key: &'static str, length: f64) -> Option<Complaint> {
     let sound = length > 0.0 && length <= crate::scene::LENGTH_MAX;
     (!sound).then(|| (key, length.to_string(), "a positive length"))
 }
 
-fn no_attempts(attempts: u64) -> Option<Complaint> {
-    (attempts == 0).then(|| ("attempts", "0".to_owned(), "at least 1"))
+/// What is wrong with a setting that must be a number of things other than none.
+fn zero(key: &'static str, count: impl Into<u64>) -> Option<Complaint> {
+    (count.into() == 0).then(|| (key, "0".to_owned(), "at least 1"))
 }
 
-/// Samplers near obstacles are defined where something can collide.
+/// Whether a problem suits samplers near obstacles: something must be there to collide with.
 fn obstructed(cx: &Context, bounds: bool) -> Result<(), String> {
     if bounds || cx.model.is_obstructed() {
         return Ok(());
@@ -147,9 +148,5 @@ pub struct GaveUp {
     pub attempts: u64,
 }
 
-#[cfg(test)]
-mod laws;
-#[cfg(test)]
-mod maprm_laws;
 #[cfg(test)]
 mod tests;

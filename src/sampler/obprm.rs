@@ -1,6 +1,4 @@
-use super::{
-    GaveUp, Sampler, collect, collides, default_attempts, no_attempts, no_length, obstructed,
-};
+use super::{GaveUp, Sampler, collect, collides, default_attempts, no_length, obstructed, zero};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -14,10 +12,11 @@ use serde::{Deserialize, Serialize};
 /// TR05-007 §4.1: *"first generating a random colliding (resp., collision-free) sample and searching along
 /// a random direction until the sample becomes collision-free (resp., in collision)"*).
 ///
-/// Draws a configuration and a direction uniformly and walks along it in steps until what collided is free,
-/// or what was free collides; then halves the last step, always to the part with one free and one colliding
-/// end. The free end is kept: it is within step / 2^halvings of the other in the space's metric. A walk that
-/// gets out of bounds is dropped, unless `bounds` says that this is to collide.
+/// Draws a configuration and a direction uniformly and walks along the direction in steps until a walk that began in
+/// collision is free, or one that began free collides. Then the last step is bisected, always keeping the half with
+/// one free and one colliding end, and its free end becomes the milestone: within step / 2^halvings of a colliding
+/// configuration in the space's metric. A walk that gets out of bounds is dropped, unless `bounds` says that being
+/// out of bounds is to collide.
 ///
 /// The paper draws its colliding configurations obstacle by obstacle; here they are uniform among all. The
 /// closer milestones come to the surface, the fewer motions between them are free.
@@ -27,15 +26,15 @@ pub struct Obprm {
     /// Which configurations walks start from.
     #[serde(default)]
     pub start: Start,
-    /// Length of a step in the space's metric. A surface thinner than that may be walked through.
+    /// Length of a step in the space's metric. Obstacles thinner than a step may be passed unnoticed.
     pub step: f64,
-    /// How often the last step is halved.
+    /// How many times the last step is halved.
     #[serde(default = "default_halvings")]
     pub halvings: u32,
     /// The most steps of one walk.
     #[serde(default = "default_steps")]
     pub steps: u32,
-    /// Whether to be out of bounds is to collide, so that milestones also come to lie at the bounds.
+    /// Whether being out of bounds is to collide, so that milestones also come to lie at the bounds.
     #[serde(default)]
     pub bounds: bool,
     /// The most configurations drawn for one milestone.
@@ -67,7 +66,7 @@ fn default_halvings() -> u32 {
 const HALVINGS_MAX: u32 = 30;
 
 impl Obprm {
-    /// Draws a walk's `start` and walks; whether `q` has become a milestone.
+    /// Draws `start` and walks from it. Returns whether the walk has found a milestone, which is then in `q`.
     fn walk(
         &self,
         cx: &Context,
@@ -91,7 +90,7 @@ impl Obprm {
             let (last, here) = (f64::from(step - 1) * self.step, f64::from(step) * self.step);
             match at(here) {
                 (None, _) => return false,
-                // The intervals are convex: the walk never comes back into them.
+                // Outside the intervals of the space, which are convex: the walk never comes back.
                 (Some(collides), false) if collides == inside => return false,
                 (Some(collides), true) if collides == inside => continue,
                 (Some(_), _) => {}
@@ -133,10 +132,7 @@ impl Sampler for Obprm {
         if self.halvings > HALVINGS_MAX {
             return Some(("halvings", self.halvings.to_string(), "0 to 30"));
         }
-        if self.steps == 0 {
-            return Some(("steps", "0".to_owned(), "at least 1"));
-        }
-        no_attempts(self.attempts)
+        zero("steps", self.steps).or_else(|| zero("attempts", self.attempts))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

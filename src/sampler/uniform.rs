@@ -1,4 +1,4 @@
-use super::{GaveUp, Sampler, collect, default_attempts, no_attempts};
+use super::{GaveUp, Sampler, collect, default_attempts, zero};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -42,6 +42,6 @@ impl Sampler for Uniform {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        no_attempts(self.attempts)
+        zero("attempts", self.attempts)
     }
 }

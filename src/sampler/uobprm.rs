@@ -1,6 +1,4 @@
-use super::{
-    GaveUp, Sampler, collect, collides, default_attempts, no_attempts, no_length, obstructed,
-};
+use super::{GaveUp, Sampler, collect, collides, default_attempts, no_length, obstructed, zero};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -14,22 +12,22 @@ use std::collections::VecDeque;
 /// S. Thomas, D. Eppstein, N. M. Amato, *UOBPRM: A uniformly distributed obstacle-based PRM*, 2012;
 /// H.-Y. Yeh's dissertation, 2016, §4.1).
 ///
-/// Lays segments of one length anywhere and in any direction, both uniform, and looks at the configurations
-/// on them at every step. Where of two neighbours one is free and one collides, the free one is kept, so it
-/// is within a step of the surface, and a segment may give several milestones. A configuration out of
-/// bounds counts as colliding only if `bounds` says so; else it is neither. Segments start within the
-/// bounds widened by their length (§4.1.1), or else surfaces near the bounds would be hit less.
+/// Draws segments of a fixed length, their starts and directions uniform, and checks the configurations along each at
+/// every step. Where one of two neighbours is free and the other collides, the free one becomes a milestone: it is
+/// within a step of the surface. A segment may give several milestones; those that a set no longer needs are dropped.
+/// A configuration out of bounds is taken as colliding if `bounds` says so, and else as neither free nor colliding.
+/// Segments start within the bounds widened by their length (§4.1.1), or surfaces near the bounds would be hit less
+/// often.
 ///
-/// What a step leaps over is not noticed: corners and slivers of obstacles thinner than a step are hit less.
-/// A surplus of the last segment of a set is dropped.
+/// Corners and slivers of obstacles thinner than a step may lie between two steps and are hit less often, too.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct Uobprm {
     /// Length of a segment in the space's metric.
     pub length: f64,
-    /// Distance of neighbours on it.
+    /// Distance of neighbouring configurations on a segment.
     pub step: f64,
-    /// Whether to be out of bounds is to collide, so that milestones also come to lie at the bounds.
+    /// Whether being out of bounds is to collide, so that milestones also come to lie at the bounds.
     #[serde(default)]
     pub bounds: bool,
     /// The most segments laid for one milestone.
@@ -65,7 +63,7 @@ impl Sampler for Uobprm {
                     cx.space.along(&start, &direction, f64::from(i) * self.step, q);
                     let now = collides(cx.model.validity(q, scratch), self.bounds);
                     match (before, now) {
-                        // Free between two that collide: one milestone, not two.
+                        // A free configuration between two that collide is a milestone once, not twice.
                         (Some(false), Some(true)) if !kept => found.push_back(last.clone()),
                         (Some(true), Some(false)) => found.push_back(q.to_vec()),
                         _ => {}
@@ -94,7 +92,7 @@ impl Sampler for Uobprm {
                 "a millionth of the length up to the length",
             ));
         }
-        no_attempts(self.attempts)
+        zero("attempts", self.attempts)
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

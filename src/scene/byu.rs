@@ -1,16 +1,13 @@
 //! `.g`, Movie.BYU geometry: counts of parts, vertices, faces and corners; first and last face of each
 //! part; coordinates; corners counted from 1, the last of a face negative. Line breaks mean nothing.
 //!
-//! Parts are not told apart: the triangles of all of them make the mesh.
+//! The mesh is made of the triangles of all parts.
 
-use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
+use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh, text};
 use std::path::Path;
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count();
-        MeshError::line(path, line, "not UTF-8 text; a BYU .g file expected")
-    })?;
+    let text = text(path, bytes, "a BYU .g file")?;
     let mut words = Words::new(path, text);
     let parts = words.count("the number of parts")?;
     let vertices = words.count("the number of vertices")?;
@@ -38,16 +35,7 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                 break;
             }
         }
-        if corners.len() < 3 {
-            let message = format!("a face with {} corners; at least 3 expected", corners.len());
-            return Err(words.error(message));
-        }
-        for i in 2..corners.len() {
-            mesh.triangles.push([corners[0], corners[i - 1], corners[i]]);
-        }
-        if mesh.triangles.len() > MESH_ITEMS_MAX {
-            return Err(words.error(format!("more than {MESH_ITEMS_MAX} triangles")));
-        }
+        mesh.push_face(&corners).map_err(|message| words.error(message))?;
     }
     match words.next() {
         Some(word) => {

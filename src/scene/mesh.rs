@@ -1,10 +1,13 @@
 //! Triangle meshes: what is kept of a file, and whether it encloses anything.
 
 use bincode::{Decode, Encode};
-use std::collections::BTreeMap;
+use petgraph::unionfind::UnionFind;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// A triangle mesh: welded vertices and unique triangles. They have an area, but for those that close the
-/// seams of a surface whose corners do not meet: flat triangles between three corners in a line.
+/// A triangle mesh: welded vertices, and triangles of which no two have the same corners.
+///
+/// Triangles have an area, with one exception: flat triangles, whose corners lie in a line, are kept where they close
+/// the seam between neighbours whose corners do not coincide, as without them the surface would not be closed.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Mesh {
     /// Vertices `x y z` in the mesh's frame.
@@ -14,9 +17,10 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The triangles that have an area: the surface. Nothing can meet the others without meeting these.
+    /// The triangles that have an area: the surface. A flat triangle lies on the edges of these, so that whatever
+    /// meets it meets one of them.
     pub fn faces(&self) -> impl Iterator<Item = [u32; 3]> {
-        super::weld::faces_of(&self.vertices, &self.triangles)
+        faces_of(&self.vertices, &self.triangles)
     }
 
     /// Number of edges that an odd number of triangles share: 0 for a closed surface.
@@ -29,31 +33,24 @@ impl Mesh {
         self.odd_edges() == 0
     }
 
-    /// The first vertex of each connected piece of the surface.
+    /// A point of each connected piece of the surface: its first vertex. Pieces are connected by vertices
+    /// in common.
     pub(crate) fn witnesses(&self) -> Vec<[f64; 3]> {
-        let mut piece: Vec<u32> = (0..self.vertices.len() as u32).collect();
-        fn root(piece: &mut [u32], mut i: u32) -> u32 {
-            while piece[i as usize] != i {
-                piece[i as usize] = piece[piece[i as usize] as usize];
-                i = piece[i as usize];
-            }
-            i
-        }
+        let mut pieces = UnionFind::new(self.vertices.len());
         let mut used = vec![false; self.vertices.len()];
         for corners in &self.triangles {
-            let roots = corners.map(|corner| root(&mut piece, corner));
-            let least = roots[0].min(roots[1]).min(roots[2]);
-            for other in roots {
-                piece[other as usize] = least;
-            }
-            for corner in corners {
-                used[*corner as usize] = true;
+            let [a, b, c] = corners.map(|corner| corner as usize);
+            pieces.union(a, b);
+            pieces.union(a, c);
+            for corner in [a, b, c] {
+                used[corner] = true;
             }
         }
-        let mut seen = std::collections::BTreeSet::new();
-        (0..self.vertices.len() as u32)
-            .filter(|i| used[*i as usize] && seen.insert(root(&mut piece, *i)))
-            .map(|i| self.vertices[i as usize])
+        let mut seen = BTreeSet::new();
+        let labels: Vec<usize> = pieces.into_labeling();
+        (0..self.vertices.len())
+            .filter(|i| used[*i] && seen.insert(labels[*i]))
+            .map(|i| self.vertices[i])
             .collect()
     }
 
@@ -79,4 +76,22 @@ pub(super) fn odd_edges(triangles: &[[u32; 3]]) -> usize {
         }
     }
     count_of.values().filter(|count| **count % 2 == 1).count()
+}
+
+/// The triangles that have an area.
+pub(super) fn faces_of(
+    vertices: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+) -> impl Iterator<Item = [u32; 3]> {
+    triangles.iter().copied().filter(|corners| {
+        let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
+        area_squared(a, b, c) > 0.0
+    })
+}
+
+fn area_squared(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
+    let u = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
+    let v = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
+    let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    n[0] * n[0] + n[1] * n[1] + n[2] * n[2]
 }

@@ -5,7 +5,7 @@
 //! out of range, and a user with a broken CAD export needs both.
 
 use super::Mesh;
-use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
+use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh, text};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -24,10 +24,7 @@ impl Mesh {
 }
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count();
-        MeshError::line(path, line, "not UTF-8 text; a Wavefront .obj expected")
-    })?;
+    let text = text(path, bytes, "a Wavefront .obj")?;
     let mut mesh = RawMesh::default();
     let mut corners: Vec<u32> = Vec::new();
     for (index, line) in text.lines().enumerate() {
@@ -45,19 +42,13 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                         .map_err(|message| MeshError::line(path, number, message))?;
                     corners.push(corner);
                 }
-                if corners.len() < 3 {
-                    let message =
-                        format!("a face with {} corners; at least 3 expected", corners.len());
-                    return Err(MeshError::line(path, number, message));
-                }
-                for i in 2..corners.len() {
-                    mesh.triangles.push([corners[0], corners[i - 1], corners[i]]);
-                }
+                mesh.push_face(&corners)
+                    .map_err(|message| MeshError::line(path, number, message))?;
             }
             _ => {}
         }
-        if mesh.vertices.len().max(mesh.triangles.len()) > MESH_ITEMS_MAX {
-            let message = format!("more than {MESH_ITEMS_MAX} vertices or triangles");
+        if mesh.vertices.len() > MESH_ITEMS_MAX {
+            let message = format!("more than {MESH_ITEMS_MAX} vertices");
             return Err(MeshError::line(path, number, message));
         }
     }

@@ -1,8 +1,8 @@
 //! `.ply`, text and binary of either byte order: of the element `vertex` the properties x, y and z, of
 //! the element `face` the list `vertex_indices` (or `vertex_index`). All else is passed over.
 //!
-//! Written here for the same reason as the `.obj` reader: an error must name its line or byte. Nothing
-//! is set aside for the counts that a header states.
+//! Written here for the same reason as the `.obj` reader: an error must name its line or byte. No memory is
+//! reserved by the counts that a header states, which may be wrong.
 
 use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
 use std::path::Path;
@@ -60,19 +60,9 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                             }
                             corners.push(value as u32);
                         }
-                        if *wanted && corners.len() < 3 {
-                            let found = corners.len();
-                            let message =
-                                format!("a face with {found} corners; at least 3 expected");
+                        if *wanted && let Err(message) = mesh.push_face(&corners) {
                             return fail(&values, message);
                         }
-                        for i in 2..corners.len() {
-                            mesh.triangles.push([corners[0], corners[i - 1], corners[i]]);
-                        }
-                        if mesh.triangles.len() > MESH_ITEMS_MAX {
-                            return fail(&values, format!("more than {MESH_ITEMS_MAX} triangles"));
-                        }
-                        corners.clear();
                     }
                 }
             }
@@ -127,7 +117,7 @@ impl Kind {
     }
 }
 
-/// What a property is to us.
+/// What the reader does with a property.
 enum Role {
     Coordinate(usize),
     Passed,

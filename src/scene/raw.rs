@@ -1,4 +1,4 @@
-//! What readers of mesh files have in common.
+//! What the readers of mesh files have in common: the mesh as stored, faces, errors.
 
 use std::path::{Path, PathBuf};
 
@@ -48,8 +48,38 @@ pub enum UpAxis {
 pub(super) struct RawMesh {
     pub vertices: Vec<[f64; 3]>,
     pub triangles: Vec<[u32; 3]>,
-    /// Where the file says it.
+    /// Which axis points upwards, where the file says so.
     pub up: Option<UpAxis>,
-    /// Metres per unit of length, where the file says it.
+    /// Metres per unit of length, where the file says so.
     pub unit_metres: Option<f64>,
+}
+
+impl RawMesh {
+    /// Appends a face, a polygon of vertices in order, as a fan of triangles.
+    ///
+    /// # Errors
+    /// Says that the face has too few corners or that the mesh has too many triangles.
+    pub(super) fn push_face(&mut self, corners: &[u32]) -> Result<(), String> {
+        if corners.len() < 3 {
+            return Err(format!("a face with {} corners; at least 3 expected", corners.len()));
+        }
+        self.triangles.extend(fan(corners));
+        if self.triangles.len() > MESH_ITEMS_MAX {
+            return Err(format!("more than {MESH_ITEMS_MAX} triangles"));
+        }
+        Ok(())
+    }
+}
+
+/// The triangles of a polygon, all of which have its first corner; none if it has fewer than 3 corners.
+pub(super) fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
+    (2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]])
+}
+
+/// The text of a file; `expected` names the format in the error.
+pub(super) fn text<'a>(path: &Path, bytes: &'a [u8], expected: &str) -> Result<&'a str, MeshError> {
+    std::str::from_utf8(bytes).map_err(|error| {
+        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count();
+        MeshError::line(path, line, format!("not UTF-8 text; {expected} expected"))
+    })
 }

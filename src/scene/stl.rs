@@ -1,4 +1,4 @@
-//! `.stl`, binary and text. Stored normals are passed over: the corners say it all.
+//! `.stl`, binary and text. Stored normals are passed over, since the corners determine the triangles.
 //!
 //! Written here for the same reason as the `.obj` reader: an error must name its line or byte.
 

@@ -1,28 +1,28 @@
 //! From triangles as stored to a mesh: vertices joined, repeated and flat triangles dropped.
 
 use super::Mesh;
-use super::mesh::odd_edges;
+use super::mesh::{faces_of, odd_edges};
 use super::raw::RawMesh;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What the file's triangles are before flat ones are dropped.
+/// The surface of a file after vertices are joined and before flat triangles are dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Surface {
     /// Triangles with different corners, each set of corners counted once.
     pub unique_triangles: usize,
-    /// Edges that an odd number of them share. A flat triangle may close a seam between neighbours whose
-    /// corners do not meet, so without it a closed surface would seem open.
+    /// Edges that an odd number of these triangles share. Flat triangles count, since they may close a seam between
+    /// neighbours whose corners do not coincide: without them a closed surface would seem open.
     pub odd_edges: usize,
 }
 
 impl Mesh {
-    /// Joins vertices, drops triangles without area (unless the surface is closed by them and not without
-    /// them), all but the first of triangles with the same corners (many files store both sides) and
-    /// vertices that no triangle uses.
+    /// Joins vertices that are near each other, and drops what is superfluous: of triangles with the same corners all
+    /// but the first (many files store both sides), triangles without an area (unless the surface is closed with them
+    /// and open without them), and vertices that no triangle uses.
     ///
-    /// Each vertex joins the first one at most `tolerance` away, and takes its place to the bit; with 0,
-    /// equal ones only. The tolerance is a length of the scene, not a share of its size: a file
-    /// writes its decimals where they are, whatever else is in it.
+    /// Each vertex is replaced by the first vertex at most `tolerance` away; a tolerance of 0 joins equal ones only.
+    /// The tolerance is a length, after scaling by `scale`, and no share of the mesh's size: the rounding of the
+    /// decimals in a file does not grow with the size of what it describes.
     pub(super) fn weld(raw: RawMesh, scale: [f64; 3], tolerance: f64) -> (Mesh, Surface) {
         let scaled = raw.vertices.iter();
         let scaled = scaled.map(|vertex| [0, 1, 2].map(|axis| vertex[axis] * scale[axis] + 0.0));
@@ -49,7 +49,7 @@ impl Mesh {
     }
 }
 
-/// The vertices that are left, and for every one that there was, the index of what it became.
+/// The vertices that are left after joining, and for every vertex of the file the index of the one that it became.
 type Joined = (Vec<[f64; 3]>, Vec<u32>);
 
 fn join_equal(all: impl Iterator<Item = [f64; 3]>) -> Joined {
@@ -67,7 +67,8 @@ fn join_equal(all: impl Iterator<Item = [f64; 3]>) -> Joined {
 }
 
 fn join_near(all: impl Iterator<Item = [f64; 3]>, tolerance: f64) -> Joined {
-    // Cells as long as the tolerance: whoever is near lies in the same cell or one beside it.
+    // A grid of cubes whose side is the tolerance: vertices within the tolerance lie in the same cube or in
+    // neighbouring ones.
     let mut cells: BTreeMap<[u64; 3], Vec<u32>> = BTreeMap::new();
     let mut vertices: Vec<[f64; 3]> = Vec::new();
     let key = |cell: [f64; 3]| cell.map(|value| (value + 0.0).to_bits());
@@ -96,7 +97,7 @@ fn join_near(all: impl Iterator<Item = [f64; 3]>, tolerance: f64) -> Joined {
     (vertices, welded)
 }
 
-/// Vertices that no triangle uses would count for a mesh's extent.
+/// Removes the vertices that no triangle uses.
 fn without_unused(vertices: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Mesh {
     let mut used = vec![false; vertices.len()];
     for corner in triangles.iter().flatten() {
@@ -121,24 +122,6 @@ fn without_unused(vertices: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Mesh
 fn distance_squared(a: [f64; 3], b: [f64; 3]) -> f64 {
     let d = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
     d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
-}
-
-/// The triangles that have an area.
-pub(super) fn faces_of(
-    vertices: &[[f64; 3]],
-    triangles: &[[u32; 3]],
-) -> impl Iterator<Item = [u32; 3]> {
-    triangles.iter().copied().filter(|corners| {
-        let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
-        area_squared(a, b, c) > 0.0
-    })
-}
-
-fn area_squared(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
-    let u = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
-    let v = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
-    let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    n[0] * n[0] + n[1] * n[1] + n[2] * n[2]
 }
 
 #[cfg(test)]

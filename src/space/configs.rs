@@ -6,13 +6,13 @@ use bincode::error::{DecodeError, EncodeError};
 /// Number of configurations in a block that is kept on a shelf; a power of two.
 const BLOCK: usize = if cfg!(test) { 1 << 5 } else { 1 << 10 };
 
-/// Configurations in a row, `dofs` values each.
+/// A list of configurations, `dofs` values each.
 #[derive(Clone, Debug)]
 pub struct Configs {
     dofs: u32,
-    /// The first ones, as far as they are on a shelf, [`BLOCK`] in each.
+    /// The blocks of [`BLOCK`] configurations that are kept on a shelf: the beginning of the list.
     blocks: Vec<Block>,
-    /// Values of the others.
+    /// The values of the remaining configurations.
     values: Vec<f64>,
 }
 
@@ -57,7 +57,7 @@ impl Configs {
         self.values.extend_from_slice(q);
     }
 
-    /// Appends all of another row of the same `dofs`.
+    /// Appends another list, whose configurations have as many values.
     pub fn extend(&mut self, other: &Configs) {
         assert_eq!(other.dofs, self.dofs);
         other.slices().for_each(|values| self.values.extend_from_slice(values));
@@ -78,7 +78,7 @@ impl Configs {
         blocks.chain(std::iter::once(&self.values[..]))
     }
 
-    /// Whether the row is whole and holds finite numbers only: what decoded bytes must be.
+    /// Whether the list holds whole configurations of `dofs` finite values: a check of decoded bytes.
     pub fn is_sound(&self, dofs: usize) -> bool {
         self.dofs() == dofs
             && self.values.len().is_multiple_of(dofs.max(1))
@@ -101,14 +101,14 @@ impl Configs {
     }
 }
 
-/// Two rows are equal where their configurations are, wherever they are kept.
+/// Two lists are equal if their configurations are, wherever these are kept.
 impl PartialEq for Configs {
     fn eq(&self, other: &Configs) -> bool {
         self.dofs == other.dofs && self.len() == other.len() && self.values().eq(other.values())
     }
 }
 
-/// As the number of values of a configuration, then all values.
+/// Encoded as the number of values of a configuration, followed by all values.
 impl Encode for Configs {
     fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
         self.dofs.encode(encoder)?;

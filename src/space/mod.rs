@@ -64,12 +64,12 @@ pub struct Space {
     translations: usize,
 }
 
-/// A direction in which a configuration can move.
+/// A direction in which a configuration can move: a vector tangent to the space, of any length.
 #[derive(Clone, Debug)]
 pub struct Direction {
-    /// Per part of the space its share; a rotation has three, others one.
+    /// Per part of the space its components in the metric: three of a rotation, one of any other part.
     parts: Vec<[f64; 3]>,
-    /// Length of all shares together.
+    /// The vector's length.
     size: f64,
 }
 
@@ -77,8 +77,8 @@ pub struct Direction {
 const PRUNING_MARGIN: f64 = 1e-12;
 
 impl Space {
-    /// The product of `parts`, described by `dofs`, of which the first `translations` are where the
-    /// robot's base is.
+    /// The product of `parts`, described by `dofs`, of which the first `translations` are the position of the robot's
+    /// base.
     ///
     /// # Panics
     /// If the parts do not cover the degrees of freedom in order.
@@ -97,7 +97,7 @@ impl Space {
         &self.dofs
     }
 
-    /// How many of the first values are where the robot's base is; all others turn or bend it.
+    /// How many values, the first ones, are the position of the robot's base. All others turn the base or move joints.
     pub fn translations(&self) -> usize {
         self.translations
     }
@@ -123,14 +123,14 @@ impl Space {
         self.place(|| stream.unit(), out);
     }
 
-    /// How many numbers in `[0, 1]` name a configuration: one per real and angle, three per rotation.
+    /// The dimension of the unit cube that [`Space::of_cube`] maps to the space: one per real value and angle, three
+    /// per rotation.
     pub fn cube_dimensions(&self) -> usize {
         self.parts.iter().map(|part| if part.kind == PartKind::Rotation { 3 } else { 1 }).sum()
     }
 
-    /// The configuration, in stored form, that a point of the unit cube of [`Space::cube_dimensions`]
-    /// stands for. Where points are spread evenly over the cube, their configurations are over the space,
-    /// by the measure of [`Space::sample_uniform`].
+    /// Maps a point of the unit cube of [`Space::cube_dimensions`] to a configuration in stored form. The map preserves
+    /// measure: points uniform in the cube give configurations with the distribution of [`Space::sample_uniform`].
     ///
     /// # Panics
     /// If the point has too few coordinates.
@@ -237,7 +237,7 @@ impl Space {
                     let difference = math::angle_between(a[part.at], b[part.at]) * part.weight;
                     difference * difference
                 }
-                // angle² ≥ 8 (1 − cos(angle / 2)) spares the arc cosine.
+                // The bound angle² ≥ 8 (1 − cos(angle / 2)) needs no arc cosine.
                 PartKind::Rotation => {
                     let chord = (1.0 - dot(a, b, part.at).abs()).max(0.0);
                     8.0 * chord * part.weight * part.weight
@@ -258,7 +258,7 @@ impl Space {
             let difference = match part.kind {
                 PartKind::Real { .. } => a[part.at] - b[part.at],
                 PartKind::Angle => math::angle_between(a[part.at], b[part.at]),
-                // angle ≤ π √(1 − cos(angle / 2)) spares the arc cosine.
+                // The bound angle ≤ π √(1 − cos(angle / 2)) needs no arc cosine.
                 PartKind::Rotation => PI * (1.0 - dot(a, b, part.at).abs()).max(0.0).sqrt(),
             } * part.weight;
             above += difference * difference;
@@ -309,7 +309,6 @@ impl Space {
     /// Angles and rotations wrap, so the distance is less where a part turns by more than half a turn.
     /// `out` is in stored form but may lie out of bounds.
     pub fn along(&self, q: &[f64], direction: &Direction, length: f64, out: &mut [f64]) {
-        // Half of a rotation's distance is the angle of its quaternion.
         let scale = if direction.size > 0.0 { length / direction.size } else { 0.0 };
         for (part, components) in self.parts.iter().zip(&direction.parts) {
             let at = part.at;
@@ -327,7 +326,8 @@ impl Space {
     }
 
     /// The configuration at fraction `t` of the shortest motion from `a` to `b`, at constant
-    /// speed in every part; `out` is in stored form but for rounding of the quaternion's length.
+    /// speed in every part. `out` is in stored form, except that a quaternion may be its negative or have a length
+    /// off by rounding.
     pub fn interpolate(&self, a: &[f64], b: &[f64], t: f64, out: &mut [f64]) {
         self.way(a, b).at(t, out);
     }
@@ -341,15 +341,15 @@ impl Space {
     }
 }
 
-/// The shortest motion between two configurations.
+/// The shortest motion between two configurations, prepared for evaluation at many times.
 #[derive(Clone, Debug)]
 pub(crate) struct Way<'a> {
     parts: &'a [Part],
     a: &'a [f64],
     b: &'a [f64],
-    /// Of the first rotation.
+    /// The interpolation of the first rotation, kept here so that most spaces need no allocation.
     turn: Option<Slerp>,
-    /// Of the others, which only some linkages have.
+    /// The interpolation of the other rotations, which only linkages with spherical joints have.
     more: Vec<Slerp>,
 }
 

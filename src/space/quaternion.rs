@@ -32,8 +32,8 @@ pub fn canonical(quaternion: [f64; 4]) -> Option<[f64; 4]> {
     Some(scaled.map(|value| value / length * sign + 0.0))
 }
 
-/// [`canonical`], but as it is where it has that form to within rounding: what is written out and read
-/// again stays the same to the bit.
+/// [`canonical`], except that a quaternion that has this form up to rounding is returned unchanged, so that one that
+/// is written out and read again stays the same to the bit.
 pub fn stored_form(quaternion: [f64; 4]) -> Option<[f64; 4]> {
     let stored = canonical(quaternion)?;
     let same = (0..4).all(|i| (stored[i] - quaternion[i]).abs() <= 2.0 * f64::EPSILON);
@@ -97,7 +97,7 @@ impl Slerp {
         for (value, (a, b)) in between.iter_mut().zip(from.iter().zip(&to)) {
             *value = a * weight_from + b * sign * weight_to;
         }
-        // Without a sign change here: the motion stays continuous for whoever follows it.
+        // The sign is left as it is, so that the quaternion changes continuously along the motion.
         let length = between.iter().map(|value| value * value).sum::<f64>().sqrt();
         between.map(|value| value / length)
     }

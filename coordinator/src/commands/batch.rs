@@ -1,6 +1,6 @@
 //! Many queries from a file.
 
-use super::query::{Asked, Asker};
+use super::asker::{Asked, Asker};
 use super::write_whole;
 use crate::exit::{Code, Failure};
 use roadmill::problem::configuration;

@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod asker;
 mod batch;
 mod build;
 mod check;
@@ -44,7 +45,7 @@ fn write_whole(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), Failure> {
     let beside = path.with_file_name(name);
     std::fs::write(&beside, contents).map_err(cannot)?;
     std::fs::rename(&beside, path).map_err(|error| {
-        // The half of it must not stay.
+        // The temporary file is of no use to anybody now.
         let _ = std::fs::remove_file(&beside);
         cannot(error)
     })

@@ -1,17 +1,14 @@
+use super::asker::{Asked, Asker};
 use super::{batch, write_whole};
-use crate::cli::{PathFormat, QueryArguments};
+use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
 use crate::run::Ledger;
-use roadmill::Context;
-use roadmill::export::{animation, parasol_path, path_csv};
-use roadmill::model::Scratch;
+use roadmill::export::animation;
 use roadmill::problem::configuration;
-use roadmill::query::{Answer, Attachment, PATH_REFINEMENT, Path, shorten, solve};
-use roadmill::roadmap::Roadmap;
+use roadmill::query::{Answer, PATH_REFINEMENT};
 use std::io::Write;
-use std::time::Instant;
 
-/// Asks a roadmap for a path, or for many.
+/// Answers one query from the roadmap of a run, or, with `--queries`, all queries of a file.
 pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let ledger = Ledger::read(&arguments.run)?;
     match &ledger.stopped {
@@ -48,7 +45,7 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let text = asker.text(path);
     match &arguments.out {
         Some(file) => write_whole(file, &text)?,
-        // Whoever closes the pipe has read enough.
+        // A reader that closes the pipe early has read what it wanted: that is no error.
         None => drop(std::io::stdout().write_all(text.as_bytes())),
     }
     if let Some(file) = &arguments.animate {
@@ -60,62 +57,6 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let (configs, length) = (path.configs.len(), path.length);
     eprintln!("path of {configs} configurations, length {length:.6}, in {seconds:.3} s");
     Ok(Code::Done)
-}
-
-/// What asks a roadmap, and how.
-pub(super) struct Asker<'a> {
-    pub cx: Context,
-    roadmap: &'a Roadmap,
-    attachment: Attachment,
-    shorten_tries: Option<u32>,
-    format: PathFormat,
-}
-
-/// What a query came to, and the wall seconds that it took, shortening included.
-pub(super) struct Asked {
-    pub answer: Answer,
-    pub seconds: f64,
-}
-
-impl<'a> Asker<'a> {
-    fn new(ledger: &'a Ledger, arguments: &QueryArguments) -> Asker<'a> {
-        let evaluators = &ledger.problem.evaluators;
-        let attachment = evaluators.iter().find_map(|evaluator| evaluator.method().attachment());
-        Asker {
-            cx: ledger.problem.context(),
-            roadmap: &ledger.roadmap,
-            attachment: attachment.unwrap_or_default(),
-            shorten_tries: arguments.shorten.then_some(arguments.shorten_tries),
-            format: arguments.format,
-        }
-    }
-
-    pub fn ask(&self, start: &[f64], goal: &[f64]) -> Asked {
-        let begun = Instant::now();
-        let mut scratch = Scratch::new();
-        let mut answer =
-            solve(&self.cx, self.roadmap, (start, goal), &self.attachment, &mut scratch);
-        if let (Some(path), Some(tries)) = (&mut answer.path, self.shorten_tries) {
-            *path = shorten(&self.cx, path, tries, &mut scratch);
-        }
-        Asked { answer, seconds: begun.elapsed().as_secs_f64() }
-    }
-
-    /// A path in the chosen format.
-    pub fn text(&self, path: &Path) -> String {
-        match self.format {
-            PathFormat::Csv => path_csv(&self.cx.space, path),
-            PathFormat::Path => parasol_path(&self.cx.space, path),
-        }
-    }
-
-    /// How the names of its files end.
-    pub fn extension(&self) -> &'static str {
-        match self.format {
-            PathFormat::Csv => "csv",
-            PathFormat::Path => "path",
-        }
-    }
 }
 
 /// Why there is no path.

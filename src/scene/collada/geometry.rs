@@ -1,13 +1,13 @@
 //! One `<mesh>`: sources of coordinates and the groups of triangles and lines that use them.
 
-use super::nodes::{Affine, apply};
+use super::affine::Affine;
 use super::{Dae, child, children};
-use crate::scene::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
+use crate::scene::raw::{MESH_ITEMS_MAX, MeshError, RawMesh, fan};
 use roxmltree::Node;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// Sources by their place in the file: many groups may share a large one.
+/// The sources read so far, by their place in the file, since many groups may share a large one.
 pub(super) type Sources = BTreeMap<usize, Rc<[[f64; 3]]>>;
 
 /// Vertices as importers store them, in the geometry's own frame.
@@ -43,7 +43,7 @@ impl Geometry {
             return Err(format!("more than {MESH_ITEMS_MAX} vertices or triangles"));
         }
         for vertex in &self.vertices {
-            let placed = apply(frame, *vertex);
+            let placed = frame.apply(*vertex);
             if !placed.iter().all(|value| value.is_finite()) {
                 return Err(format!("a vertex comes to stand at {placed:?}, which is not finite"));
             }
@@ -70,7 +70,7 @@ impl Geometry {
         for list in children(group, "p") {
             let mut corners = Vec::new();
             inputs.corners(dae, list, |position, normal| {
-                // −0 is 0: exporters write either.
+                // Exporters write −0 for 0; adding 0 makes them the same key.
                 let key = [position, normal].map(|values| values.map(|v| (v + 0.0).to_bits()));
                 let key = [key[0][0], key[0][1], key[0][2], key[1][0], key[1][1], key[1][2]];
                 corners.push(*index_of.entry(key).or_insert_with(|| {
@@ -90,7 +90,7 @@ impl Geometry {
                 }
                 "polylist" => polygons += self.polylist(dae, group, list, &corners)?,
                 "polygons" | "trifans" => {
-                    self.fan(&corners);
+                    self.triangles.extend(fan(&corners));
                     polygons += 1;
                 }
                 "tristrips" => {
@@ -132,7 +132,7 @@ impl Geometry {
                 );
                 return Err(dae.error(counts, message));
             };
-            self.fan(polygon);
+            self.triangles.extend(fan(polygon));
             at += polygon.len();
             polygons += 1;
         }
@@ -142,15 +142,10 @@ impl Geometry {
         }
         Ok(polygons)
     }
-
-    fn fan(&mut self, corners: &[u32]) {
-        for i in 2..corners.len() {
-            self.triangles.push([corners[0], corners[i - 1], corners[i]]);
-        }
-    }
 }
 
-/// Where the numbers of `<p>` point.
+/// What the indices in `<p>` refer to: `stride` of them for each corner, at given offsets one into the positions and
+/// one into the normals.
 struct Inputs {
     stride: usize,
     positions: (usize, Rc<[[f64; 3]]>),

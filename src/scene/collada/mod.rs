@@ -4,18 +4,20 @@
 //! The XML itself is read by `roxmltree`, which knows each node's line and refuses document type
 //! definitions, so that no entity can make a small file large.
 //!
-//! Vertices are stored the way importers do, for their mean may become the origin: once for each
-//! group of triangles or lines that uses them, apart where normals differ. Lines give no triangles.
+//! Vertices are stored the way that importers store them, since their mean may become the origin: a vertex is
+//! repeated for every group of triangles or lines that uses it and for every normal that it has there. Lines give
+//! vertices but no triangles.
 
+mod affine;
 mod geometry;
 mod nodes;
 
-use super::raw::{MeshError, RawMesh, UpAxis};
+use super::raw::{MeshError, RawMesh, UpAxis, text};
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// A file in reading.
+/// A file that is being read, and its elements by their ids.
 struct Dae<'a> {
     path: &'a Path,
     document: &'a Document<'a>,
@@ -23,10 +25,7 @@ struct Dae<'a> {
 }
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count();
-        MeshError::line(path, line, "not UTF-8 text; a COLLADA .dae expected")
-    })?;
+    let text = text(path, bytes, "a COLLADA .dae")?;
     let document = Document::parse(text).map_err(|error| {
         MeshError::line(path, error.pos().row as usize, format!("not COLLADA: {error}"))
     })?;

@@ -1,21 +1,16 @@
-//! The tree of nodes: what is instantiated, and where.
+//! The scene's tree of nodes: which geometries are instantiated, and under which transformations.
 
+use super::affine::Affine;
 use super::geometry::{Geometry, Sources};
 use super::{Dae, child};
-use crate::math;
 use crate::scene::raw::{MeshError, RawMesh};
 use roxmltree::Node;
 use std::collections::BTreeMap;
 
-/// The deepest nesting of nodes. Nodes may instantiate one another, in a circle too.
+/// The deepest nesting of nodes, so that nodes that instantiate each other in a circle are an error.
 const DEPTH_MAX: usize = 64;
-/// The most nodes and geometries visited: instances of instances double at every step.
+/// The most nodes and geometries visited, so that a small file of instances of instances cannot take for ever.
 const VISITS_MAX: usize = 1 << 20;
-
-/// Three rows of an affine map `p ↦ A p + t`: A's columns, then t.
-pub(super) type Affine = [[f64; 4]; 3];
-
-const IDENTITY: Affine = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
 
 struct Walk<'d, 'a> {
     dae: &'d Dae<'a>,
@@ -31,7 +26,7 @@ pub(super) fn walk_scene<'a>(
 ) -> Result<(), MeshError> {
     let mut walk = Walk { dae, geometries: BTreeMap::new(), sources: Sources::new(), visits: 0 };
     for node in scene.children().filter(|node| node.tag_name().name() == "node") {
-        walk.node(node, &IDENTITY, 1, mesh)?;
+        walk.node(node, &Affine::IDENTITY, 1, mesh)?;
     }
     Ok(())
 }
@@ -49,7 +44,7 @@ impl<'a> Walk<'_, 'a> {
             let message = format!("nodes nested or instantiated more than {DEPTH_MAX} deep");
             return Err(self.dae.error(node, message));
         }
-        // Transformations come first, and each acts before the ones above it.
+        // The transformations of a node compose in the order of the file: the last one acts first on its points.
         let mut frame = *parent;
         for element in node.children().filter(Node::is_element) {
             match element.tag_name().name() {
@@ -60,25 +55,18 @@ impl<'a> Walk<'_, 'a> {
                         let message = "last row other than 0 0 0 1 found; an affine map expected";
                         return Err(self.dae.error(element, message));
                     }
-                    frame = product(&frame, &rows);
+                    frame = frame.then(&Affine { rows });
                 }
                 "translate" => {
-                    let [x, y, z] = self.numbers::<3>(element)?;
-                    let [a, b, c] = IDENTITY;
-                    let with = |row: [f64; 4], t: f64| [row[0], row[1], row[2], t];
-                    frame = product(&frame, &[with(a, x), with(b, y), with(c, z)]);
+                    frame = frame.then(&Affine::translation(self.numbers(element)?));
                 }
-                "scale" => {
-                    let [x, y, z] = self.numbers::<3>(element)?;
-                    let rows = [[x, 0.0, 0.0, 0.0], [0.0, y, 0.0, 0.0], [0.0, 0.0, z, 0.0]];
-                    frame = product(&frame, &rows);
-                }
+                "scale" => frame = frame.then(&Affine::scaling(self.numbers(element)?)),
                 "rotate" => {
-                    let [x, y, z, degrees] = self.numbers::<4>(element)?;
-                    let rows = rotation([x, y, z], degrees).ok_or_else(|| {
+                    let [x, y, z, degrees] = self.numbers(element)?;
+                    let rotation = Affine::rotation([x, y, z], degrees).ok_or_else(|| {
                         self.dae.error(element, "an axis other than zero expected")
                     })?;
-                    frame = product(&frame, &rows);
+                    frame = frame.then(&rotation);
                 }
                 tag @ ("lookat" | "skew") => {
                     let message =
@@ -147,30 +135,4 @@ impl<'a> Walk<'_, 'a> {
             self.dae.error(node, format!("<{tag}> of {found} numbers found; {N} expected"))
         })
     }
-}
-
-fn product(a: &Affine, b: &Affine) -> Affine {
-    let column = |row: &[f64; 4], j: usize| row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j];
-    a.map(|row| [column(&row, 0), column(&row, 1), column(&row, 2), column(&row, 3) + row[3]])
-}
-
-pub(super) fn apply(map: &Affine, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    map.map(|row| row[0] * x + row[1] * y + row[2] * z + row[3])
-}
-
-/// Rodrigues' rotation about an axis of any length.
-fn rotation(axis: [f64; 3], degrees: f64) -> Option<Affine> {
-    let length = axis.iter().map(|value| value * value).sum::<f64>().sqrt();
-    if !(length.is_finite() && length > 1e-100) {
-        return None;
-    }
-    let [x, y, z] = axis.map(|value| value / length);
-    let angle = degrees / 180.0 * std::f64::consts::PI;
-    let (sine, cosine) = (math::sin(angle), math::cos(angle));
-    let rest = 1.0 - cosine;
-    Some([
-        [rest * x * x + cosine, rest * x * y - sine * z, rest * x * z + sine * y, 0.0],
-        [rest * x * y + sine * z, rest * y * y + cosine, rest * y * z - sine * x, 0.0],
-        [rest * x * z - sine * y, rest * y * z + sine * x, rest * z * z + cosine, 0.0],
-    ])
 }

@@ -17,13 +17,13 @@ use parry3d_f64::math::{Pose as ParryPose, Vector};
 use serde::{Deserialize, Serialize};
 use std::any::Any;
 
-/// Which points of the robot the bounds hold.
+/// Which points of the robot must stay within the bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
 #[serde(rename_all = "kebab-case")]
 pub enum BoundsMeaning {
-    /// Every point of the robot stays inside (of a planar robot: in x and y).
+    /// Every point of the robot (of a planar robot: in x and y).
     Body,
-    /// Only the robot's reference point, the origin of its frame, does.
+    /// Only the robot's reference point, the origin of its base's frame.
     Reference,
 }
 
@@ -52,8 +52,8 @@ pub enum Edges {
 /// Validity of a robot among obstacles that stand still.
 ///
 /// Bodies collide when their surfaces meet or when one lies wholly inside another that is solid.
-/// Links that are neighbours, or that [`Robot::may_touch`] names, may touch. How motions are looked at
-/// says [`Edges`]; `docs/validity.md` has the methods.
+/// Links that are neighbours, or that [`Robot::may_touch`] names, may touch. [`Edges`] says what is promised of
+/// motions; `docs/validity.md` describes the methods.
 pub struct BodyValidity {
     pub(super) space: Space,
     pub(super) robot: Robot,
@@ -71,13 +71,13 @@ pub struct BodyValidity {
     boxes: Vec<Aabb>,
     /// Pairs of links that must not touch each other.
     pub(super) self_pairs: Vec<SelfPair>,
-    /// There are bodies whose insides their elements do not show.
+    /// Whether any body is solid while only its surface is in a tree.
     pub(super) solid: bool,
-    /// Outweighs the rounding of every length.
+    /// A length greater than what rounding in double precision can add up to.
     pub(super) slack: f64,
-    /// The same in single precision.
+    /// A length greater than what rounding in single precision can add up to.
     pub(super) grain: f32,
-    /// The instructions that test boxes.
+    /// The instructions by which boxes are tested.
     pub(super) lanes: Lanes,
 }
 
@@ -150,7 +150,7 @@ impl BodyValidity {
         }
     }
 
-    /// What moves in what: every link among the obstacles, then the pairs of links.
+    /// Everything that could collide: every link with the obstacles, then the pairs of links that must not touch.
     pub(super) fn meetings(&self) -> impl Iterator<Item = Meeting<'_>> {
         let (slack, grain, lanes) = (self.slack, self.grain, self.lanes);
         let among = self.links.iter().filter_map(move |Moving { link, group }| {
@@ -178,8 +178,8 @@ impl BodyValidity {
         [pair.first, pair.second].map(|place| &self.links[place as usize])
     }
 
-    /// Whether the ball about the base's origin that holds the robot is within the bounds. It settles
-    /// most configurations.
+    /// Whether the ball around the base's origin that holds the robot is within the bounds: a cheap test that
+    /// suffices for most configurations.
     pub(super) fn ball_inside(&self, q: &[f64]) -> bool {
         let Bounds { min, max, .. } = &self.bounds;
         let fixed = self.robot.motion == Motion::Fixed;
@@ -193,7 +193,7 @@ impl BodyValidity {
         Walls { min, max, axes: self.robot.motion.bounded_axes() }
     }
 
-    /// Whether the bounds hold the robot wherever it turns.
+    /// Whether the robot is within the bounds however it is turned, so that no closer test of the bounds is needed.
     pub(super) fn settled_by_ball(&self, q: &[f64]) -> bool {
         self.bounds.meaning == BoundsMeaning::Reference || self.ball_inside(q)
     }

@@ -6,7 +6,7 @@ use super::obb::Obb;
 use crate::model::Clearance;
 use parry3d_f64::math::Vector;
 
-/// A clearance and what breaks ties.
+/// A clearance together with what breaks ties.
 #[derive(Clone, Copy)]
 pub(super) struct Best {
     pub clearance: Clearance,
@@ -15,8 +15,8 @@ pub(super) struct Best {
 }
 
 impl Meeting<'_> {
-    /// The nearer of `best` and the shortest way between the two groups, of which the one stands still in
-    /// the world.
+    /// The smaller of `best` and the distance of the two groups, the standing one being the obstacles: branch and
+    /// bound over both trees.
     pub fn nearer(
         &self,
         stance: &Stance,
@@ -51,7 +51,7 @@ impl Meeting<'_> {
             } else {
                 [(i, still.left), (i, still.left + 1)]
             };
-            // The nearer on top: it is likely to spare the other.
+            // The nearer pair is examined first: it lowers the bound that may rule out the other.
             let [first, second] = children.map(|(i, j)| {
                 let from = frame.point(movers[i as usize].space.centre);
                 (stills[j as usize].space.centre - from).length_squared()
@@ -79,8 +79,8 @@ impl Meeting<'_> {
     }
 }
 
-/// A bound below the distance of two boxes: that of the balls around them, and the gaps along the axes
-/// of both.
+/// A lower bound on the distance of two boxes: the largest of the distance of their bounding spheres and the gaps along
+/// the axes of both.
 fn apart(mover: &Obb, still: &Obb, frame: &Frame) -> f64 {
     let way = still.centre - frame.point(mover.centre);
     let axes = mover.axes.map(|axis| frame.direction(axis));

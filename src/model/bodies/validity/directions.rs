@@ -1,19 +1,19 @@
-//! The directions along which triangles are told apart, four at once.
+//! The separating axis theorem for two triangles, four candidate axes at once.
 //!
-//! Every lane does the same operations of double precision in the same order, none of them fused, so that what
-//! is found has the same bits whatever the instructions.
+//! Every lane does the same operations of double precision in the same order, none of them fused, so that results
+//! have the same bits whatever the instructions.
 
 use crate::lanes::{Lanes, with_lanes};
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 use parry3d_f64::math::Vector;
 
-/// Its corners.
+/// A triangle's corners.
 pub(super) type Triangle = [Vector; 3];
 
-/// Whether two triangles meet, by the separating axis theorem: two triangles are apart exactly if they
-/// are so along one of 17 directions, the normals, the products of edges, and, for those in one plane,
-/// the normals of the edges within it. Touching counts.
+/// Whether two triangles meet, touching included. By the separating axis theorem two triangles are apart exactly if
+/// one of 17 axes separates them: the two normals, the nine cross products of edges, and, for triangles in one
+/// plane, the six cross products of an edge and its triangle's normal.
 pub(super) fn triangles_meet(lanes: Lanes, first: &Triangle, second: &Triangle) -> bool {
     with_lanes!(lanes, simd => simd.vectorize(
         #[inline(always)]
@@ -29,8 +29,8 @@ pub(super) fn triangles_meet(lanes: Lanes, first: &Triangle, second: &Triangle) 
     ))
 }
 
-/// A unit vector from the second towards the first along which they are more than `margin` apart, and by
-/// how much; one of the 17 directions, so that two which are so apart may have none.
+/// A unit vector from the second triangle towards the first along which there is a gap of more than `margin`, and that
+/// gap. Only the 17 axes are tried, so that there may be none although the distance is more than `margin`.
 pub(super) fn separating_axis(
     lanes: Lanes,
     first: &Triangle,
@@ -48,7 +48,7 @@ pub(super) fn separating_axis(
     ))
 }
 
-/// The first of four directions along which the gap is larger than the margin.
+/// The first of four axes along which the gap is larger than the margin, and that gap.
 #[inline(always)]
 fn beyond<S: Simd>(margin: f64, gaps: f64x4<S>, axes: Axes<S>) -> Option<(Vector, f64)> {
     if !gaps.simd_gt(0.0).any_true() {
@@ -91,15 +91,15 @@ fn cross<S: Simd>([a, b, c]: &Axes<S>, [x, y, z]: &Axes<S>) -> Axes<S> {
     [*b * *z - *y * *c, *c * *x - *z * *a, *a * *y - *x * *b]
 }
 
-/// Shows `done` the gaps along one four of directions after the other, in units of the vectors' lengths,
-/// with the vectors turned from the second to the first, until it has seen enough.
+/// Calls `done` with four axes and the gaps along them, then with the next four, until it returns something. Axes point
+/// from the second triangle to the first and have any length; gaps are multiplied by that length.
 #[inline(always)]
 fn directions<S: Simd, T>(
     simd: S,
     (first, second): (&Triangle, &Triangle),
     mut done: impl FnMut(f64x4<S>, Axes<S>) -> Option<T>,
 ) -> Option<T> {
-    // Near the origin, where differences are exact to more digits.
+    // Coordinates are taken from a corner, since differences of small numbers lose fewer digits.
     let origin = second[0];
     let first = [first[0] - origin, first[1] - origin, first[2] - origin];
     let second = [second[1] - origin, second[2] - origin];
@@ -138,8 +138,8 @@ fn vector_at<S: Simd>([x, y, z]: &Axes<S>, lane: usize) -> Vector {
     Vector::new(x[lane], y[lane], z[lane])
 }
 
-/// The gaps along four directions, which are turned from the second to the first. The first corner of the
-/// second is the origin.
+/// The gaps along four axes, and the axes turned so that they point from the second triangle to the first. The first
+/// corner of the second triangle is the origin.
 #[inline(always)]
 fn gaps<S: Simd>(
     simd: S,

@@ -1,23 +1,24 @@
-//! The pieces of surface that trees hold: triangles, and the primitives as what they are made of.
+//! The elements in the leaves of bounding-volume hierarchies: triangles of meshes and boxes, and rounded hulls in
+//! place of the other primitives.
 
 use crate::model::bodies::robot::Rates;
 use crate::scene::{Body, Shape, box_surface};
 use parry3d_f64::math::Vector;
 
-/// All points within `radius` of the hull of three corners. With equal corners it is a ball, a capsule,
-/// a point. A cylinder stands as the capsule around it, marked `flat`.
+/// All points within `radius` of the convex hull of three corners: a triangle, or, where corners coincide, a
+/// capsule, a ball or a point. A cylinder is represented by the capsule around it, marked `flat`.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
-    /// In the frame of the tree: a link's or the world's.
+    /// The corners in the frame of the tree: a link's or the world's.
     pub corners: [Vector; 3],
     pub radius: f64,
-    /// Index of the piece that it belongs to.
+    /// Index of the body that the element belongs to.
     pub piece: u32,
-    /// The piece is a primitive, which is tested as a whole where it stands still.
+    /// Whether that body is a primitive. At a single configuration it is then tested as a whole.
     pub primitive: bool,
-    /// Its ends are flat: what is written is larger than what is there.
+    /// Whether the element is a capsule around a cylinder, so that it is larger than the body.
     pub flat: bool,
-    /// Of a triangle a vector along its normal, else zero.
+    /// A vector along the normal of a triangle; zero where there is no normal.
     pub normal: Vector,
 }
 
@@ -25,19 +26,21 @@ impl Element {
     fn new([a, b, c]: [Vector; 3], radius: f64, piece: u32) -> Element {
         let (u, v) = (b - a, c - a);
         let normal = u.cross(v);
-        // Thinner triangles have no normal worth its name; as segments they are what they are.
+        // The normal of a triangle thinner than this would be all rounding; the triangle is treated as a segment.
         let thin = normal.length() <= 1e-14 * u.length() * v.length();
         let normal = if thin { Vector::ZERO } else { normal };
         Element { corners: [a, b, c], radius, piece, primitive: false, flat: false, normal }
     }
 
-    /// Least and largest `p · axis` over its points (of a cylinder: of the capsule), for a unit vector.
+    /// The least and the largest `p · axis` over the element's points (of a cylinder: over the capsule's), for a unit
+    /// vector `axis`.
     pub fn span(&self, axis: Vector) -> (f64, f64) {
         let [a, b, c] = self.corners.map(|corner| axis.dot(corner));
         (a.min(b).min(c) - self.radius, a.max(b).max(c) + self.radius)
     }
 
-    /// The largest `p · direction` over its points, for a unit vector.
+    /// The largest `p · direction` over the body's points in the element, for a unit vector `direction`: its support
+    /// in that direction. Of a cylinder it is exact.
     pub fn extent(&self, direction: Vector) -> f64 {
         let [a, b, c] = self.corners;
         let thick = match (self.flat, (a - b).try_normalize()) {
@@ -47,14 +50,14 @@ impl Element {
         direction.dot(a).max(direction.dot(b)).max(direction.dot(c)) + thick
     }
 
-    /// A bound on the distance of its points from where a motion turns it.
+    /// A bound on the distance of the element's points from the axis or the point about which a motion turns it.
     pub fn reach(&self, rates: &Rates) -> f64 {
         let far = |most: f64, corner: &Vector| most.max(rates.distance(*corner));
         self.corners.iter().fold(0.0, far) + self.radius
     }
 }
 
-/// The surface of a body in the frame that the body stands in.
+/// The surface of a body as elements, in the frame of its link or of the world. `piece` is the index of the body.
 pub(super) fn elements(body: &Body, piece: u32) -> Vec<Element> {
     let frame = body.pose.to_parry();
     let place = |p: [f64; 3]| frame.transform_point(Vector::from_array(p));

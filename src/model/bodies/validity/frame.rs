@@ -24,7 +24,7 @@ impl Frame {
         self.turn * v
     }
 
-    /// This frame as seen from another.
+    /// This frame expressed in another, both being given in the same frame.
     #[inline]
     pub fn seen_from(&self, other: &Frame) -> Frame {
         let back = other.turn.transpose();
@@ -32,7 +32,7 @@ impl Frame {
     }
 }
 
-/// Where the links stand at one configuration.
+/// The poses of all links in the world's frame at one configuration.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stance {
     pub poses: Vec<Pose>,
@@ -40,19 +40,19 @@ pub(super) struct Stance {
 }
 
 impl Stance {
-    /// Takes the frames from the poses.
+    /// Computes the frames from the poses.
     pub fn update_frames(&mut self) {
         self.frames.clear();
         self.frames.extend(self.poses.iter().map(|pose| Frame::of(&pose.to_parry())));
     }
 
-    /// The pose of a link, or the world's.
+    /// The pose of a link; without a link, that of the world.
     #[inline]
     pub fn pose(&self, link: Option<usize>) -> ParryPose {
         link.map_or(ParryPose::IDENTITY, |link| self.poses[link].to_parry())
     }
 
-    /// The frame of a link as seen from another, or from the world.
+    /// The frame of a link expressed in that of another link, or in the world's.
     #[inline]
     pub fn seen(&self, link: usize, from: Option<usize>) -> Frame {
         match from {

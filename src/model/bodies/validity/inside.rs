@@ -27,10 +27,11 @@ impl Inside {
         Inside { triangles, tree }
     }
 
-    /// Parity of the crossings of the ray from `point` along +x. Each edge is judged by the same
-    /// arithmetic for both triangles it belongs to, so a ray through an edge or a vertex is
-    /// counted consistently and a closed surface never leaks. Flat triangles that close a seam count as
-    /// any other: where rounding draws the two sides of a seam apart, they cover what lies between.
+    /// Whether the surface encloses `point`: whether the ray from it along +x crosses an odd number of triangles.
+    ///
+    /// An edge is judged by the same arithmetic for each triangle that it belongs to, so that a ray through an edge
+    /// or a vertex is counted consistently. Flat triangles that close a seam count like all others: where rounding
+    /// opens a gap between the two sides of a seam, they cover it.
     pub(super) fn contains(&self, point: Vector) -> bool {
         let [x, y, z] = point.to_array();
         let ray_meets = |node: &parry3d_f64::partitioning::BvhNode| {
@@ -70,7 +71,7 @@ fn crosses(corners: &[[f64; 3]; 3], [x, y, z]: [f64; 3]) -> bool {
     let v = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
     let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     if normal == [0.0; 3] {
-        // No plane, but a line: where it reaches the ray's height.
+        // A flat triangle: all of it is on a line, which crosses the ray's height at `at_height`.
         return at_height > x;
     }
     // Where the line meets the triangle's plane: normal · (p − a) = 0, solved for x.

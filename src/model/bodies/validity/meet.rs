@@ -1,4 +1,4 @@
-//! Whether the bodies of two groups meet where they stand.
+//! Discrete collision detection: whether the bodies of two groups meet at one configuration.
 
 use super::directions::triangles_meet;
 use super::element::{Element, elements};
@@ -13,36 +13,36 @@ use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::{DefaultQueryDispatcher, QueryDispatcher};
 use parry3d_f64::shape::{Shape, SupportMap, Triangle};
 
-/// Bodies that move as one, in the frame that they move with.
+/// Bodies that move as one rigid body (those of a link, or all obstacles), in the frame of that link or of the world.
 pub(super) struct Group {
     pub tree: Tree,
     pub pieces: Vec<Piece>,
 }
 
-/// Two groups, one looked at from the other: the link `mover` from the link `still`, or from the world,
-/// in which obstacles stand.
+/// Two groups to be tested for collisions. Everything is expressed in the frame of the second, `still` (that of a link,
+/// or the world's for obstacles), so that only the first, `mover`, moves.
 #[derive(Clone, Copy)]
 pub(super) struct Meeting<'a> {
     pub mover: &'a Group,
     pub mover_link: usize,
     pub still: &'a Group,
     pub still_link: Option<usize>,
-    /// Outweighs the rounding of every length.
+    /// A length greater than what rounding in double precision can add up to.
     pub slack: f64,
-    /// The same in single precision, see [`light`](super::light).
+    /// A length greater than what rounding in single precision can add up to, see [`light`](super::light).
     pub grain: f32,
-    /// The instructions that test boxes.
+    /// The instructions by which boxes are tested.
     pub lanes: Lanes,
 }
 
 impl Meeting<'_> {
-    /// Whether a surface of one meets a surface of the other; a primitive is solid and meets what lies
-    /// inside it, too. Touching counts. That a mesh may enclose the other is not looked at.
+    /// Whether a surface of one group meets a surface of the other, touching included. A primitive is solid and meets
+    /// what lies inside it, too; whether a solid mesh encloses the other group is not tested here.
     pub fn surfaces_meet(&self, stance: &Stance, stack: &mut Vec<(u32, u32)>) -> bool {
         self.any_meet((0, 0), stance, stack)
     }
 
-    /// The same of what lies below one node and another.
+    /// The same for the parts of the two groups below a pair of nodes.
     pub fn any_meet(&self, pair: (u32, u32), stance: &Stance, stack: &mut Vec<(u32, u32)>) -> bool {
         let frame = stance.seen(self.mover_link, self.still_link);
         with_lanes!(self.lanes, simd => simd.vectorize(
@@ -93,7 +93,7 @@ impl Meeting<'_> {
         false
     }
 
-    /// Whether what two leaves, or two primitives, hold meets.
+    /// Whether the bodies meet of which two nodes hold an element or, of primitives, all elements.
     pub fn ends_meet(&self, mover: &Node, still: &Node, frame: &Frame, stance: &Stance) -> bool {
         let first = &self.mover.tree.elements[mover.element as usize];
         let second = &self.still.tree.elements[still.element as usize];
@@ -125,7 +125,7 @@ impl Meeting<'_> {
 }
 
 impl Group {
-    /// The bodies as one; `None` if there are none.
+    /// Makes a group of bodies; `None` if there are none.
     pub fn new<'a>(bodies: impl Iterator<Item = &'a Body>) -> Option<Group> {
         let mut surface = Vec::new();
         let mut pieces = Vec::new();
@@ -141,7 +141,7 @@ impl Group {
         self.pieces.iter().any(Piece::is_hollow)
     }
 
-    /// Whether there are insides that elements do not show: of solid meshes and of boxes.
+    /// Whether any body is solid while only its surface is in the tree: a solid mesh or a box.
     pub fn has_insides(&self) -> bool {
         let side = |element: &Element| element.primitive && element.normal != Vector::ZERO;
         self.is_hollow() || self.tree.elements.iter().any(side)
@@ -151,7 +151,7 @@ impl Group {
         &self.pieces[element.piece as usize]
     }
 
-    /// An element as a convex shape of parry's, where it stands, and how much thicker it is.
+    /// An element as one of parry's convex shapes, its pose in the world, and how far the element reaches beyond it.
     pub fn support<'a>(
         &'a self,
         element: &Element,
@@ -167,14 +167,14 @@ impl Group {
 }
 
 impl Element {
-    /// The hull of the corners.
+    /// The convex hull of the corners.
     pub fn triangle(&self) -> Triangle {
         let [a, b, c] = self.corners;
         Triangle::new(a, b, c)
     }
 }
 
-/// The primitive that the piece is, or else the triangle of it, and where.
+/// What parry is to test: the body as a whole, if it is a primitive, else one triangle of it; and its pose.
 fn part<'a>(piece: &'a Piece, triangle: &'a Triangle, at: &Pose) -> (&'a dyn Shape, Pose) {
     match piece.primitive() {
         Some(shape) => (shape, piece.place(at)),

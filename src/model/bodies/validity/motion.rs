@@ -7,14 +7,14 @@ use crate::model::Validity;
 use crate::space::Motion;
 use parry3d_f64::math::Vector;
 
-/// A swept motion that is found not to be free comes, at some time, nearer to something than the
-/// resolution divided by this.
+/// A motion that [`Edges::Swept`] refuses comes, at some time, nearer to something than the resolution divided by this.
 pub const TOLERANCE: u64 = 2 * FINENESS;
-/// Swept motions are cut into steps so many times finer than the resolution; half a step is the
-/// tolerance. Milestones nearer than that to something have no edges and count as components of their
-/// own, which crowd out those that could be joined: with 64, one in 2500 among thin walls.
+/// For [`Edges::Swept`] motions are cut into steps this many times finer than the resolution, and half a step is
+/// the tolerance. A milestone nearer than the tolerance to an obstacle gets no edges and stays a component by itself,
+/// and such components crowd out those that could be joined: with 64, one milestone in 2500 among thin walls was such.
+/// The cost of finer steps grows with the logarithm of their number.
 const FINENESS: u64 = 1 << 16;
-/// More samples than this would be told apart by rounding alone.
+/// The most samples of a motion: rounding would make more of them the same.
 const SAMPLES_MAX: u64 = 1 << 50;
 
 impl BodyValidity {
@@ -26,7 +26,8 @@ impl BodyValidity {
         refinement: u32,
         scratch: &mut BodyScratch,
     ) -> bool {
-        // The base's origin goes straight, so that the ball around it needs its ends only.
+        // The base's origin goes straight and the bounds are convex: where the ball around it is inside at both
+        // ends, it is inside all along.
         let bounded = self.settled_by_ball(a) && self.settled_by_ball(b);
         let within = self.space.within_bounds(a) && self.space.within_bounds(b);
         if self.edges == Edges::Swept && !within {
@@ -41,8 +42,9 @@ impl BodyValidity {
                 let samples = steps.saturating_mul(FINENESS).min(SAMPLES_MAX);
                 self.sweep((a, b), samples, bounded, Asks::AllTimes, scratch) == Some(Finds::Free)
             }
-            // Without insides it is enough that no surfaces meet at the steps. What is free at all times
-            // encloses nothing on the way; if that is in doubt the steps are looked at one by one.
+            // Where no body has an inside, it is enough that no surfaces meet at the steps. Else a body could be
+            // enclosed at a step, which is excluded if the surfaces meet at no time at all; where that cannot be
+            // proved, the steps are checked one by one.
             Edges::Sampled => {
                 let asks = if self.solid { Asks::AllTimes } else { Asks::Samples };
                 let exact = within && steps <= SAMPLES_MAX;
@@ -55,9 +57,9 @@ impl BodyValidity {
         }
     }
 
-    /// Whether the ball about the base's origin that holds the robot stays farther than `room` from the box
-    /// around all obstacles, and nothing else is to be looked at. It settles most questions where there is
-    /// much room.
+    /// Whether the motion is free by the cheapest test: the ball around the base's origin that holds the robot stays
+    /// farther than `room` from the box around all obstacles, and no two links could collide. In open space it
+    /// settles most questions.
     pub(super) fn keeps_away(&self, a: &[f64], b: &[f64], room: f64) -> bool {
         if !self.self_pairs.is_empty() || self.robot.motion == Motion::Fixed {
             return false;
@@ -69,8 +71,9 @@ impl BodyValidity {
         obstacles.tree.nodes[0].space.misses([origin(a), origin(b)], room)
     }
 
-    /// What is found of a motion of valid ends, by looking at so many equal steps: what no surface meets
-    /// on the way cannot come to lie inside anything. `None` if the body may leave the bounds.
+    /// What continuous collision detection finds of a motion with valid ends, cut into `samples` equal steps. Surfaces
+    /// suffice: a body that meets no surface on the way cannot come to lie inside another. `None` if the robot may
+    /// leave the bounds.
     fn sweep(
         &self,
         (a, b): (&[f64], &[f64]),
@@ -90,7 +93,8 @@ impl BodyValidity {
         if !inside {
             return None;
         }
-        // With many pairs of links half of the motions are blocked, most often half way.
+        // Of robots with several pairs of bodies to test about half of the motions are blocked, most often half way:
+        // there a collision check of one configuration comes first.
         if self.meetings().nth(1).is_some() && samples > 1 {
             stacks.work.count(|work| work.looks += 1);
             let stance = clock.at(samples / 2);
@@ -106,7 +110,7 @@ impl BodyValidity {
         Some(found.find(|finds| *finds != Finds::Free).unwrap_or(Finds::Free))
     }
 
-    /// Whether every configuration strictly between the ends is valid, at so many equal steps.
+    /// Whether the configurations strictly between the ends are valid, the motion being cut into `steps` equal steps.
     pub(super) fn free_at_steps(
         &self,
         a: &[f64],
@@ -119,7 +123,8 @@ impl BodyValidity {
         between.resize(a.len(), 0.0);
         let way = self.space.way(a, b);
         let mut free = true;
-        // Halving the gaps finds a blocked motion soonest; every step is visited once.
+        // The middle first, then the quarters, and so on: that finds a blocked motion soonest, and visits every step
+        // once.
         let mut stride = steps.next_power_of_two();
         'steps: while stride > 1 {
             stride /= 2;

@@ -1,4 +1,4 @@
-//! The shortest way between two elements.
+//! The distance between two elements, and their nearest points.
 
 use super::element::Element;
 use super::frame::Stance;
@@ -8,19 +8,19 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::query::ClosestPoints;
 use parry3d_f64::query::details::closest_points_support_map_support_map;
 
-/// The shortest way between two elements, in the frame of the one that stands still.
+/// The shortest segment between two elements, in the frame of the standing one.
 pub(super) struct ShortestWay {
-    /// 0 where they meet.
+    /// Its length; 0 where the elements meet.
     pub distance: f64,
     pub on_mover: Vector,
     pub on_still: Vector,
-    /// From the one that stands still to the other, of unit length: along it they are apart by the
-    /// distance. Zero where they meet.
+    /// A unit vector from the standing element towards the moving one, a separating axis along which the gap is the
+    /// distance; zero where they meet.
     pub axis: Vector,
 }
 
 impl ShortestWay {
-    /// From the nearest points of what is inside, and how much thicker the two are.
+    /// From the nearest points of two hulls, given that the elements reach `thick` and `other_thick` beyond them.
     fn between((p, q): (Vector, Vector), thick: f64, other_thick: f64) -> ShortestWay {
         let between = (p - q).length();
         let axis = if between > 0.0 { (p - q) / between } else { Vector::ZERO };
@@ -34,7 +34,8 @@ impl ShortestWay {
 }
 
 impl Meeting<'_> {
-    /// The shortest way between an element that has its corners at `corners` and one that stands still.
+    /// The shortest segment between an element of the moving group, with its corners at `corners` as seen from the
+    /// standing group, and an element of the standing group.
     pub fn nearest(
         &self,
         (element, corners): (&Element, &[Vector; 3]),
@@ -50,7 +51,7 @@ impl Meeting<'_> {
         }
     }
 
-    /// Of two elements of which one is a cylinder; `round` is what it would be, were it a capsule.
+    /// The same where one of the two, or both, is a cylinder; `round` is the answer for the capsules around them.
     fn nearest_flat(
         &self,
         element: &Element,
@@ -70,7 +71,7 @@ impl Meeting<'_> {
         let (p, q) = (one_at.transform_point(p), two_at.transform_point(q));
         let nearest = (other_at.inverse_transform_point(p), other_at.inverse_transform_point(q));
         let way = ShortestWay::between(nearest, thick, other_thick);
-        // What a capsule is apart, the cylinder within it is too.
+        // A cylinder is at least as far away as the capsule around it.
         ShortestWay { distance: way.distance.max(round.distance), ..way }
     }
 }

@@ -5,8 +5,8 @@ use super::element::Element;
 use nalgebra::Matrix3;
 use parry3d_f64::math::Vector;
 
-/// A box with axes of its own, the shortest first: all `p` with `|axis · (p − centre)| ≤ half` for each of its three unit
-/// axes.
+/// An oriented bounding box: all `p` with `|axis · (p − centre)| ≤ half` for each of its three unit axes, the short side
+/// first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Obb {
     pub centre: Vector,
@@ -18,12 +18,12 @@ pub(super) struct Obb {
 
 /// The axes of the frame itself.
 pub(super) const UPRIGHT: [Vector; 3] = [Vector::X, Vector::Y, Vector::Z];
-/// Up to so many elements every triangle offers its own directions.
+/// For at most this many elements the box is also tried along the edges of every triangle.
 const FEW: usize = 16;
 
 impl Obb {
-    /// The smallest by surface among the boxes along the frame's axes, along the principal axes of the
-    /// corners, along those of the surface, and, for few elements, along the edges of every triangle.
+    /// The box of least surface among those along the axes of the frame, along the principal axes of the corners,
+    /// along those of the surface, and, for few elements, along the edges of every triangle.
     pub fn around(elements: &[&Element]) -> Obb {
         let mut best = Obb::along(UPRIGHT, elements);
         let mut offer = |frame: Option<[Vector; 3]>| {
@@ -34,7 +34,7 @@ impl Obb {
                 }
             }
         };
-        // Of one or two triangles the edges say as much, and most nodes hold no more.
+        // One or two triangles fit best along their edges, so that principal axes need not be computed for most nodes.
         let edges = elements.len() <= 2 && elements.iter().all(|one| one.normal != Vector::ZERO);
         if !edges {
             offer(principal(elements, false));
@@ -51,8 +51,8 @@ impl Obb {
         best
     }
 
-    /// Whether a ball of a radius that goes straight from one point to another is seen to miss the box along
-    /// one of its axes.
+    /// Whether one of the box's axes separates the box from a ball of the given radius that goes straight from one
+    /// point to another, so that the ball misses it.
     #[inline]
     pub fn misses(&self, [from, to]: [Vector; 2], radius: f64) -> bool {
         let (first, last) = (from - self.centre, to - self.centre);
@@ -77,10 +77,10 @@ impl Obb {
             centre += *axis * (0.5 * (low + high));
             *half = 0.5 * (high - low);
         }
-        // Boxes that are apart are most often so across the short side of one.
+        // The short side comes first: two boxes that are apart are most often separated along it.
         sides.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         let half = Vector::from_array(sides.map(|(half, _)| half));
-        // Outweighs the rounding of the axes.
+        // More than the rounding of the axes can make the box too small.
         let half = half + Vector::splat(1e-12 * (half.length() + centre.length()));
         let axes = sides.map(|(_, axis)| axis);
         Obb { centre, axes, half, radius: half.length() }
@@ -101,7 +101,7 @@ fn frame(first: Vector, second: Vector) -> Option<[Vector; 3]> {
     };
     let first = unit(first)?;
     let across = |v: Vector| unit(v - first * first.dot(v));
-    // Twice, so that what was nearly parallel comes out at right angles.
+    // Done twice, so that even nearly parallel vectors give axes at right angles.
     let second = across(across(unit(second)?)?)?;
     (first.dot(second).abs() < 1e-14).then(|| [first, second, first.cross(second)])
 }

@@ -8,18 +8,19 @@ use parry3d_f64::shape::{Shape as ParryShape, SharedShape};
 
 /// A body prepared for collision tests.
 pub(super) struct Piece {
-    /// Of a primitive but for the point.
+    /// The shape as parry's, of a primitive other than a point.
     primitive: Option<SharedShape>,
-    /// Its frame in the link's or the world's.
+    /// The pose of parry's shape in the link's frame or the world's.
     pose: Pose,
-    /// The body's own frame in the link's or the world's (a cylinder's differs from its shape's).
+    /// The pose of the body in the link's frame or the world's. It differs from that of parry's shape for
+    /// cylinders and capsules, whose axes parry has along y.
     body: Pose,
     is_point: bool,
-    /// Of a solid mesh.
+    /// The test for containment, of a solid mesh.
     inside: Option<Inside>,
-    /// In the body's frame.
+    /// A point of each connected part of the surface, in the body's frame.
     witnesses: Vec<Vector>,
-    /// In the link's frame or the world's.
+    /// The bounding box in the link's frame or the world's.
     aabb: Aabb,
 }
 
@@ -59,7 +60,7 @@ impl Piece {
         self.primitive.as_deref()
     }
 
-    /// Where [`Piece::primitive`] stands when the link's frame stands at `link`.
+    /// The pose of [`Piece::primitive`] in the world, the link being at the pose `link`.
     pub fn place(&self, link: &Pose) -> Pose {
         *link * self.pose
     }
@@ -70,18 +71,18 @@ impl Piece {
         self.primitive.as_ref().is_some_and(|shape| shape.contains_point(&self.place(link), point))
     }
 
-    /// Whether the piece has an inside that its surface does not show.
+    /// Whether the body is a solid mesh: its inside is material, but only its surface is in the tree.
     pub fn is_hollow(&self) -> bool {
         self.inside.is_some()
     }
 
-    /// A box around the piece in the world's frame.
+    /// A bounding box of the body in the world's frame.
     pub fn box_at(&self, link: &Pose) -> Aabb {
         self.aabb.transform_by(link)
     }
 
-    /// Whether the piece, a solid mesh, encloses a point of the other's surface. Where their surfaces
-    /// do not meet it then encloses one of its connected parts.
+    /// Whether the body is a solid mesh that encloses a witness of the other body. Where the two surfaces do not
+    /// meet, the connected part that the witness stands for is then wholly inside.
     pub fn encloses(&self, link: &Pose, other: &Piece, other_link: &Pose) -> bool {
         self.inside.as_ref().is_some_and(|inside| {
             other.witnesses.iter().any(|witness| {

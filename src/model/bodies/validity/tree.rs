@@ -1,21 +1,22 @@
-//! Trees of oriented boxes over the elements of several pieces.
+//! Bounding-volume hierarchies: binary trees of oriented bounding boxes over the elements of the bodies of a group.
 
 use super::element::Element;
 use super::light::LightBox;
 use super::obb::{Obb, UPRIGHT};
 use parry3d_f64::math::Vector;
 
-/// In place of an index: none.
+/// Marks a node without children.
 pub(super) const NONE: u32 = u32::MAX;
-/// A box, and what lies in it.
+/// A box and the elements that lie in it.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub space: Obb,
-    /// The first of the two children, which follow one another; [`NONE`] of a leaf.
+    /// Index of the first of its two children, which stand side by side; [`NONE`] for a leaf.
     pub left: u32,
-    /// Its element, or the first of them.
+    /// Index of the node's element; of a node with several, the first of them.
     pub element: u32,
-    /// Tests of what stands still end here: at a leaf, or at all of a primitive.
+    /// Whether tests of a single configuration descend no farther: at leaves, and at nodes that hold a primitive
+    /// and nothing else, since primitives are tested as a whole.
     pub ends: bool,
 }
 
@@ -25,32 +26,33 @@ impl Node {
     }
 }
 
-/// A binary tree with one element to a leaf. The root is node 0, and every piece has a node that holds
-/// all of its elements and no others.
+/// A binary tree with one element to a leaf. The root is node 0, and every body has a node that holds all of its
+/// elements and no others.
 #[derive(Debug)]
 pub(super) struct Tree {
     pub nodes: Vec<Node>,
-    /// Those of the nodes, in single precision.
+    /// The boxes of the nodes, in single precision.
     pub boxes: Vec<LightBox>,
-    /// For each node up to four nodes below it that hold all that it holds, and how many.
+    /// For each node, up to four nodes below it that together hold all of its elements, and how many they are: the
+    /// tree as one of four children to a node, since boxes are tested four at once.
     below: Vec<([u32; 4], u32)>,
     pub elements: Vec<Element>,
 }
 
-/// Elements that are not told apart yet: those of a piece, or one.
+/// What building never splits at present: all elements of a body, or a single one.
 #[derive(Clone, Copy)]
 struct Unit {
     first: u32,
     count: u32,
 }
 
-/// Below this depth lists are halved, so that no tree gets deep.
+/// From this depth on nodes are split into halves of equal length, so that no tree gets much deeper.
 const DEPTH: u32 = 40;
-/// Longer lists are tried along the axes of their own box only.
+/// Nodes of more units are split along the axes of their own box only, to save time.
 const LONG: usize = 2000;
 
 impl Tree {
-    /// The tree over elements of which those of a piece follow one another; `None` if there are none.
+    /// Builds the tree over elements of which those of one body stand together; `None` if there are none.
     pub fn new(elements: Vec<Element>) -> Option<Tree> {
         let mut units: Vec<Unit> = Vec::new();
         for (index, element) in elements.iter().enumerate() {
@@ -79,14 +81,14 @@ impl Tree {
         self.below[node as usize].1 == 0
     }
 
-    /// Up to four nodes below a node that together hold all that it holds; none of a leaf.
+    /// Up to four nodes below a node that together hold all of its elements; none for a leaf.
     #[inline(always)]
     pub fn children(&self, node: u32) -> &[u32] {
         let (nodes, count) = &self.below[node as usize];
         &nodes[..*count as usize]
     }
 
-    /// The boxes of up to four nodes, the last again where there are fewer.
+    /// The boxes of one to four nodes; where there are fewer than four the last one is repeated.
     #[inline(always)]
     pub fn gathered(&self, nodes: &[u32]) -> [&LightBox; 4] {
         let last = nodes.len() - 1;
@@ -95,7 +97,8 @@ impl Tree {
         [&boxes[a as usize], &boxes[b as usize], &boxes[c as usize], &boxes[d as usize]]
     }
 
-    /// Opens the larger ones. Primitives stay whole: looks at one sample end there.
+    /// See [`Tree::children`]: starts from the two children in the binary tree, and replaces the largest node by its
+    /// own two children until there are four. Nodes at which tests of a single configuration end are kept whole.
     fn four_below(&self, at: u32) -> ([u32; 4], u32) {
         let node = |at: u32| &self.nodes[at as usize];
         if node(at).is_leaf() {
@@ -149,8 +152,8 @@ impl Tree {
         self.grow(left + 1, high, depth + 1);
     }
 
-    /// Sorts the units so that they part well, by the surface area heuristic over all places along the
-    /// axes of the node's box and of the frame, and says where.
+    /// Chooses the split of a node by the surface area heuristic, trying every place along the axes of the node's box
+    /// and, of short lists, of the tree's frame. Sorts the units along the best axis and returns the place.
     fn part(&self, at: usize, units: &mut [Unit], depth: u32) -> usize {
         let own = self.nodes[at].space.axes;
         let mut frames = vec![own];
@@ -203,7 +206,8 @@ fn union(boxes: impl Iterator<Item = (Vector, Vector)>) -> (Vector, Vector) {
     boxes.fold(nothing, |(low, high), (from, to)| (low.min(from), high.max(to)))
 }
 
-/// The place at which the order is cut for the least cost: surface times elements on either side.
+/// The cheapest place to cut a sorted list of units, and its cost: the surface of the box on either side times the
+/// number of elements there, summed.
 fn cheapest(order: &[u32], boxes: &[(Vector, Vector)], units: &[Unit]) -> (f64, usize) {
     let surface = |(low, high): (Vector, Vector)| {
         let Vector { x, y, z } = high - low;

@@ -1,4 +1,4 @@
-//! Trees against looking at every pair.
+//! Searches of trees against tests of every pair of elements.
 
 use super::directions::triangles_meet;
 use super::frame::{Frame, Stance};
@@ -59,7 +59,7 @@ proptest! {
         }
     }
 
-    /// Every box holds all that is below it, and every element is below the root once.
+    /// Every box holds the boxes and elements below it, and the root holds every element once.
     #[test]
     fn boxes_hold_what_is_below_them(ordinal in any::<u64>()) {
         let mut stream = Seed::of_set(5, "boxes", ordinal).stream(Purpose::Sampling);
@@ -95,7 +95,7 @@ proptest! {
         prop_assert!(leaves.into_iter().eq(0..tree.elements.len() as u32));
     }
 
-    /// The shortest way is the least of all pairs, whatever the order they are looked at in.
+    /// The clearance is the least distance of all pairs, whatever the order of the search.
     #[test]
     fn the_clearance_is_the_least_of_all_pairs(ordinal in any::<u64>()) {
         let mut stream = Seed::of_set(5, "clearance", ordinal).stream(Purpose::Sampling);

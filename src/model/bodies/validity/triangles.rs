@@ -4,9 +4,9 @@ use super::directions::{Triangle, triangles_meet};
 use crate::lanes::Lanes;
 use parry3d_f64::math::Vector;
 
-/// The nearest points of two hulls of three corners that may coincide, on the first and on the second:
-/// the same, if they meet. Among equally near ones the first is given: edges before faces, in the order
-/// of corners.
+/// The nearest points of two convex hulls of three corners, which may coincide: the one of the first hull, then the
+/// one of the second; if the hulls meet, the same point twice. Ties go to pairs of edges before pairs of a face and
+/// a corner, and among these to the first in the order of corners.
 pub(super) fn nearest_points(
     lanes: Lanes,
     first: &Triangle,
@@ -17,7 +17,7 @@ pub(super) fn nearest_points(
         u.cross(v).length() <= 1e-14 * u.length() * v.length()
     };
     let (flat1, flat2) = (flat(first), flat(second));
-    // Without an area on either side only edges and corners meet, and their distance says so.
+    // Two hulls without an area are segments or points: whether they meet shows in the distance of their edges.
     let meet = !(flat1 && flat2) && hulls_meet(lanes, first, second, (flat1, flat2));
     if meet && let Some(point) = pierced(first, second, flat2).or(pierced(second, first, flat1)) {
         return (point, point);
@@ -54,7 +54,7 @@ pub(super) fn nearest_points(
     if meet { (q, q) } else { (p, q) }
 }
 
-/// Where an edge of the first goes through the second, which is `flat` if it has no area.
+/// A point where an edge of the first hull goes through the second; none if the second has no area (`flat`).
 fn pierced(first: &Triangle, second: &Triangle, flat: bool) -> Option<Vector> {
     let normal = (second[1] - second[0]).cross(second[2] - second[0]);
     let above = first.map(|corner| normal.dot(corner - second[0]));
@@ -75,8 +75,8 @@ fn hulls_meet(
     if !flat1 && !flat2 {
         return triangles_meet(lanes, first, second);
     }
-    // A segment or a point against a triangle: all directions but those of the segment's own plane are
-    // among the seventeen; these are its products with the triangle's normal.
+    // The separating axis theorem for a triangle and a segment or a point: the triangle's normal, the cross
+    // products of edges, and, where all lies in one plane, those of edges and normal.
     let (triangle, segment) = if flat2 { (first, second) } else { (second, first) };
     let normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
     let apart = |axis: Vector| {

@@ -1,26 +1,27 @@
-//! What motions are made of, for benches.
+//! How many tests of each kind collision detection takes, for benches.
 
-/// Steps of the search for what is in the way of motions. They are counted with the feature `counts` alone,
-/// and stay zero without it.
+/// Numbers of tests that checks of motions take. They are counted with the feature `counts` alone, and stay zero
+/// without it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Tests of the ball around what moves against a box that stands still.
+    /// Tests of the moving tree's bounding sphere against a standing box.
     pub balls: u64,
-    /// Boxes that were placed at both ends of a chord.
+    /// Moving boxes that were placed at both ends of a chord.
     pub placed: u64,
-    /// Tests of such a box against one that stands still.
+    /// Tests of such a box against a standing box.
     pub boxes: u64,
-    /// How often such tests were done, up to four at once.
+    /// Batches of up to four such tests, which are done at once.
     pub batches: u64,
-    /// Looks at where the robot stands at one sample.
+    /// Collision checks of single samples during a search.
     pub looks: u64,
-    /// Pairs of elements.
+    /// Pairs of elements tested by conservative advancement.
     pub pairs: u64,
-    /// Samples at which pairs of elements were looked at.
+    /// Samples at which the distances of these pairs were computed.
     pub advances: u64,
 }
 
 impl Work {
+    /// Runs `note`, which counts something, if counting is on.
     #[inline(always)]
     pub(super) fn count(&mut self, note: impl FnOnce(&mut Work)) {
         if cfg!(feature = "counts") {
@@ -28,7 +29,7 @@ impl Work {
         }
     }
 
-    /// So many tests of boxes at once.
+    /// Counts a batch of that many tests of boxes.
     pub(super) fn tested(&mut self, boxes: usize) {
         self.boxes += boxes as u64;
         self.batches += 1;

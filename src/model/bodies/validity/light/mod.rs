@@ -1,11 +1,13 @@
-//! Boxes in single precision, four at once, for tests that only say where to look closer.
+//! Oriented bounding boxes in single precision, tested four at once. The tests only say what double precision has to
+//! look at closer.
 //!
-//! Rounding never makes two boxes seem apart that are not. Let S be the largest coordinate of the input, so
-//! that no centre and no shift is longer than 2 √3 S in the frame that stands still, and ε = 2⁻²⁴. Placing
-//! a box puts its centre off by at most 48 ε S and its axes by 9 ε; with the rounding of the other centre and of
-//! their difference the vector between the two is off by 66 ε S, and its product with an axis by 100 ε S
-//! more; a box reaches at most 3 S along an axis, and what is reckoned of that is off by 54 ε S. [`grain`],
-//! 256 ε S, is added to every reach. Fused operations round less.
+//! Rounding never makes two boxes seem apart that are not: [`grain`] is added to the extent of every box. Let S be the
+//! largest coordinate of the input, so that no centre and no shift is longer than 2 √3 S in the standing frame, and
+//! ε = 2⁻²⁴. Placing a box puts its centre off by at most 48 ε S and its axes by 9 ε. With the rounding of the other
+//! centre and of the difference, the vector between the two centres is off by 66 ε S, and its product with an axis by
+//! 100 ε S more. A box extends at most 3 S along an axis, and the computed extent is off by 54 ε S. In all that is less
+//! than 256 ε S, the grain. Products and sums may be fused (fused multiply-add), as they are with AVX2: a fused
+//! operation rounds once instead of twice, so that the bounds hold all the more.
 
 mod stand;
 
@@ -17,10 +19,10 @@ use parry3d_f64::math::Vector;
 
 pub(super) use stand::{Gaps, Stands};
 
-/// Larger coordinates are not told apart.
+/// Coordinates are clamped to this, so that nothing overflows; boxes beyond count as meeting.
 const FAR: f64 = 1e29;
 
-/// What outweighs the rounding of tests in single precision, coordinates being at most `scale`.
+/// A length greater than what rounding in these tests can add up to, coordinates being at most `scale`.
 pub(super) fn grain(scale: f64) -> f32 {
     if scale < FAR { (scale / f64::from(1 << 16)).max(1e-36) as f32 } else { 1e38 }
 }
@@ -34,9 +36,9 @@ pub(super) fn above(length: f64) -> f32 {
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct LightBox {
-    /// Each axis, and half the side along it.
+    /// Each unit axis, followed by half the side along it.
     axes: [[f32; 4]; 3],
-    /// The centre, and half the diagonal.
+    /// The centre, followed by half the diagonal.
     centre: [f32; 4],
 }
 
@@ -59,16 +61,17 @@ fn with(v: Vector, last: f32) -> [f32; 4] {
     [v.x as f32, v.y as f32, v.z as f32, last]
 }
 
-/// As near as single precision reaches.
+/// The point with coordinates clamped to what single precision can square.
 #[inline(always)]
 fn within(at: Vector) -> Vector {
     let far = Vector::splat(FAR);
     at.clamp(-far, far)
 }
 
-/// Numbers in lanes: of four boxes at one time, or at both ends of a chord, those of the one end first.
+/// Numbers of four boxes, a box to a lane: at one time (four lanes), or at both ends of a chord of the motion (eight
+/// lanes, those of the beginning first).
 pub(super) trait Many<S: Simd>: SimdFloat<S, Element = f32, Block = f32x4<S>> {
-    /// From those at one time, or at the other.
+    /// From the numbers at the beginning and at the end; with four lanes the latter are ignored.
     fn times(first: f32x4<S>, last: f32x4<S>) -> Self;
 }
 
@@ -86,10 +89,10 @@ impl<S: Simd> Many<S> for f32x8<S> {
     }
 }
 
-/// Coordinates.
+/// The coordinates of vectors, a vector to a lane.
 pub(super) type Three<V> = [V; 3];
 
-/// One for each axis. What is done with lanes must be inlined, of closures those that are marked so.
+/// Calls `of` for each axis. Everything done with lanes must be inlined, the closure too, to use wide instructions.
 #[inline(always)]
 pub(super) fn three<T>(mut of: impl FnMut(usize) -> T) -> Three<T> {
     [of(0), of(1), of(2)]
@@ -100,13 +103,13 @@ pub(super) fn dot<S: Simd, V: Many<S>>(a: &Three<V>, b: &Three<V>) -> V {
     a[2].mul_add(b[2], a[1].mul_add(b[1], a[0] * b[0]))
 }
 
-/// Numbers of boxes, at each of the times.
+/// Vectors that do not depend on time, at each of the times.
 #[inline(always)]
 pub(super) fn all_times<S: Simd, V: Many<S>>([x, y, z]: &Three<f32x4<S>>) -> Three<V> {
     [V::block_splat(*x), V::block_splat(*y), V::block_splat(*z)]
 }
 
-/// A point in every lane, at one time or at either.
+/// A point in every lane, with its positions at the one time or at both.
 #[inline(always)]
 pub(super) fn points<S: Simd, V: Many<S>>(simd: S, [first, last]: [Vector; 2]) -> Three<V> {
     let (first, last) = (within(first), within(last));
@@ -118,10 +121,10 @@ fn number<S: Simd, V: Many<S>>(simd: S, first: f64, last: f64) -> V {
     V::times(f32x4::splat(simd, first as f32), f32x4::splat(simd, last as f32))
 }
 
-/// A frame in every lane, at one time or at either.
+/// A frame in every lane, at the one time or at both.
 #[derive(Clone, Copy)]
 pub(super) struct Frames<V> {
-    /// The rows of the matrix.
+    /// The rows of the rotation matrix.
     turn: [Three<V>; 3],
     shift: Three<V>,
 }
@@ -142,7 +145,7 @@ impl<V> Frames<V> {
     }
 }
 
-/// Four boxes, each in a lane.
+/// Four boxes, a box to a lane.
 #[derive(Clone, Copy)]
 pub(super) struct Four<S: Simd> {
     pub centre: Three<f32x4<S>>,
@@ -163,7 +166,7 @@ impl<S: Simd> Four<S> {
         Four::of([first, second, third], centre)
     }
 
-    /// The same box in all lanes.
+    /// One box in all lanes.
     #[inline(always)]
     pub fn same(simd: S, LightBox { axes, centre }: &LightBox) -> Four<S> {
         let axes = [splat(simd, &axes[0]), splat(simd, &axes[1]), splat(simd, &axes[2])];
@@ -182,7 +185,7 @@ fn splat<S: Simd>(simd: S, [x, y, z, w]: &[f32; 4]) -> [f32x4<S>; 4] {
     [f32x4::splat(simd, *x), f32x4::splat(simd, *y), f32x4::splat(simd, *z), f32x4::splat(simd, *w)]
 }
 
-/// Rows turned to columns.
+/// The transposed matrix.
 #[inline(always)]
 fn columns<S: Simd>(simd: S, [a, b, c, d]: [&[f32; 4]; 4]) -> [f32x4<S>; 4] {
     let (a, c) = (f32x4::load_array_ref(simd, a), f32x4::load_array_ref(simd, c));

@@ -1,10 +1,10 @@
-//! Four boxes that move, where they stand.
+//! Four moving boxes, placed in the standing frame, and their gaps to standing boxes along separating axes.
 
 use super::{Four, Frames, Many, Three, all_times, dot, three};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x8};
 
-/// Where four boxes have their centres and their axes, as seen from what stands still.
+/// The centres and axes of four moving boxes in the standing frame.
 #[derive(Clone, Copy)]
 pub(in crate::model::bodies::validity) struct Stands<S: Simd, V: Many<S>> {
     centre: Three<V>,
@@ -13,14 +13,14 @@ pub(in crate::model::bodies::validity) struct Stands<S: Simd, V: Many<S>> {
     pub half: Three<f32x4<S>>,
 }
 
-/// How they lie to four boxes that stand still, each to that of its lane.
+/// The position of each of four moving boxes relative to the standing box of the same lane.
 pub(in crate::model::bodies::validity) struct Across<V> {
     pub between: Three<V>,
-    /// How much of each of their own axes lies along each of the others'.
+    /// Absolute values of the scalar products of the moving box's axes with the standing box's axes.
     turns: [Three<V>; 3],
 }
 
-/// By how much two bodies overlap along an axis, from either side; negative where they are apart.
+/// By how much two boxes overlap along an axis, measured from either side; negative where there is a gap.
 #[derive(Clone, Copy)]
 pub(in crate::model::bodies::validity) struct Gaps<V>(pub V, pub V);
 
@@ -44,7 +44,7 @@ impl<S: Simd, V: Many<S>> Stands<S, V> {
         Across { between, turns: [turns(a, &axes), turns(b, &axes), turns(c, &axes)] }
     }
 
-    /// Along the axes of what stands still; `room` is what the boxes may reach besides.
+    /// The overlaps along the axes of the standing boxes; `room` is the length by which boxes are enlarged.
     #[inline(always)]
     pub fn along_still(
         &self,
@@ -63,7 +63,7 @@ impl<S: Simd, V: Many<S>> Stands<S, V> {
         )
     }
 
-    /// Along the boxes' own axes.
+    /// The overlaps along the moving boxes' own axes.
     #[inline(always)]
     pub fn along_own(&self, still: &Four<S>, across: &Across<V>, room: f32x4<S>) -> Three<Gaps<V>> {
         let sides = all_times(&still.half);
@@ -76,7 +76,7 @@ impl<S: Simd, V: Many<S>> Stands<S, V> {
         )
     }
 
-    /// Along any directions, of any length.
+    /// The overlaps along any axis, of any length; overlaps are multiplied by that length.
     #[inline(always)]
     pub fn along(
         &self,
@@ -106,7 +106,8 @@ fn turns<S: Simd, V: Many<S>>(own: &Three<V>, [a, b, c]: &[Three<V>; 3]) -> Thre
     [dot(own, a).abs(), dot(own, b).abs(), dot(own, c).abs()]
 }
 
-/// How far boxes reach whose sides lie along an axis by so much.
+/// How far boxes extend along an axis, given half their sides, the absolute cosines between these and the axis, and an
+/// addition.
 #[inline(always)]
 fn reach<S: Simd, V: Many<S>>(turns: &Three<V>, sides: &Three<V>, room: f32x4<S>) -> V {
     let [x, y, z] = turns;
@@ -114,7 +115,7 @@ fn reach<S: Simd, V: Many<S>>(turns: &Three<V>, sides: &Three<V>, room: f32x4<S>
 }
 
 impl<S: Simd> Stands<S, f32x8<S>> {
-    /// That of one lane in all.
+    /// The box of one lane, in every lane.
     #[inline(always)]
     pub fn only(&self, simd: S, lane: usize) -> Stands<S, f32x8<S>> {
         let [a, b, c] = &self.axes;
@@ -142,7 +143,7 @@ fn only_pair<S: Simd>(simd: S, v: &f32x8<S>, lane: usize) -> f32x8<S> {
 }
 
 impl<S: Simd> Stands<S, f32x4<S>> {
-    /// A bit for each of the boxes that may come within `room` of the other of its lane.
+    /// A bit for each box that may be within `room` of the standing box of its lane: no face normal separates the two.
     #[inline(always)]
     pub fn may_meet(&self, simd: S, still: &Four<S>, room: f32) -> u32 {
         let (across, room) = (self.across(still), f32x4::splat(simd, room));
@@ -151,7 +152,7 @@ impl<S: Simd> Stands<S, f32x4<S>> {
     }
 }
 
-/// A bit for each lane that is apart along one of three axes.
+/// A bit for each lane with a gap along one of three axes.
 #[inline(always)]
 fn apart<S: Simd>([a, b, c]: Three<Gaps<f32x4<S>>>) -> u32 {
     let overlap = a.0.min(a.1).min(b.0.min(b.1)).min(c.0.min(c.1));

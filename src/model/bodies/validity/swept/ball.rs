@@ -1,4 +1,4 @@
-//! The ball around what moves, which tells where to look closer.
+//! The bounding sphere of the moving tree: a cheap first test that yields the nodes from which the recursion starts.
 
 use super::Stacks;
 use super::clip::{Clip, Met, Turned, apart, least};
@@ -13,10 +13,11 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x8};
 use parry3d_f64::math::Vector;
 
-/// The ball around a box during the whole motion.
+/// The bounding sphere of a box during a whole motion, its centre going straight.
 struct SweptBall<S: Simd> {
+    /// Its centre at the beginning and at the end.
     ends: Three<f32x8<S>>,
-    /// Its radius, and by how much it must be larger for the straight line between to do.
+    /// Its radius, with the margin, and with what its centre may leave the straight line by.
     room: f32x4<S>,
 }
 
@@ -27,7 +28,7 @@ impl<S: Simd> SweptBall<S> {
         SweptBall { ends: points(simd, ends), room }
     }
 
-    /// When the ball may meet boxes that stand still.
+    /// When the sphere may meet standing boxes.
     #[inline(always)]
     fn meets(&self, simd: S, still: &Four<S>, asked: Span) -> Met {
         let [x, y, z] = all_times::<S, f32x8<S>>(&still.centre);
@@ -50,8 +51,8 @@ impl<S: Simd> SweptBall<S> {
 }
 
 impl<S: Simd> Sweep<'_, '_, S> {
-    /// Opens the nodes, no larger than the ball around what moves, that the ball may meet, and says which
-    /// samples they span.
+    /// Descends the standing tree to nodes no larger than the moving box, leaves those that the sphere may meet in
+    /// the list `open`, and returns the stretch of time that holds all of their times; `None` if there are none.
     pub(super) fn near_the_ball(&mut self) -> Option<Span> {
         let simd = self.simd;
         let frames = [self.frame(0), self.frame(self.clock.samples)];

@@ -1,4 +1,4 @@
-//! Boxes that move over a chord, up to four at once.
+//! Moving boxes over a chord of the motion, up to four at once.
 
 use super::clip::{Clip, Met, Turned, apart, least, turned};
 use super::span::{Samples, Span};
@@ -8,7 +8,8 @@ use crate::model::bodies::validity::light::{Four, Frames, Stands, Three, above, 
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x8};
 
-/// A number that grows with the distance of the farthest point from where the motion turns.
+/// A bound `c + s · d` on how far something moves, `d` being the distance of its farthest point from the axis or the
+/// point about which the motion turns it.
 #[derive(Clone, Copy)]
 struct Linear(f32, f32);
 
@@ -23,29 +24,29 @@ impl Linear {
     }
 }
 
-/// What all boxes of a motion share.
+/// What is common to all boxes of a motion.
 #[derive(Clone, Copy)]
 pub(super) struct Course {
     pub rates: Rates,
-    /// The time in which the tolerance is used up: that of half a step, or none.
+    /// The tolerance as a time: elements are to be farther apart than points move in it. Half a step, or zero.
     pub spare: f64,
-    /// A length that outweighs rounding.
+    /// A length greater than what rounding in double precision can add up to.
     pub slack: f64,
-    /// One that does so in single precision.
+    /// A length greater than what rounding in single precision can add up to.
     pub grain: f32,
 }
 
-/// A share of the motion between two samples.
+/// The motion between two samples, every point being thought to go straight.
 pub(super) struct Chord<S: Simd> {
     pub samples: Samples,
-    /// In shares of the motion.
+    /// The same stretch in time, from 0 at the beginning of the motion to 1 at its end.
     pub span: Span,
     frames: Frames<f32x8<S>>,
-    /// How far points leave the straight lines.
+    /// How far points of the moving body may leave their straight lines.
     bend: Linear,
-    /// Added along axes that stand still.
+    /// By how much a moving box is enlarged along standing axes.
     still_room: Linear,
-    /// Added along the boxes' own axes.
+    /// By how much it is enlarged along its own axes.
     own_room: Linear,
 }
 
@@ -62,9 +63,11 @@ impl<S: Simd> Chord<S> {
         let (eighth, turn_bend) = (time * time / 8.0, rates.turn_bend());
         let slack = slack + f64::from(*grain);
         let bend = (rates.bend * eighth, turn_bend * eighth);
-        // Half a step away from a sample a point is no farther than this from where it was.
+        // The tolerance: within half a step of a sample a point moves no farther than this.
         let margin = (spare * rates.speed, spare * rates.spin);
-        // What stands still, as seen from the box: near it at one sample, and then carried away.
+        // Seen from the moving box, a standing point moves too. If it is within the tolerance of the box at one
+        // sample, its distance from where the box turns stays below `away.0 + away.1 · d` during the chord, with
+        // d as in [`Linear`].
         let away = (margin.0 + rates.speed * time, 1.0 + margin.1);
         let own = rates.bend + turn_bend * away.0 + 2.0 * rates.spin * rates.speed;
         let span = Span {
@@ -85,12 +88,12 @@ impl<S: Simd> Chord<S> {
     }
 }
 
-/// Four boxes of the moving tree over a chord: where they are at both ends, and how much larger they must
-/// be for the straight lines between to hold what is within their reach at every sample.
+/// Four boxes of the moving tree over a chord: their positions at both ends, and by how much they must be enlarged
+/// for linear interpolation between the two to hold everything in them, with the tolerance, at every sample.
 #[derive(Clone, Copy)]
 pub(super) struct SweptBoxes<S: Simd> {
     stands: Stands<S, f32x8<S>>,
-    /// How far their points leave the straight lines.
+    /// How far their points may leave their straight lines.
     bend: f32x4<S>,
     still_room: f32x4<S>,
     own_room: f32x4<S>,
@@ -108,7 +111,7 @@ impl<S: Simd> SweptBoxes<S> {
         }
     }
 
-    /// That of one lane in all.
+    /// The box of one lane, in every lane.
     #[inline(always)]
     pub fn only(&self, simd: S, lane: usize) -> SweptBoxes<S> {
         SweptBoxes {
@@ -119,13 +122,13 @@ impl<S: Simd> SweptBoxes<S> {
         }
     }
 
-    /// How far the points of one leave the straight lines.
+    /// How far the points of one of the boxes may leave their straight lines.
     #[inline(always)]
     pub fn bend(&self, lane: usize) -> f32 {
         self.bend[lane]
     }
 
-    /// When the boxes may be within the margin of those that stand still, each of that of its lane.
+    /// When each of the boxes may come within the tolerance of the standing box of the same lane.
     #[inline(always)]
     pub fn meets(&self, simd: S, still: &Four<S>, chord: Span, spans: &[Span; 4]) -> Met {
         let across = self.stands.across(still);
@@ -154,7 +157,8 @@ impl<S: Simd> SweptBoxes<S> {
         clip.met(simd, !apart, chord, spans)
     }
 
-    /// The product of the longest axes half way, which tells crossing boxes apart.
+    /// The cross product of the longest axes, those of the moving boxes being the mean over the chord: a separating
+    /// axis of long boxes that cross each other.
     #[inline(always)]
     fn crossing(&self, still: &Four<S>) -> Three<f32x4<S>> {
         let [a, b, c] = still.axes[2];
@@ -164,17 +168,17 @@ impl<S: Simd> SweptBoxes<S> {
     }
 }
 
-/// Twice the mean of what there is at both ends.
+/// The sum of the values at both ends of a chord.
 #[inline(always)]
 fn halves_sum<S: Simd>(both: &f32x8<S>) -> f32x4<S> {
     let (first, last) = both.split();
     first + last
 }
 
-/// A bound on the distance of the points of boxes from where the motion turns them.
+/// A bound on the distance of the points of boxes from the axis or the point about which the motion turns them.
 #[inline(always)]
 fn reach<S: Simd>(simd: S, course: &Course, own: &Four<S>) -> f32x4<S> {
-    // In this unit squares neither overflow nor vanish.
+    // Coordinates are measured in this unit so that their squares neither overflow nor underflow.
     let unit = course.grain;
     let [x, y, z] = own.centre;
     let (x, y, z) = (x * unit.recip(), y * unit.recip(), z * unit.recip());
@@ -187,7 +191,7 @@ fn reach<S: Simd>(simd: S, course: &Course, own: &Four<S>) -> f32x4<S> {
     };
     let distance = dot(&away, &away).sqrt() * unit;
     let reach = (own.radius + distance) * (1.0 + 2e-6) + unit;
-    // Nothing is as far, and no product with it is not a number.
+    // No scene is that large; the limit keeps later products finite.
     reach.min(f32x4::splat(simd, 1e35))
 }
 

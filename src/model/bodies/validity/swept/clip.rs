@@ -1,11 +1,13 @@
-//! When boxes may meet, four pairs of them at once: times are cut where gaps along an axis open.
+//! The times at which boxes may meet, for four pairs of boxes at once: each separating axis excludes the times at
+//! which there is a gap along it.
 
 use super::span::Span;
 use crate::model::bodies::validity::light::{Gaps, Three};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x8};
 
-/// Gaps at the beginning, from either side, and at the end.
+/// The overlaps of four pairs of boxes along an axis, each measured from either side (lanes 0 to 3 from one, 4 to 7
+/// from the other), at the beginning and at the end of a chord. A negative overlap is a gap.
 pub(super) struct Turned<S: Simd> {
     begin: f32x8<S>,
     end: f32x8<S>,
@@ -18,7 +20,7 @@ impl<S: Simd> Turned<S> {
         Turned { begin: a.combine(c), end: b.combine(d) }
     }
 
-    /// Negative where they are apart at both ends, from the same side.
+    /// Negative where boxes are apart at both ends on the same side, and so during the whole chord.
     #[inline(always)]
     pub fn both(&self) -> f32x8<S> {
         self.begin.max(self.end)
@@ -35,17 +37,17 @@ pub(super) fn least<S: Simd>([a, b, c]: &[Turned<S>; 3]) -> f32x8<S> {
     a.both().min(b.both()).min(c.both())
 }
 
-/// A bit for each lane that is apart from one side or the other.
+/// A bit for each of the four pairs that are apart, on either side.
 #[inline(always)]
 pub(super) fn apart<S: Simd>(overlap: f32x8<S>) -> u32 {
     let sides = overlap.simd_lt(0.0).to_bitmask() as u32;
     (sides | sides >> 4) & 15
 }
 
-/// When boxes may meet.
+/// When each of four pairs of boxes may meet.
 #[derive(Clone, Copy)]
 pub(super) struct Met {
-    /// A bit for each lane in which they may.
+    /// A bit for each pair that may meet at all.
     lanes: u32,
     from: [f32; 4],
     to: [f32; 4],
@@ -54,7 +56,7 @@ pub(super) struct Met {
 impl Met {
     pub const NOTHING: Met = Met { lanes: 0, from: [0.0; 4], to: [0.0; 4] };
 
-    /// The lanes among the first so many in which they may, and when.
+    /// The pairs among the first `count` that may meet, and when.
     #[inline(always)]
     pub fn spans(&self, count: usize) -> impl Iterator<Item = (usize, Span)> {
         let mut rest = self.lanes & ((1 << count) - 1);
@@ -69,15 +71,16 @@ impl Met {
     }
 }
 
-/// A share of a chord for each lane, as cut from either side.
+/// The stretch of a chord in which each pair may meet, from 0 at its beginning to 1 at its end, by the overlaps from
+/// either side (lanes as in [`Turned`]).
 pub(super) struct Clip<S: Simd> {
     low: f32x8<S>,
     high: f32x8<S>,
 }
 
-/// Outweighs the rounding of times, in shares of a chord.
+/// More than rounding can move the ends of a stretch, as a share of the chord.
 const CHORD_MOMENT: f32 = 1e-6;
-/// The same in shares of the motion.
+/// The same as a share of the motion.
 pub(super) const MOMENT: f32 = 3e-7;
 
 impl<S: Simd> Clip<S> {
@@ -86,7 +89,7 @@ impl<S: Simd> Clip<S> {
         Clip { low: f32x8::splat(simd, 0.0), high: f32x8::splat(simd, 1.0) }
     }
 
-    /// Cuts off where they are apart, gaps being linear between the ends and not negative at both.
+    /// Excludes the times at which there is a gap. Overlaps are linear in time, and not negative at both ends.
     #[inline(always)]
     pub fn cut(&mut self, Turned { begin, end }: &Turned<S>) {
         let crossing = *begin / (*begin - *end);
@@ -101,7 +104,8 @@ impl<S: Simd> Clip<S> {
         self.cut(c);
     }
 
-    /// What is left of spans, the share being one of a chord.
+    /// What is left of the spans in which the pairs of `lanes` were thought to meet, the stretch being one of
+    /// `chord`.
     #[inline(always)]
     pub fn met(self, simd: S, lanes: u32, chord: Span, [a, b, c, d]: &[Span; 4]) -> Met {
         let (low, high) = (self.low.split(), self.high.split());

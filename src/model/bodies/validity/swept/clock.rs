@@ -1,21 +1,23 @@
-//! Where the links stand at the samples of a motion.
+//! The poses of the links at the samples of a motion, computed once and kept in a small cache.
 
 use crate::model::bodies::robot::Robot;
 use crate::model::bodies::validity::frame::Stance;
 use crate::space::{Space, Way};
 
-/// Memory for stances of one motion.
+/// The memory of that cache, used for one motion after the other.
 #[derive(Clone, Debug, Default)]
 pub(in crate::model::bodies::validity) struct Timeline {
+    /// Samples and the poses there.
     slots: Vec<(u64, Stance)>,
+    /// A configuration, while its poses are computed.
     q: Vec<f64>,
 }
 
-/// A power of two; a motion is looked at in a handful of samples, but some of them often.
+/// Binary logarithm of the number of slots. A search visits a handful of samples, some of them many times.
 const SLOTS_LOG: u32 = 6;
 
 impl Timeline {
-    /// Rubbish, see [`Scratch::poison`](crate::model::bodies::validity::Scratch::poison).
+    /// Fills the memory with rubbish, see [`ModelScratch::poison`](crate::model::ModelScratch::poison).
     pub fn poison(&mut self, rubbish: u64) {
         self.slots = vec![(rubbish % 50, Stance::default()); rubbish as usize % 3];
         self.q = vec![f64::NAN; rubbish as usize % 13];
@@ -28,10 +30,10 @@ pub(in crate::model::bodies::validity) struct Clock<'a> {
     robot: &'a Robot,
     a: &'a [f64],
     b: &'a [f64],
-    /// Made when it is first asked for: the ends need none.
+    /// The motion between the ends, prepared for interpolation when a sample between them is first needed.
     way: Option<Way<'a>>,
     pub samples: u64,
-    /// A bit for every slot that holds a stance of this motion.
+    /// A bit for every slot that holds poses of this motion, not of an earlier one.
     held: u64,
     timeline: &'a mut Timeline,
 }
@@ -50,7 +52,7 @@ impl<'a> Clock<'a> {
 
     /// Where the links stand at a sample.
     pub fn at(&mut self, sample: u64) -> &Stance {
-        // Samples are multiples of powers of two, which this spreads (Fibonacci hashing).
+        // Fibonacci hashing: samples are often multiples of large powers of two, which it spreads over the slots.
         let slot = sample.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (u64::BITS - SLOTS_LOG);
         let Timeline { slots, q } = &mut *self.timeline;
         let (held, stance) = &mut slots[slot as usize];

@@ -1,4 +1,4 @@
-//! Two elements during a stretch of samples.
+//! Conservative advancement: whether two elements come near each other during a range of samples.
 
 use super::Asks;
 use super::search::Sweep;
@@ -10,18 +10,19 @@ use parry3d_f64::math::Vector;
 
 /// What keeps two elements apart at one sample.
 enum Apart {
-    /// The gap along an axis that points to the moving one.
+    /// A unit vector from the standing element towards the moving one, and the gap along it.
     Along(Vector, f64),
-    /// A distance.
+    /// Their distance, where no axis along which they are that far apart is known.
     By(f64),
 }
 
 impl<S: Simd> Sweep<'_, '_, S> {
-    /// Whether two elements come as near, at a sample of the span, as half a step moves the points of
-    /// the moving one.
+    /// Whether the elements of two leaves come nearer to each other, at a sample within the span, than half a step
+    /// moves the points of the moving one; with [`Asks::Samples`], whether they meet at one of the samples.
     ///
-    /// If only samples are asked about: whether they meet at one. The gap at one sample keeps them apart for a while, for its change is bounded; what is left on
-    /// either side is looked at in the same way.
+    /// The gap between the elements is computed at the middle sample. Since the velocity of their points is bounded, it
+    /// proves that they stay apart for some time before and after; the samples that are left on either side are
+    /// examined in the same way.
     #[inline(never)]
     pub(super) fn touches(&mut self, moving: u32, node: u32, span: Span) -> bool {
         let meeting = self.meeting;
@@ -32,7 +33,7 @@ impl<S: Simd> Sweep<'_, '_, S> {
         let reach = element.reach(&self.course.rates);
         let (speed, bend) = (self.course.rates.speed_at(reach), self.course.rates.bend_at(reach));
         let margin = self.course.spare * speed;
-        // A sample is cut off by far less than rounding could move it.
+        // Slightly fewer samples to a unit of time, so that rounding never makes a proved stretch too long.
         let samples = self.clock.samples as f64 * (1.0 - 1e-9);
         self.stacks.work.count(|work| work.pairs += 1);
         let Samples { from, to } = Samples::around(span, self.clock.samples);
@@ -75,7 +76,8 @@ impl<S: Simd> Sweep<'_, '_, S> {
                     }
                 },
             };
-            // The later part lies on top and is looked at first; both are shorter than half.
+            // The later part is pushed last and examined first. Both parts are shorter than half of the range, so
+            // that the stack of 64 ranges suffices.
             let first = middle as f64 - before * samples;
             if first > from as f64 {
                 let held = first as i64 as u64;
@@ -94,8 +96,8 @@ impl<S: Simd> Sweep<'_, '_, S> {
         false
     }
 
-    /// What keeps two elements apart by more than `margin` at a sample, the one with its corners at
-    /// `corners`.
+    /// What proves that two elements are apart by more than `margin` at a sample, the moving one having its
+    /// corners at `corners`; `None` if they are not.
     fn apart(
         &mut self,
         element: &Element,
@@ -110,7 +112,7 @@ impl<S: Simd> Sweep<'_, '_, S> {
         {
             return Some(Apart::Along(axis, gap - thick));
         }
-        // Two may be farther apart than along any of the axes.
+        // Not conclusive: elements may be farther apart than the widest gap along any of the axes tried.
         let way = self.meeting.nearest((element, corners), other, self.clock.at(sample));
         let flat = element.flat || other.flat;
         (way.distance > margin).then_some(match flat {
@@ -120,8 +122,9 @@ impl<S: Simd> Sweep<'_, '_, S> {
     }
 }
 
-/// For how long, before and after, no corner comes nearer by more than `gap` to what lies below the
-/// lowest along an axis: heights, their rates and a bound on their second derivatives.
+/// For how long before and after a moment three corners stay above a plane that lies `gap` below the lowest of
+/// them, given their heights above some parallel plane, the rates of the heights, and a bound `bend` on the second
+/// derivatives of the heights.
 fn hold(heights: &[f64; 3], rates: &[f64; 3], gap: f64, bend: f64) -> (f64, f64) {
     let bend = bend.max(1e-300);
     let lowest = heights[0].min(heights[1]).min(heights[2]);

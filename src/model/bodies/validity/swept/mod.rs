@@ -1,10 +1,12 @@
-//! Whether a whole motion is free, in one recursion over two trees and time.
+//! Continuous collision detection: whether a whole motion is free, in one recursion over two trees of oriented
+//! bounding boxes (OBBs) and over time.
 //!
-//! Over a chord of the motion a point leaves the straight line by at most an eighth of the chord's time,
-//! squared, times a bound on its second derivative. So the extents of a moving box along an axis that
-//! stands still, and of a box that stands still along an axis that moves with the body, are linear up to
-//! that error, and every axis clips the times at which the two can meet. Where nothing is left, all that
-//! the boxes hold is apart during the whole chord. `docs/validity.md` says it in full.
+//! A chord is a stretch [t₀, t₁] of the motion in which every point is thought to go straight from its position at
+//! t₀ to that at t₁. In truth it leaves that line by at most (t₁ − t₀)²/8 times a bound on its second derivative. So
+//! the extent of a moving box along a standing axis, and that of a standing box along an axis that moves with the
+//! body, are linear in time up to that error, and each such separating axis excludes the times at which its gap
+//! is positive. Where no time is left, all that the two boxes hold is apart during the whole chord.
+//! `docs/validity.md` says it in full.
 
 mod ball;
 mod chord;
@@ -25,40 +27,42 @@ use crate::model::bodies::robot::Rates;
 use search::Sweep;
 use span::{Samples, Span};
 
-/// A chord is halved while its points leave it by more than this share of the larger box.
+/// A chord is halved while its points may leave their straight lines by more than this share of the radius of the
+/// larger of the two boxes.
 const BEND: f64 = 0.01;
 
 #[cfg(test)]
 mod tests;
 
-/// Nodes of the tree that stands still, each with the time in which it may be met.
+/// Nodes of the standing tree, each with the stretch of time in which the moving box at hand may meet it.
 type Open = Vec<(u32, Span)>;
 
-/// Memory for the recursion.
+/// Memory for the recursion. The lists are stacks: each level works above what the levels before it left.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stacks {
-    /// To be tested against the next box.
+    /// Nodes that are still to be tested against the next moving box.
     open: Open,
-    /// Not told apart from it.
+    /// Nodes that no axis separates from the moving box during their whole time.
     near: Open,
-    /// To be tested against the same box over shorter chords.
+    /// Nodes that are to be tested against the same box over shorter chords.
     halves: Open,
-    /// To be tested against the children of the box.
+    /// Nodes that are to be tested against the children of the box.
     children: Open,
-    /// Not told apart from one of these, the first, the second, …
+    /// Nodes that no axis separates from a child of the box, each after the number of that child.
     found: Vec<(u32, u32, Span)>,
+    /// Pairs of nodes, for tests at a single sample.
     pub pairs: Vec<(u32, u32)>,
     /// Of the bounds on the motion of a link: the links on the way down to it.
     pub descent: Vec<usize>,
-    /// Of the bounds: nodes, and when they are to be looked at.
+    /// For the test of the bounds: nodes of the moving tree, and the samples between which they are to be tested.
     inside: Vec<(u32, Samples)>,
-    /// A bit for each of the last searches, set where something was in the way.
+    /// A bit for each of the last 32 searches, set where the motion was blocked.
     blocked: u32,
     pub work: Work,
 }
 
 impl Stacks {
-    /// Rubbish, see [`Scratch::poison`](crate::model::bodies::validity::Scratch::poison).
+    /// Fills the memory with rubbish, see [`ModelScratch::poison`](crate::model::ModelScratch::poison).
     pub fn poison(&mut self, rubbish: u64) {
         let span = Span { from: 0.0, to: rubbish as f32 };
         let entry = (u32::MAX, span);
@@ -74,36 +78,36 @@ impl Stacks {
     }
 }
 
-/// What is asked of a motion.
+/// What a search is to prove of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Asks {
-    /// That at every sample, the ends among them, every two surfaces are farther apart than half a
-    /// step moves the points of the one: they are then apart at all times.
+    /// That at every sample, both ends included, the surfaces of the two groups are farther apart than half a step
+    /// can move a point of the moving one. They are then apart at all times.
     AllTimes,
     /// That no surfaces meet at the samples between the ends.
     Samples,
 }
 
 impl Asks {
-    /// Whether it is about any time within a span.
+    /// Whether any time within a span matters to the question.
     #[inline(always)]
     fn about(self, span: Span, last: u64) -> bool {
         self == Asks::AllTimes || span.holds_any(last)
     }
 }
 
-/// What is found.
+/// What a search has found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Finds {
-    /// It is as asked.
+    /// The motion is as [`Asks`] demands.
     Free,
-    /// Some surfaces come too near.
+    /// Some surfaces come too near each other.
     Near,
     /// Surfaces meet at a sample between the ends.
     Meets,
 }
 
-/// What is found of two groups during a motion.
+/// Searches a motion for contacts between two groups of bodies.
 pub(super) fn find<'a>(
     meeting: Meeting<'a>,
     rates: Rates,

@@ -1,4 +1,4 @@
-//! How much room bodies have inside the bounds, and whether they stay inside during a motion.
+//! Whether bodies stand inside the bounds, and whether they stay there during a motion.
 
 use super::clock::Clock;
 use super::span::Samples;
@@ -7,7 +7,7 @@ use crate::model::bodies::robot::Rates;
 use crate::model::bodies::validity::frame::Frame;
 use crate::model::bodies::validity::tree::{Node, Tree};
 
-/// A box along the first `axes` of the world's axes.
+/// The bounds: an axis-aligned box in the world's frame, of which the first `axes` coordinates count.
 #[derive(Clone, Copy)]
 pub(in crate::model::bodies::validity) struct Walls {
     pub min: [f64; 3],
@@ -29,14 +29,14 @@ impl Walls {
                 && self.hold_below(tree, node.left + 1, frame)
     }
 
-    /// The least distance of a node's box, of a leaf that of its element, from the sides; negative where
-    /// it reaches beyond one.
+    /// The least distance from the sides of a node's box, or, of a leaf, of its element; negative where it reaches
+    /// beyond a side.
     fn room(&self, tree: &Tree, node: &Node, frame: &Frame) -> f64 {
         let to_world = frame.turn.transpose();
         let along = [to_world.x_axis, to_world.y_axis, to_world.z_axis];
         let origin = frame.shift.to_array();
         (0..self.axes).fold(f64::INFINITY, |least, i| {
-            // From the frame's origin to the farthest points along the axis and against it.
+            // How far it reaches from the origin of its frame along the axis, and in the opposite direction.
             let (above, below) = if node.is_leaf() {
                 let element = &tree.elements[node.element as usize];
                 (element.extent(along[i]), element.extent(-along[i]))
@@ -52,8 +52,9 @@ impl Walls {
     }
 }
 
-/// Whether at every sample every element has as much room as a step may take from any of them. All are
-/// then inside at all times, for a box that holds both ends of a chord holds the chord.
+/// Whether at every sample every element is farther from the sides than its points can leave their straight lines
+/// within one step. Then all are inside at all times, since a box that holds both ends of a straight line holds the
+/// line.
 pub(in crate::model::bodies::validity) fn stays_inside(
     walls: &Walls,
     (tree, link): (&Tree, usize),
@@ -89,7 +90,7 @@ pub(in crate::model::bodies::validity) fn stays_inside(
     true
 }
 
-/// A bound on the second derivatives of the ways of a node's points.
+/// A bound on the second derivatives of the paths of a node's points.
 fn bend_of(node: &Node, rates: &Rates) -> f64 {
     rates.bend_at(node.space.radius + rates.distance(node.space.centre))
 }

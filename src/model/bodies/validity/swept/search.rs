@@ -1,4 +1,5 @@
-//! The recursion.
+//! Continuous collision detection between two bounding-volume hierarchies: one recursion over both trees and
+//! over the time of a motion.
 
 use super::chord::{Chord, Course, SweptBoxes};
 use super::clip::MOMENT;
@@ -11,14 +12,16 @@ use crate::model::bodies::validity::light::Four;
 use crate::model::bodies::validity::meet::Meeting;
 use fearless_simd::Simd;
 
-/// After so many tests of boxes without an answer it is looked whether surfaces meet at one sample, and each
-/// time after half as many times more.
+/// A search that has tested this many pairs of boxes without an answer checks one sample of the motion for
+/// collisions, since a blocked motion is often refused sooner that way than by searching on. From one such check
+/// to the next the number of tests grows by half.
 const PATIENCE: f64 = 48.0;
-/// Where of the last 32 searches so many found something in the way, the first look comes after so many tests,
-/// and is at all of the robot.
+/// When blocked motions are frequent: if at least this many of the last 32 searches ended blocked, the first
+/// sample is checked after this many tests of boxes already, and there the whole group is checked instead of
+/// the two nodes that the search has come to.
 const OFTEN: (u32, f64) = (4, 2.0);
 
-/// Two groups during a motion.
+/// The search for contacts between two groups of bodies during a motion.
 pub(super) struct Sweep<'a, 'c, S: Simd> {
     pub(super) simd: S,
     pub(super) meeting: Meeting<'a>,
@@ -27,13 +30,13 @@ pub(super) struct Sweep<'a, 'c, S: Simd> {
     pub(super) asked: Samples,
     pub(super) clock: &'c mut Clock<'a>,
     pub(super) stacks: &'c mut Stacks,
-    /// Surfaces were found to meet at a sample between the ends.
+    /// Whether surfaces were found to meet at a sample strictly between the ends of the motion.
     pub(super) meets: bool,
-    /// The next look is at all of the robot.
+    /// Whether the next check of a sample is of the whole groups.
     whole: bool,
-    /// Tests of boxes until a sample is looked at.
+    /// Tests of boxes that are left until a sample is checked.
     patience: f64,
-    /// From then to the next look.
+    /// Tests of boxes from that check to the next one.
     rest: f64,
 }
 
@@ -61,7 +64,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         Sweep { simd, meeting, course, asks, asked, clock, stacks, meets, whole, patience, rest }
     }
 
-    /// Whether it is as asked.
+    /// Whether the motion is as [`Asks`] demands.
     pub fn finds(&mut self) -> Finds {
         let last = self.clock.samples;
         if self.asked.from > self.asked.to {
@@ -93,8 +96,8 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         self.clock.at(sample).seen(mover_link, still_link)
     }
 
-    /// Whether anything in a box comes near anything below the nodes that are open, at a sample of theirs
-    /// within the chord.
+    /// Whether anything in the box of the moving `node` comes near anything below the open nodes of the other
+    /// tree, at a sample within the chord and within the time span of that open node.
     fn blocked(&mut self, node: u32, samples: Samples) -> bool {
         let simd = self.simd;
         let frames = [self.frame(samples.from), self.frame(samples.to)];
@@ -114,8 +117,8 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         )
     }
 
-    /// Tests a box in all lanes against what is open. Whether meanwhile a look at a sample found that surfaces
-    /// meet.
+    /// Tests one moving box, which stands in every lane, against the open nodes, four at a time; those that it
+    /// may meet go to the list `near`. Returns whether a check of a sample on the way found that surfaces meet.
     #[inline(always)]
     fn find_near(&mut self, node: u32, chord: &Chord<S>, swept: &SweptBoxes<S>) -> bool {
         let simd = self.simd;
@@ -137,7 +140,8 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         self.tires(tests, (node, first.0, first.1))
     }
 
-    /// The same of nodes that are near, from `base` on, and a box, which may have a lane among others.
+    /// [`Sweep::blocked`] for the nodes of the list `near` from `base` on: nodes that the box of `node` may meet.
+    /// `lane` says which of the four boxes of `swept` it is, or that it stands in every lane.
     #[inline(always)]
     fn comes_near(
         &mut self,
@@ -189,7 +193,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         self.stacks.children.len() > children && self.children_blocked(node, chord, children)
     }
 
-    /// [`Sweep::blocked`] over shorter chords, of the nodes in the list of halves from `list` on.
+    /// [`Sweep::blocked`] over shorter chords, for the nodes of the list `halves` from `list` on.
     #[inline(never)]
     fn halves_blocked(&mut self, node: u32, chord: &Chord<S>, list: usize) -> bool {
         let spans = self.stacks.halves[list..].iter().map(|(_, span)| *span);
@@ -199,7 +203,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let middle = from + (to - from) / 2;
         let part = Samples::around(whole, last);
         let part = Samples { from: part.from.max(from), to: part.to.min(to) };
-        // What is left, if that is less than half; else one half after the other.
+        // One chord over the time that is left, where that is less than half; else one half after the other.
         let (parts, count) = if 2 * part.length() <= to - from {
             ([(part, whole); 2], 1)
         } else {
@@ -224,7 +228,8 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         false
     }
 
-    /// [`Sweep::blocked`] of the children of a box, with the nodes in the list of children from `list` on.
+    /// [`Sweep::blocked`] for the children of the moving `node`, with the nodes of the list `children` from
+    /// `list` on.
     #[inline(always)]
     fn children_blocked(&mut self, node: u32, chord: &Chord<S>, list: usize) -> bool {
         let simd = self.simd;
@@ -279,8 +284,8 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         )
     }
 
-    /// Whether, after so many more tests of boxes, it is time to look at one sample, and surfaces meet there:
-    /// any, or those of two nodes that may meet during a span.
+    /// Counts tests of boxes. When a sample is due to be checked ([`PATIENCE`]), checks it and returns whether
+    /// surfaces meet there: those below the two nodes, at a sample within the span in which they may meet, or any.
     #[inline(always)]
     fn tires(&mut self, tests: usize, near: (u32, u32, Span)) -> bool {
         self.patience -= tests as f64;
@@ -293,7 +298,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         if last < 2 {
             return false;
         }
-        // What is in the way is often so half way, else where the search is.
+        // Blocked motions are blocked most often half way; after that, where the search has come to.
         let (pair, sample) = if std::mem::take(&mut self.whole) {
             ((0, 0), last / 2)
         } else {

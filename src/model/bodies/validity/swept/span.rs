@@ -1,6 +1,6 @@
-//! Stretches of a motion.
+//! Stretches of a motion, in time and in samples.
 
-/// A stretch of time, in shares of the motion.
+/// A stretch of time, from 0 at the beginning of the motion to 1 at its end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
     pub from: f32,
@@ -14,23 +14,24 @@ impl Span {
         self.to - self.from
     }
 
+    /// The least stretch that holds both.
     pub fn with(self, other: Span) -> Span {
         Span { from: self.from.min(other.from), to: self.to.max(other.to) }
     }
 
-    /// Whether any sample is in it.
+    /// Whether it holds any of the samples 0 to `last`, the ends of the motion.
     pub fn holds_any(self, last: u64) -> bool {
         let [from, to] = self.within(last);
         from.ceil() <= to.floor()
     }
 
-    /// In samples.
+    /// Its ends in units of samples.
     fn within(self, last: u64) -> [f64; 2] {
         [self.from, self.to].map(|time| f64::from(time) * last as f64)
     }
 }
 
-/// A stretch of samples.
+/// A stretch of samples, both ends included.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Samples {
     pub from: u64,
@@ -38,14 +39,15 @@ pub(super) struct Samples {
 }
 
 impl Samples {
+    /// Number of steps in it.
     pub fn length(self) -> u64 {
         self.to - self.from
     }
 
-    /// Those of so many that hold a span, the last one being the end of the motion.
+    /// The least stretch of the samples 0 to `last` that holds a span of time.
     pub fn around(span: Span, last: u64) -> Samples {
         let [from, to] = span.within(last);
-        // Samples fit signed integers, to which conversion is one instruction.
+        // By way of signed integers, which the samples fit: that conversion is a single instruction.
         Samples { from: from.max(0.0) as i64 as u64, to: (to as i64 as u64 + 1).min(last) }
     }
 }

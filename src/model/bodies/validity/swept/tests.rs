@@ -1,4 +1,4 @@
-//! Whole motions against motions looked at step by step.
+//! Continuous collision detection against discrete checks at much finer steps.
 
 use super::super::meet::Group;
 use super::super::tests::{chain, cuboid, cuboid_mesh, solid};
@@ -17,12 +17,12 @@ struct Scene {
     space: Space,
     swept: BodyValidity,
     sampled: BodyValidity,
-    /// The same as `swept`, with obstacles and triangles the other way round: other trees.
+    /// The same as `swept`, with obstacles and triangles in reverse order, so that the trees differ.
     reversed: BodyValidity,
 }
 
 const RESOLUTION: f64 = 0.2;
-/// How much finer the motions are looked at step by step than the resolution asks for.
+/// How many times finer than the resolution the steps of the discrete checks are.
 const FINER: u64 = 16;
 
 fn scene(name: &'static str, robot: &Robot, obstacles: &[Body], meaning: BoundsMeaning) -> Scene {
@@ -176,7 +176,7 @@ impl BodyValidity {
     }
 }
 
-/// None accepted that is blocked at finer steps; none refused but where something is near.
+/// No motion is accepted that is blocked at finer steps, and none is refused unless something is near.
 #[test]
 fn swept_motions_are_free_between_the_steps() {
     let scratch = &mut Scratch::new();

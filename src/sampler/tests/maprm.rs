@@ -1,12 +1,14 @@
 //! The law of medial axis sampling: equally far from two witnesses, and on axes that are known.
 
-use super::laws::{fits, follows, plane, points};
-use super::tests::{context, sampler, sets};
-use super::*;
+use super::statistics::{fits, follows};
+use super::{context, plane, points, sampler, sets};
+use crate::context::Context;
 use crate::math;
+use crate::model::Scratch;
+use crate::roadmap::Configs;
 use std::f64::consts::TAU;
 
-/// With a hair more for rounding.
+/// The tolerance of the samplers below, with a little more for rounding.
 const TOLERANCE: f64 = 0.01 * (1.0 + 1e-9);
 const MAPRM: &str = "maprm = { step = 0.1, tolerance = 0.01 }";
 const BOUNDED: &str = "maprm = { step = 0.1, tolerance = 0.01, bounds = true }";
@@ -15,14 +17,14 @@ fn milestones(cx: &Context, text: &str, count: usize) -> Configs {
     sets(cx, &sampler(text), 0..1, count, &mut Scratch::new())
 }
 
-/// The two least distances, each to another thing, are equal within the tolerance.
+/// The two least distances, which are from two different obstacles or sides, are equal within the tolerance.
 fn on_axis(mut distances: Vec<f64>) {
     distances.sort_by(f64::total_cmp);
     assert!(distances[0] > 0.0 && distances[1] - distances[0] <= TOLERANCE, "{distances:?}");
 }
 
-/// A passage of width 1 between two half spaces: what is drawn in them is moved out by the nearest side and
-/// then, as what is drawn in between, straight to the middle, so that along the passage all is uniform.
+/// A passage of width 1 between two half spaces. Configurations drawn inside a half space are moved out by its side;
+/// then all are pushed straight to the middle of the passage, so that along the passage milestones are uniform.
 #[test]
 fn between_two_walls_milestones_lie_in_the_middle_and_uniformly_along() {
     let cx = plane(21.0, 20.0, &[[0.0, 0.0, 10.0, 20.0], [11.0, 0.0, 10.0, 20.0]]);
@@ -32,8 +34,7 @@ fn between_two_walls_milestones_lie_in_the_middle_and_uniformly_along() {
     follows(far.map(|[_, y]| (y - 5.0) / 10.0).collect(), |share| share);
 }
 
-/// A block that all but fills the room: by its diagonals it falls into two triangles and two trapezoids, one
-/// for each side that is nearest.
+/// A block that nearly fills the room. The points nearest to each of its sides form two triangles and two trapezoids.
 #[test]
 fn a_point_inside_a_block_leaves_it_by_the_nearest_side() {
     let (width, height, gap) = (2.0, 1.0, 0.01);
@@ -51,8 +52,8 @@ fn a_point_inside_a_block_leaves_it_by_the_nearest_side() {
     fits(&sides, &[end, end, side, side]);
 }
 
-/// In an empty box, where the bounds count as obstacles, every point goes along the normal of its nearest
-/// wall: to the middle plane those above and below the part of it that is nowhere nearer to another wall.
+/// In an empty box whose bounds count as obstacles every point is pushed along the normal of its nearest side. It ends
+/// in the middle plane if it started above or below the part of that plane that is nearest to the two large sides.
 #[test]
 fn in_a_room_milestones_are_as_far_from_two_walls() {
     let cx = context(
@@ -67,7 +68,7 @@ fn in_a_room_milestones_are_as_far_from_two_walls() {
     fits(&planes, &[4.0, 20.0]);
 }
 
-/// A rod that turns in the plane, in a room of three bounds and a wall: its distances follow from its angle.
+/// A rod that turns in the plane, in a room of three bounds and a wall: its distances from them follow from its angle.
 #[test]
 fn a_rod_that_turns_is_as_far_from_two_walls() {
     let cx = context(
@@ -82,7 +83,8 @@ fn a_rod_that_turns_is_as_far_from_two_walls() {
     }
 }
 
-/// A ball that could also turn, and a point, among balls: two of them are equally near, or a ball and a bound.
+/// A ball that could also turn, and a point, among balls: two balls are equally near, or a ball and a side of the
+/// bounds.
 #[test]
 fn among_balls_milestones_have_two_witnesses() {
     let balls =
@@ -120,9 +122,9 @@ fn among_balls_milestones_have_two_witnesses() {
     }
 }
 
-/// A ball on a turning arm among three others: its space is a circle, on which random directions find the
-/// nearest exactly, so the middles between neighbours are all that there is, each for what is drawn between
-/// the centres of its two.
+/// A ball on a turning arm among three other balls. The space is a circle, on which random directions find the nearest
+/// obstacle exactly. So there are just three possible milestones, the middles between neighbouring balls, and each is
+/// reached from the configurations between the centres of its two balls.
 #[test]
 fn an_arm_that_turns_stops_in_the_middle_between_two_obstacles() {
     let obstacles = [0.0f64, 100.0, 220.0].map(f64::to_radians);

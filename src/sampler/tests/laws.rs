@@ -1,25 +1,13 @@
 //! Laws that every sampler keeps, on every robot.
 
-use super::*;
+use super::{SCENE, context, sampler, sets};
+use crate::context::Context;
+use crate::model::Scratch;
 use crate::problem::Problem;
+use crate::roadmap::Configs;
+use crate::sampler::{GaveUp, SamplerKind};
 use crate::seed::Seed;
 use std::path::Path;
-
-const SCENE: &str = r#"
-[space]
-motion = "rigid-3d"
-min = [0.0, 0.0, -2.0]
-max = [4.0, 4.0, 2.0]
-bounds = "body"
-[robot]
-bodies = [{ shape = { box = { size = [1.0, 0.2, 0.2] } } }]
-[[obstacles]]
-shape = { sphere = { radius = 1.0 } }
-position = [2.0, 1.5, 0.0]
-[[obstacles]]
-shape = { sphere = { radius = 0.5 } }
-position = [2.0, 3.3, 0.0]
-"#;
 
 /// The scene with another robot: a rod, and links of 0.3 that turn about z and, every other, about y.
 fn scene(motion: &str, body: &str, links: usize) -> String {
@@ -61,12 +49,6 @@ fn robots() -> Vec<(&'static str, String)> {
     ]
 }
 
-pub(super) fn context(scene: &str) -> Context {
-    Problem::parse(Path::new("scene.toml"), scene)
-        .unwrap_or_else(|error| panic!("{error}"))
-        .context()
-}
-
 /// Samplers as a problem file names them: one of each, and those whose settings change much.
 fn samplers() -> Vec<SamplerKind> {
     let samplers = [
@@ -89,29 +71,8 @@ fn samplers() -> Vec<SamplerKind> {
     samplers.map(sampler).to_vec()
 }
 
-pub(super) fn sampler(text: &str) -> SamplerKind {
-    toml::from_str(text).unwrap_or_else(|error| panic!("{text}: {error}"))
-}
-
 fn sample(cx: &Context, sampler: &SamplerKind, ordinal: u64, scratch: &mut Scratch) -> Configs {
     sets(cx, sampler, ordinal..ordinal + 1, 12, scratch)
-}
-
-/// The milestones of several sets, of `count` each.
-pub(super) fn sets(
-    cx: &Context,
-    sampler: &SamplerKind,
-    ordinals: std::ops::Range<u64>,
-    count: usize,
-    scratch: &mut Scratch,
-) -> Configs {
-    let mut configs = Configs::new(cx.space.len());
-    for ordinal in ordinals {
-        let seed = Seed::of_set(7, "laws", ordinal);
-        let done = sampler.method().sample(cx, &seed, count, scratch, &mut configs);
-        assert_eq!(done, Ok(()), "{sampler:?}");
-    }
-    configs
 }
 
 #[test]
@@ -156,7 +117,7 @@ fn milestones_follow_from_the_seed_and_from_nothing_that_is_remembered() {
     }
 }
 
-/// The ball fills the room, or, for those that need one, there is next to nothing to collide with.
+/// Either obstacles fill the whole room, or, for samplers near obstacles, there is next to nothing to collide with.
 #[test]
 fn a_sampler_that_can_find_nothing_gives_up() {
     let full = context(&SCENE.replace("radius = 1.0", "radius = 9.0"));
@@ -183,7 +144,7 @@ fn a_sampler_that_can_find_nothing_gives_up() {
         let error = sampler.method().sample(cx, &seed, 1, &mut scratch, &mut configs).unwrap_err();
         assert_eq!(error, GaveUp { attempts: 50 }, "{text}");
         let asked = scratch.take_asked().configurations;
-        // At most so many steps in so many directions for each.
+        // MAPRM may check up to 3 steps of a push and 3 steps in each of 4 directions for every attempt.
         let most = if text.starts_with("maprm") { 50 * (3 + 4 * 3) } else { u64::MAX };
         assert!((50..=most).contains(&asked), "{text}: {asked}");
     }
@@ -237,23 +198,5 @@ fn samplers_say_what_they_cannot_work_with() {
         let problem = format!("{scene}\n[[strategies]]\nlabel = \"a\"\nsampler = {{ {text} }}\n");
         let error = Problem::parse(Path::new("scene.toml"), &problem).unwrap_err().to_string();
         assert!(error.starts_with("scene.toml:") && error.contains(expected), "{text}: {error}");
-    }
-}
-
-#[test]
-fn steps_have_the_length_asked_for() {
-    let cx = context(SCENE);
-    let mut stream = Seed::of_set(3, "steps", 0).stream(crate::seed::Purpose::Sampling);
-    let (mut q, mut far) = (vec![0.0; 7], vec![0.0; 7]);
-    for i in 0..200 {
-        cx.space.sample_uniform(&mut stream, &mut q);
-        let length = 0.01 * f64::from(i);
-        cx.space.step(&q, length, &mut stream, &mut far);
-        let distance = cx.space.distance(&q, &far);
-        assert!(distance <= length + 1e-7, "{distance} {length}");
-        // Within half a turn of the rotation nothing wraps.
-        if length < 1.5 {
-            assert!((distance - length).abs() < 1e-7, "{distance} {length}");
-        }
     }
 }
