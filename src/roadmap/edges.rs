@@ -38,26 +38,26 @@ impl Edges {
 
     /// All edges in order.
     pub fn iter(&self) -> impl Iterator<Item = Edge> {
-        let settled = self.blocks.iter().flat_map(|block| {
+        let shared = self.blocks.iter().flat_map(|block| {
             let columns = Columns::of(block);
             (0..BLOCK).map(move |index| columns.edge(index))
         });
-        settled.chain(self.rest.iter().copied())
+        shared.chain(self.rest.iter().copied())
     }
 
     pub(super) fn extend(&mut self, edges: impl IntoIterator<Item = Edge>) {
         self.rest.extend(edges);
     }
 
-    /// Puts on the shelf what fills whole blocks.
-    pub(super) fn settle(&mut self, shelf: &dyn Shelf) {
-        let settled = self.rest.len() / BLOCK * BLOCK;
-        for edges in self.rest[..settled].chunks_exact(BLOCK) {
+    /// Moves what fills whole blocks to the shelf, which replicas of the roadmap share.
+    pub(super) fn share_full_blocks(&mut self, shelf: &dyn Shelf) {
+        let shared = self.rest.len() / BLOCK * BLOCK;
+        for edges in self.rest[..shared].chunks_exact(BLOCK) {
             let name = BlockName::Edges(self.blocks.len() as u32);
             let mut fill = |block: &mut [u8]| write(edges, block);
             self.blocks.push(shelf::kept(shelf, name, BLOCK * BYTES, &mut fill));
         }
-        self.rest.drain(..settled);
+        self.rest.drain(..shared);
     }
 }
 

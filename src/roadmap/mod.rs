@@ -113,8 +113,8 @@ impl Roadmap {
             }
         }
         if let Some(shelf) = &self.shelf {
-            self.configs.settle(&**shelf);
-            self.edges.settle(&**shelf);
+            self.configs.share_full_blocks(&**shelf);
+            self.edges.share_full_blocks(&**shelf);
         }
         if self.keeps_edges {
             self.rounds.push(Extent {
