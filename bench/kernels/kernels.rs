@@ -4,7 +4,7 @@ use super::support::sample;
 use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
 use roadmill::img::{Job, Outcome, Replica, Setup};
-use roadmill::neighbor::{Candidates, Index, k_nearest, k_nearest_graph};
+use roadmill::neighbor::{Index, Searched, k_nearest, k_nearest_graph};
 use roadmill::problem::Problem;
 use roadmill::query::{Attachment, solve};
 use roadmill::roadmap::{Configs, Increment};
@@ -129,10 +129,10 @@ fn samples(sampler: &str) -> Work {
     })
 }
 
-/// All configurations count.
+/// All configurations are eligible.
 struct All(Configs);
 
-impl Candidates for All {
+impl Searched for All {
     fn config(&self, id: u32) -> &[f64] {
         self.0.get(id as usize)
     }

@@ -1,7 +1,10 @@
+//! Searches by brute force, which define what every other search returns.
+
 use super::best::{Best, NearPair, Neighbor};
 use crate::space::{Configs, Space};
 
-/// The at most `k` configurations nearest to `q` among `ids`, nearest first, ties by id.
+/// The at most `k` of `configs` among `ids` that are nearest to `q` by [`Space::distance`], nearest first, ties by
+/// id. The order of `ids` does not matter.
 pub fn k_nearest(
     space: &Space,
     configs: &Configs,
@@ -20,8 +23,8 @@ pub fn k_nearest(
     best.into_items()
 }
 
-/// The at most `count` closest pairs of a configuration of `first` and one of `second`, closest
-/// first, ties by the first id, then by the second.
+/// The at most `count` closest pairs, by [`Space::distance`], of a configuration of `first` and one of `second`, each
+/// given with the ids that take part. Closest first, ties by the first id, then by the second.
 pub fn closest_pairs(
     space: &Space,
     first: (&Configs, &[u32]),

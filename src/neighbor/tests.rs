@@ -88,21 +88,21 @@ fn configs(space: &Space, stream: &mut Stream, count: usize) -> Configs {
     configs
 }
 
-/// Ids with one of a few labels; those of one label count.
+/// Ids with one of a few labels; all are eligible, or those with one label.
 struct Labelled<'a> {
     configs: &'a Configs,
     label_of: &'a [u32],
     wanted: Option<u32>,
 }
 
-impl Candidates for Labelled<'_> {
+impl Searched for Labelled<'_> {
     fn config(&self, id: u32) -> &[f64] {
         self.configs.get(id as usize)
     }
-    fn counts(&self, id: u32) -> bool {
-        self.label_counts(id) != Some(false)
+    fn is_eligible(&self, id: u32) -> bool {
+        self.label_is_eligible(id) != Some(false)
     }
-    fn label_counts(&self, id: u32) -> Option<bool> {
+    fn label_is_eligible(&self, id: u32) -> Option<bool> {
         self.wanted.map(|wanted| self.label_of[id as usize] == wanted)
     }
 }
@@ -164,11 +164,11 @@ proptest! {
             let (end, label_of) = &states[*state];
             index.extend(*end, |id| configs.get(id as usize), |id| label_of[id as usize]);
             let wanted = Some((stream.unit() * 5.0) as u32);
-            let candidates = Labelled { configs: &configs, label_of, wanted };
-            let ids = (0..*end).filter(|id| candidates.counts(*id));
+            let searched = Labelled { configs: &configs, label_of, wanted };
+            let ids = (0..*end).filter(|id| searched.is_eligible(*id));
             let q = configs.get((stream.unit() * configs.len() as f64) as usize);
             let expected = k_nearest(&space, &configs, ids, q, 7);
-            prop_assert_eq!(index.k_nearest(&space, &candidates, *end, q, 7), expected);
+            prop_assert_eq!(index.k_nearest(&space, &searched, *end, q, 7), expected);
         }
     }
 
@@ -182,28 +182,28 @@ proptest! {
         for space in spaces() {
             let configs = configs(&space, &mut stream, count);
             let ids = 0..configs.len() as u32;
-            // Labels by place, so that whole boxes have one.
+            // Labels by position, so that whole boxes have the same one.
             let mut label_of: Vec<u32> = configs
                 .iter()
                 .map(|q| if q.first().is_some_and(|x| *x < 0.0) { 0 } else { 1 + (stream.unit() * 4.0) as u32 })
                 .collect();
             let (index, steps) = index(&space, &configs, &mut label_of, &mut stream);
             for wanted in [None, Some(0), Some(1)] {
-                let candidates = Labelled { configs: &configs, label_of: &label_of, wanted };
+                let searched = Labelled { configs: &configs, label_of: &label_of, wanted };
                 let some: Vec<u32> =
-                    ids.clone().filter(|id| candidates.counts(*id)).collect();
+                    ids.clone().filter(|id| searched.is_eligible(*id)).collect();
                 let others = super::tests::configs(&space, &mut stream, 6);
                 let mut queries: Vec<&[f64]> = others.iter().collect();
                 queries.extend(configs.iter().step_by(61));
                 for q in queries {
                     let expected = k_nearest(&space, &configs, some.iter().copied(), q, k);
-                    let found = index.k_nearest(&space, &candidates, ids.end, q, k);
+                    let found = index.k_nearest(&space, &searched, ids.end, q, k);
                     prop_assert_eq!(found, expected, "{:?} {:?}", steps, wanted);
                 }
                 let first: Vec<u32> = (0..others.len() as u32).collect();
                 let first = (&others, &first[..]);
                 let expected = closest_pairs(&space, first, (&configs, &some), k);
-                let found = index.closest_pairs(&space, first, &candidates, ids.end, k);
+                let found = index.closest_pairs(&space, first, &searched, ids.end, k);
                 prop_assert_eq!(found, expected, "{:?} {:?}", steps, wanted);
             }
         }
@@ -246,13 +246,13 @@ proptest! {
             let embedding = Embedding::new(&space);
             let (leaf, points) = leaf(&embedding, &configs);
             let longest = points.iter().map(|point| length(point)).fold(0.0, f64::max);
-            let bounds = embedding.bounds(2.0 * longest);
+            let error_bounds = embedding.error_bounds(2.0 * longest);
             for (q, point) in configs.iter().zip(&points) {
                 let squares = embedding.squares(point, &leaf);
                 for (square, other) in squares.into_iter().zip(configs.iter()) {
                     let distance = space.distance(q, other);
-                    prop_assert!(distance * distance <= bounds.most(square));
-                    prop_assert!(square <= bounds.limit(distance * distance));
+                    prop_assert!(distance * distance <= error_bounds.largest_square(square));
+                    prop_assert!(square <= error_bounds.pruning_bound(distance * distance));
                 }
             }
         }
@@ -331,9 +331,9 @@ fn equals_are_told_apart_by_their_ids() {
         for end in [500, 800] {
             index.extend(end, |id| configs.get(id as usize), |_| 0);
         }
-        let candidates = Labelled { configs: &configs, label_of: &[], wanted: None };
+        let searched = Labelled { configs: &configs, label_of: &[], wanted: None };
         let expected = k_nearest(&space, &configs, 0..900, &q, 9);
-        assert_eq!(index.k_nearest(&space, &candidates, 900, &q, 9), expected);
+        assert_eq!(index.k_nearest(&space, &searched, 900, &q, 9), expected);
     }
 }
 
@@ -351,16 +351,16 @@ fn labels_of_a_later_state_are_not_believed() {
     let label_of: Vec<u32> = (0..64).map(|id| id % 2).collect();
     early.extend(64, config_of, |id| label_of[id as usize]);
     assert_eq!((shelf.made(), early.segment_lengths()), (made, vec![64]), "it is the other's");
-    let candidates = Labelled { configs: &configs, label_of: &label_of, wanted: Some(1) };
+    let searched = Labelled { configs: &configs, label_of: &label_of, wanted: Some(1) };
     let odd = || (0..64).filter(|id| id % 2 == 1);
     for q in configs.iter() {
         let expected = k_nearest(&space, &configs, odd(), q, 5);
-        assert_eq!(early.k_nearest(&space, &candidates, 64, q, 5), expected);
+        assert_eq!(early.k_nearest(&space, &searched, 64, q, 5), expected);
     }
 }
 
 #[test]
-fn what_one_index_has_made_others_find_and_what_is_superseded_goes() {
+fn what_one_index_has_built_others_find_and_what_is_superseded_goes() {
     let space = rigid_space(Motion::Rigid3d, [0.0; 3], [3.0; 3], 0.5);
     let mut stream = Seed::of_set(1, "shelf", 0).stream(Purpose::Sampling);
     let configs = configs(&space, &mut stream, 1000);
@@ -391,10 +391,10 @@ fn lengths_of_any_size_keep_their_neighbours() {
         let mut index = Index::new(&space);
         index.extend(300, |id| configs.get(id as usize), |_| 0);
         assert_eq!(k_nearest_graph(&space, &configs, 5), graph(&space, &configs, 5), "{scale}");
-        let candidates = Labelled { configs: &configs, label_of: &[], wanted: None };
+        let searched = Labelled { configs: &configs, label_of: &[], wanted: None };
         for q in configs.iter().step_by(7) {
             let expected = k_nearest(&space, &configs, 0..300, q, 10);
-            assert_eq!(index.k_nearest(&space, &candidates, 300, q, 10), expected, "{scale}");
+            assert_eq!(index.k_nearest(&space, &searched, 300, q, 10), expected, "{scale}");
         }
     }
 }

@@ -1,33 +1,33 @@
-//! Nodes and components near a place, by indices that whoever asks pays for.
+//! Searches for the nodes and components near a configuration, by indices that are built when they pay.
 //!
-//! What is found is what brute force finds, so the indices may come and go as it pays. Who never asks
-//! (a coordinator, a ledger's reader) never builds one.
+//! Searches return what brute force returns, so no result depends on whether there is an index. The indices are
+//! built by searches; processes that never search (a coordinator, a reader of ledgers) never build one.
 
 use super::components::{Component, Components};
-use crate::neighbor::{self, Best, Candidates, Index, NearPair, Neighbor};
+use crate::neighbor::{self, Best, Index, NearPair, Neighbor, Searched};
 use crate::shelf::Shelf;
 use crate::space::{Configs, Space};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, RwLock, RwLockReadGuard};
 
-/// Fewer new nodes than this are searched one by one.
+/// Fewer new nodes than this are searched without a tree.
 const TAIL: u32 = 128;
-/// More new nodes are added to the index once they have been searched so often: that costs about as
-/// much as adding them.
+/// As soon as there are more new nodes they are added to the index after this many searches, which together cost
+/// about as much as adding them.
 const SEARCHES: u32 = 32;
-/// Of a component of at most so many nodes all are looked at.
+/// Components with at most this many nodes are searched by brute force.
 const FEW_MEMBERS: usize = 256;
-/// At most so many components are compared one by one.
+/// At most this many components are searched by brute force.
 const FEW_COMPONENTS: usize = 64;
-/// Stands for no entry.
+/// Stands in place of an entry where a slot has none.
 const NONE: u32 = u32::MAX;
 
-/// The indices over a graph's nodes and over its components' centres, as far as there are any.
+/// The indices of a graph's nodes and of its components' centres. Each is missing until a search builds it.
 #[derive(Debug, Default)]
 pub(super) struct Finder {
     nodes: RwLock<Option<Index>>,
     shelf: Option<Arc<dyn Shelf>>,
-    /// How often nodes were searched since the index last grew.
+    /// Number of searches of nodes since the index last grew.
     searches: AtomicU32,
     centres: RwLock<Option<Centres>>,
 }
@@ -48,12 +48,13 @@ fn read<T>(lock: &RwLock<T>) -> RwLockReadGuard<'_, T> {
 }
 
 impl Finder {
-    /// For nodes whose index is kept on a shelf.
+    /// A finder whose index of nodes shares segments with others on a shelf.
     pub(super) fn with_shelf(shelf: Arc<dyn Shelf>) -> Finder {
         Finder { shelf: Some(shelf), ..Finder::default() }
     }
 
-    /// Takes in that the components in some slots, ascending, are new, gone or have new centres.
+    /// Updates the index of centres after a fold. `changed` are the slots, ascending, whose component is new, gone
+    /// or has a new centre.
     pub(super) fn centres_changed(&mut self, slots: &[Option<Component>], changed: &[u32]) {
         if let Some(centres) = self.centres.get_mut().expect("no search panics") {
             centres.update(slots, changed);
@@ -61,7 +62,8 @@ impl Finder {
     }
 }
 
-/// Searches of nodes and components.
+/// Searches of nodes and components. Distances are those of [`Space::distance`], `configs` are those of the graph's
+/// nodes, queries are in stored form.
 impl Components {
     /// The at most `k` of the graph's nodes nearest to `q`, nearest first, ties by id.
     pub fn k_nearest(
@@ -79,8 +81,8 @@ impl Components {
         index.k_nearest(space, &All(configs), self.nodes(), q, k)
     }
 
-    /// The at most `count` closest pairs of a configuration of `first` and a node of `component`,
-    /// closest first, ties by the first id, then by the second.
+    /// The at most `count` closest pairs of a configuration of `first`, given with the ids that take part, and a node
+    /// of `component`. Closest first, ties by the first id, then by the second.
     pub fn closest_pairs(
         &self,
         space: &Space,
@@ -101,8 +103,8 @@ impl Components {
         index.closest_pairs(space, first, &members, self.nodes(), count)
     }
 
-    /// The at most `count` components whose centres are nearest to `centre`, nearest first, ties by
-    /// name; each is given by its name.
+    /// The at most `count` components whose centres are nearest to `centre`, nearest first, ties by name. The id of
+    /// each is its component's name.
     pub fn nearest(&self, space: &Space, centre: &[f64], count: usize) -> Vec<Neighbor> {
         let mut best = Best::new(count);
         let mut offer = |component: &Component| {
@@ -122,7 +124,7 @@ impl Components {
         let centres = read(&self.finder.centres);
         let centres = centres.as_ref().expect("made");
         centres
-            .loose
+            .unindexed
             .iter()
             .filter_map(|slot| self.slots()[*slot as usize].as_ref())
             .for_each(&mut offer);
@@ -134,7 +136,7 @@ impl Components {
         best.into_items()
     }
 
-    /// The index over nodes, for so many searches. It may lack the last ones.
+    /// The index of the nodes, about to be searched by `searches` queries. It may lack the last nodes.
     fn index(
         &self,
         space: &Space,
@@ -161,10 +163,10 @@ impl Components {
     }
 }
 
-/// All nodes.
+/// All nodes of a graph.
 struct All<'a>(&'a Configs);
 
-impl Candidates for All<'_> {
+impl Searched for All<'_> {
     fn config(&self, node: u32) -> &[f64] {
         self.0.get(node as usize)
     }
@@ -177,34 +179,36 @@ struct Members<'a> {
     slot: u32,
 }
 
-impl Candidates for Members<'_> {
+impl Searched for Members<'_> {
     fn config(&self, node: u32) -> &[f64] {
         self.configs.get(node as usize)
     }
 
-    fn counts(&self, node: u32) -> bool {
+    fn is_eligible(&self, node: u32) -> bool {
         self.components.slot_of(node) == self.slot
     }
 
-    fn label_counts(&self, node: u32) -> Option<bool> {
-        Some(self.counts(node))
+    fn label_is_eligible(&self, node: u32) -> Option<bool> {
+        Some(self.is_eligible(node))
     }
 }
 
-/// The centres of components, each in an entry of its own.
+/// An index of the centres of components.
 ///
-/// Components that changed in the last fold are loose: most change again at once (the largest in every
-/// fold), and are compared one by one. Those that did not get an entry in the index, which counts until
-/// they change. When more than half of the entries no longer count, all are made anew.
+/// A component that changed in the last fold is not in the index but compared on its own, since most of those
+/// change again at once: the largest does in every fold. A component that did not change gets an entry in the
+/// index, which is current until the component changes. When more than half of the entries are no longer
+/// current, the index is built anew.
 #[derive(Clone, Debug)]
 struct Centres {
     index: Index,
     /// Per entry the slot of its component.
     slots: Vec<u32>,
-    /// Per slot the entry that counts, or [`NONE`].
+    /// Per slot the current entry of its component, or [`NONE`].
     entry_of: Vec<u32>,
-    loose: Vec<u32>,
-    /// Stands for the centre of a component that is gone.
+    /// Slots of the components that have no entry.
+    unindexed: Vec<u32>,
+    /// Stands in place of the centre of a component that is gone.
     nowhere: Vec<f64>,
 }
 
@@ -214,7 +218,7 @@ impl Centres {
             index: Index::new(space),
             slots: Vec::new(),
             entry_of: vec![NONE; slots.len()],
-            loose: Vec::new(),
+            unindexed: Vec::new(),
             nowhere: vec![0.0; space.len()],
         };
         for slot in 0..slots.len() as u32 {
@@ -224,6 +228,7 @@ impl Centres {
         centres
     }
 
+    /// Gives the component in a slot, if there is one, an entry.
     fn enter(&mut self, slots: &[Option<Component>], slot: u32) {
         if slots[slot as usize].is_some() {
             self.entry_of[slot as usize] = self.slots.len() as u32;
@@ -231,13 +236,14 @@ impl Centres {
         }
     }
 
+    /// See [`Finder::centres_changed`].
     fn update(&mut self, slots: &[Option<Component>], changed: &[u32]) {
         self.entry_of.resize(slots.len(), NONE);
         for slot in changed {
             self.entry_of[*slot as usize] = NONE;
         }
-        let loose = changed.iter().copied().filter(|slot| slots[*slot as usize].is_some());
-        for slot in std::mem::replace(&mut self.loose, loose.collect()) {
+        let unindexed = changed.iter().copied().filter(|slot| slots[*slot as usize].is_some());
+        for slot in std::mem::replace(&mut self.unindexed, unindexed.collect()) {
             if changed.binary_search(&slot).is_err() {
                 self.enter(slots, slot);
             }
@@ -248,7 +254,7 @@ impl Centres {
         self.grow(slots);
     }
 
-    /// Drops the entries that do not count.
+    /// Removes the entries that are not current.
     fn renew(&mut self, slots: &[Option<Component>]) {
         let entries = std::mem::take(&mut self.slots);
         self.index.clear();
@@ -259,6 +265,7 @@ impl Centres {
         }
     }
 
+    /// Adds the newest entries to the index if there are many.
     fn grow(&mut self, slots: &[Option<Component>]) {
         let end = self.slots.len() as u32;
         if end - self.index.len() >= TAIL {
@@ -271,7 +278,7 @@ impl Centres {
     }
 }
 
-/// The entries that count, under the names of their components.
+/// The current entries, under the names of their components.
 struct Entries<'a> {
     centres: &'a Centres,
     slots: &'a [Option<Component>],
@@ -283,12 +290,12 @@ impl Entries<'_> {
     }
 }
 
-impl Candidates for Entries<'_> {
+impl Searched for Entries<'_> {
     fn config(&self, entry: u32) -> &[f64] {
         self.component(entry).map_or(&self.centres.nowhere, |component| &component.centre)
     }
 
-    fn counts(&self, entry: u32) -> bool {
+    fn is_eligible(&self, entry: u32) -> bool {
         let slot = self.centres.slots[entry as usize];
         self.centres.entry_of[slot as usize] == entry && self.slots[slot as usize].is_some()
     }
