@@ -4,7 +4,7 @@ use super::support::sample;
 use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
 use roadmill::img::{Job, Outcome, Replica, Setup};
-use roadmill::neighbor::{Index, Searched, k_nearest, k_nearest_graph};
+use roadmill::neighbor::{Index, Searched, k_nearest, k_nearest_graph, radius_graph};
 use roadmill::problem::Problem;
 use roadmill::query::{Attachment, solve};
 use roadmill::roadmap::{Configs, Increment};
@@ -50,6 +50,8 @@ pub const KERNELS: &[Kernel] = &[
     kernel("index-search", "query", index_searched),
     kernel("brute-search", "query", brute_searched),
     kernel("neighbors-set", "milestone", neighbors_of_a_set),
+    kernel("radius-search", "query", radius_searched),
+    kernel("radius-set", "milestone", radius_graph_of_a_set),
     kernel("connect", "milestone", connected),
     kernel("join", "milestone", joined),
     kernel("fold", "milestone", folded),
@@ -186,6 +188,35 @@ fn neighbors_of_a_set() -> Work {
     Box::new(move || {
         let pairs = k_nearest_graph(&cx.space, &configs, 10);
         assert!(pairs.len() > 5 * configs.len());
+        configs.len()
+    })
+}
+
+/// About ten of 10,000 configurations drawn uniformly are in this radius around one of them.
+const RADIUS: f64 = 1.0;
+
+fn radius_searched() -> Work {
+    let cx = problem("walls").context();
+    let all = All(uniform(&cx, 10_000));
+    let mut index = Index::new(&cx.space);
+    let end = all.0.len() as u32;
+    index.extend(end, |id| all.config(id), |_| 0);
+    Box::new(move || {
+        let mut found = 0;
+        for i in 0..QUERIES {
+            found += index.in_radius(&cx.space, &all, end, all.0.get(i), RADIUS, None).len();
+        }
+        assert!(found > QUERIES);
+        QUERIES
+    })
+}
+
+fn radius_graph_of_a_set() -> Work {
+    let cx = problem("walls").context();
+    let configs = uniform(&cx, 5000);
+    Box::new(move || {
+        let pairs = radius_graph(&cx.space, &configs, RADIUS);
+        assert!(pairs.len() > configs.len());
         configs.len()
     })
 }

@@ -6,6 +6,7 @@
 use crate::lanes::Lanes;
 use crate::math;
 use crate::space::{PartKind, Space};
+use smallvec::SmallVec;
 
 /// Fan-out of the tree and bucket size of its leaves. So many boxes or points are measured together; along
 /// each axis their coordinates lie side by side.
@@ -13,6 +14,9 @@ pub(super) const FAN: usize = 16;
 
 /// Squared distances below this are not told apart, since single precision ends near 10⁻³⁸.
 const TINY: f64 = 1e-36;
+
+/// The point of a query. Up to 64 coordinates need no allocation, which is more than most robots have.
+pub(super) type Point = SmallVec<[f32; 64]>;
 
 /// Euclidean length of a point, taken as a vector from the origin.
 pub(super) fn length(point: &[f32]) -> f64 {
@@ -164,7 +168,7 @@ impl Embedding {
     }
 
     /// Appends the coordinates of a configuration's point. The configuration is in stored form.
-    pub(super) fn embed(&self, q: &[f64], out: &mut Vec<f32>) {
+    pub(super) fn embed(&self, q: &[f64], out: &mut impl Extend<f32>) {
         out.extend(self.reals.iter().map(|real| ((q[real.at] - real.middle) * real.weight) as f32));
         out.extend(self.angles.iter().map(|angle| (q[angle.at] * angle.weight) as f32));
         for rotation in &self.rotations {

@@ -1,10 +1,11 @@
 //! Nearest neighbours of configurations.
 //!
 //! What a search returns is *defined* by brute force, which measures every configuration by
-//! [`Space::distance`](crate::space::Space::distance) and orders them by distance, then by id: [`k_nearest`] and
+//! [`Space::distance`](crate::space::Space::distance) and orders them by distance, then by id: [`k_nearest`], [`in_radius`] and
 //! [`closest_pairs`]. The [`Index`] returns the same, bit for bit, in less time, as do the searches of a whole set
-//! ([`k_nearest_graph`], [`farthest_pair`]). So nothing about an index can reach a roadmap.
+//! ([`k_nearest_graph`], [`radius_graph`], [`farthest_pair`]). So nothing about an index can reach a roadmap.
 
+mod ball;
 mod best;
 mod brute;
 mod build;
@@ -14,6 +15,8 @@ mod index;
 mod k_nearest_graph;
 mod layout;
 mod measure;
+mod radius;
+mod radius_graph;
 mod searched;
 mod seek;
 mod shared_segments;
@@ -21,10 +24,11 @@ mod shortlist;
 mod tree;
 
 pub use best::{Best, NearPair, Neighbor, Ranked};
-pub use brute::{closest_pairs, k_nearest};
+pub use brute::{closest_pairs, in_radius, k_nearest};
 pub use farthest::{FarPair, farthest_pair};
 pub use index::Index;
 pub use k_nearest_graph::k_nearest_graph;
+pub use radius_graph::radius_graph;
 pub use searched::Searched;
 
 #[cfg(test)]

@@ -107,6 +107,36 @@ impl Searched for Labelled<'_> {
     }
 }
 
+/// A radius around a query, often exactly the distance of a configuration or next to it, and how many are wanted.
+fn draw_radius(
+    space: &Space,
+    stream: &mut Stream,
+    configs: &Configs,
+    q: &[f64],
+) -> (f64, Option<usize>) {
+    let other = (stream.unit() * configs.len() as f64) as usize;
+    let exact = if configs.is_empty() { 1.0 } else { space.distance(q, configs.get(other)) };
+    let radius = match (stream.unit() * 8.0) as u32 {
+        0 | 1 => exact,
+        2 => exact.next_up(),
+        3 => exact.next_down(),
+        4 => 0.0,
+        5 => f64::INFINITY,
+        6 => [-1.0, f64::NEG_INFINITY, f64::NAN][(stream.unit() * 3.0) as usize],
+        _ => stream.unit() * stream.unit() * space.diameter(),
+    };
+    (radius, (stream.unit() < 0.5).then(|| (stream.unit() * stream.unit() * 300.0) as usize))
+}
+
+/// The edges of the radius graph by definition.
+fn near_pairs(space: &Space, configs: &Configs, radius: f64) -> Vec<(u32, u32)> {
+    let count = configs.len() as u32;
+    let pairs = (0..count).flat_map(|low| (low + 1..count).map(move |high| (low, high)));
+    let distance =
+        |id: (u32, u32)| space.distance(configs.get(id.0 as usize), configs.get(id.1 as usize));
+    pairs.filter(|pair| distance(*pair) <= radius).collect()
+}
+
 /// An index over the first of the configurations, built in steps, and labels that unite meanwhile.
 fn index(
     space: &Space,
@@ -169,6 +199,10 @@ proptest! {
             let q = configs.get((stream.unit() * configs.len() as f64) as usize);
             let expected = k_nearest(&space, &configs, ids, q, 7);
             prop_assert_eq!(index.k_nearest(&space, &searched, *end, q, 7), expected);
+            let (radius, most) = draw_radius(&space, &mut stream, &configs, q);
+            let ids = (0..*end).filter(|id| searched.is_eligible(*id));
+            let expected = in_radius(&space, &configs, ids, q, radius, most);
+            prop_assert_eq!(index.in_radius(&space, &searched, *end, q, radius, most), expected);
         }
     }
 
@@ -187,7 +221,7 @@ proptest! {
                 .iter()
                 .map(|q| if q.first().is_some_and(|x| *x < 0.0) { 0 } else { 1 + (stream.unit() * 4.0) as u32 })
                 .collect();
-            let (index, steps) = index(&space, &configs, &mut label_of, &mut stream);
+            let (mut index, steps) = index(&space, &configs, &mut label_of, &mut stream);
             for wanted in [None, Some(0), Some(1)] {
                 let searched = Labelled { configs: &configs, label_of: &label_of, wanted };
                 let some: Vec<u32> =
@@ -199,6 +233,15 @@ proptest! {
                     let expected = k_nearest(&space, &configs, some.iter().copied(), q, k);
                     let found = index.k_nearest(&space, &searched, ids.end, q, k);
                     prop_assert_eq!(found, expected, "{:?} {:?}", steps, wanted);
+
+                    let (radius, most) = draw_radius(&space, &mut stream, &configs, q);
+                    let expected =
+                        in_radius(&space, &configs, some.iter().copied(), q, radius, most);
+                    for lanes in Lanes::all() {
+                        Arc::make_mut(&mut index.embedding).lanes = lanes;
+                        let found = index.in_radius(&space, &searched, ids.end, q, radius, most);
+                        prop_assert_eq!(&found, &expected, "{} {:?} {:?}", radius, most, lanes);
+                    }
                 }
                 let first: Vec<u32> = (0..others.len() as u32).collect();
                 let first = (&others, &first[..]);
@@ -235,6 +278,23 @@ proptest! {
         for space in spaces() {
             let configs = configs(&space, &mut stream, count);
             prop_assert_eq!(k_nearest_graph(&space, &configs, k), graph(&space, &configs, k));
+        }
+    }
+
+    #[test]
+    fn the_radius_graph_has_all_pairs_within_the_radius(
+        ordinal in any::<u64>(),
+        count in 0usize..300,
+    ) {
+        let mut stream = Seed::of_set(1, "radius graph", ordinal).stream(Purpose::Sampling);
+        for space in spaces() {
+            let configs = configs(&space, &mut stream, count);
+            let q = draw(&space, &mut stream, &configs);
+            // The radius is a distance between two of the configurations, or one that no pair need have.
+            let from = if configs.is_empty() || stream.unit() < 0.3 { &q[..] } else { configs.get(0) };
+            let (radius, _) = draw_radius(&space, &mut stream, &configs, from);
+            let expected = near_pairs(&space, &configs, radius);
+            prop_assert_eq!(radius_graph(&space, &configs, radius), expected, "{}", radius);
         }
     }
 
@@ -334,6 +394,15 @@ fn equals_are_told_apart_by_their_ids() {
         let searched = Labelled { configs: &configs, label_of: &[], wanted: None };
         let expected = k_nearest(&space, &configs, 0..900, &q, 9);
         assert_eq!(index.k_nearest(&space, &searched, 900, &q, 9), expected);
+        // The differences are far below what single precision tells apart.
+        for radius in [0.0, 3e-13, 1e-12, f64::INFINITY] {
+            for most in [None, Some(9), Some(500)] {
+                let expected = in_radius(&space, &configs, 0..900, &q, radius, most);
+                assert_eq!(index.in_radius(&space, &searched, 900, &q, radius, most), expected);
+            }
+            let expected = near_pairs(&space, &configs, radius);
+            assert_eq!(radius_graph(&space, &configs, radius), expected, "{radius}");
+        }
     }
 }
 
@@ -395,6 +464,10 @@ fn lengths_of_any_size_keep_their_neighbours() {
         for q in configs.iter().step_by(7) {
             let expected = k_nearest(&space, &configs, 0..300, q, 10);
             assert_eq!(index.k_nearest(&space, &searched, 300, q, 10), expected, "{scale}");
+            let radius = space.distance(q, configs.get(5));
+            let expected = in_radius(&space, &configs, 0..300, q, radius, None);
+            let found = index.in_radius(&space, &searched, 300, q, radius, None);
+            assert_eq!(found, expected, "{scale}");
         }
     }
 }

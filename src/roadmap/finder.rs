@@ -81,6 +81,25 @@ impl Components {
         index.k_nearest(space, &All(configs), self.nodes(), q, k)
     }
 
+    /// The graph's nodes within a radius of `q`: all whose distance to `q` is at most `radius`, a length in the scene's
+    /// unit, nearest first, ties by id. With `most`, at most that many, the nearest ones. There are none if the
+    /// radius is negative or not a number; an infinite radius has all nodes in it.
+    pub fn in_radius(
+        &self,
+        space: &Space,
+        configs: &Configs,
+        q: &[f64],
+        radius: f64,
+        most: Option<usize>,
+    ) -> Vec<Neighbor> {
+        if self.nodes() < TAIL {
+            return neighbor::in_radius(space, configs, 0..self.nodes(), q, radius, most);
+        }
+        let index = self.index(space, configs, 1);
+        let index = index.as_ref().expect("made");
+        index.in_radius(space, &All(configs), self.nodes(), q, radius, most)
+    }
+
     /// The at most `count` closest pairs of a configuration of `first`, given with the ids that take part, and a node
     /// of `component`. Closest first, ties by the first id, then by the second.
     pub fn closest_pairs(

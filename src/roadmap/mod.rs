@@ -132,6 +132,17 @@ impl Roadmap {
         self.components.k_nearest(space, &self.configs, q, k)
     }
 
+    /// The milestones within a radius of `q`; see [`Components::in_radius`].
+    pub fn in_radius(
+        &self,
+        space: &Space,
+        q: &[f64],
+        radius: f64,
+        most: Option<usize>,
+    ) -> Vec<Neighbor> {
+        self.components.in_radius(space, &self.configs, q, radius, most)
+    }
+
     /// The milestones.
     pub fn configs(&self) -> &Configs {
         &self.configs
