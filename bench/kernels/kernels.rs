@@ -192,7 +192,7 @@ fn neighbors_of_a_set() -> Work {
     })
 }
 
-/// About ten of 10,000 configurations drawn uniformly are in this radius around one of them.
+/// A length in which most configurations have others near them; the kernels assert how many on average.
 const RADIUS: f64 = 1.0;
 
 fn radius_searched() -> Work {
