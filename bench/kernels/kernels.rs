@@ -6,7 +6,7 @@ use roadmill::connect::{Nearest, Within};
 use roadmill::img::{Job, Outcome, Replica, Setup};
 use roadmill::model::Scratch;
 use roadmill::model::bodies::validity::Edges;
-use roadmill::neighbor::{Candidates, Index, k_nearest, k_nearest_graph};
+use roadmill::neighbor::{Index, Searched, k_nearest, k_nearest_graph, radius_graph};
 use roadmill::problem::Problem;
 use roadmill::query::{Attachment, solve};
 use roadmill::roadmap::{Configs, Increment};
@@ -51,6 +51,8 @@ pub const KERNELS: &[Kernel] = &[
     kernel("index-search", "query", index_searched),
     kernel("brute-search", "query", brute_searched),
     kernel("neighbors-set", "milestone", neighbors_of_a_set),
+    kernel("radius-search", "query", radius_searched),
+    kernel("radius-set", "milestone", radius_graph_of_a_set),
     kernel("connect", "milestone", connected),
     kernel("join", "milestone", joined),
     kernel("fold", "milestone", folded),
@@ -138,10 +140,10 @@ fn samples(sampler: &str) -> Work {
     })
 }
 
-/// All configurations count.
+/// All configurations are eligible.
 struct All(Configs);
 
-impl Candidates for All {
+impl Searched for All {
     fn config(&self, id: u32) -> &[f64] {
         self.0.get(id as usize)
     }
@@ -195,6 +197,35 @@ fn neighbors_of_a_set() -> Work {
     Box::new(move || {
         let pairs = k_nearest_graph(&cx.space, &configs, 10);
         assert!(pairs.len() > 5 * configs.len());
+        configs.len()
+    })
+}
+
+/// A length in which most configurations have others near them; the kernels assert how many on average.
+const RADIUS: f64 = 1.0;
+
+fn radius_searched() -> Work {
+    let cx = problem("walls").context();
+    let all = All(uniform(&cx, 10_000));
+    let mut index = Index::new(&cx.space);
+    let end = all.0.len() as u32;
+    index.extend(end, |id| all.config(id), |_| 0);
+    Box::new(move || {
+        let mut found = 0;
+        for i in 0..QUERIES {
+            found += index.in_radius(&cx.space, &all, end, all.0.get(i), RADIUS, None).len();
+        }
+        assert!(found > QUERIES);
+        QUERIES
+    })
+}
+
+fn radius_graph_of_a_set() -> Work {
+    let cx = problem("walls").context();
+    let configs = uniform(&cx, 5000);
+    Box::new(move || {
+        let pairs = radius_graph(&cx.space, &configs, RADIUS);
+        assert!(pairs.len() > configs.len());
         configs.len()
     })
 }

@@ -1,34 +1,34 @@
-//! The few best of many.
+//! What searches return, the order in which they return it, and the nearest of many by that order.
 
 use std::cmp::Ordering;
 
-/// A neighbour of some configuration.
+/// A configuration that a search has found near its query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neighbor {
-    /// Its distance.
+    /// Distance to the query by [`Space::distance`](crate::space::Space::distance), in the scene's length unit.
     pub distance: f64,
-    /// Its id.
+    /// Id of the configuration.
     pub id: u32,
 }
 
-/// A pair of configurations near one another.
+/// A pair of configurations of two sets that are near one another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearPair {
-    /// Their distance.
+    /// Their distance by [`Space::distance`](crate::space::Space::distance), in the scene's length unit.
     pub distance: f64,
-    /// Id of the one from the first set.
+    /// Id of the configuration of the first set.
     pub first: u32,
-    /// Id of the one from the second set.
+    /// Id of the configuration of the second set.
     pub second: u32,
 }
 
-/// Something that stands at a distance; ids break ties.
+/// What is ordered by distance, with ids that break ties.
 pub trait Ranked {
     /// The distance.
     fn distance(&self) -> f64;
-    /// The ids, in the order in which they break ties.
+    /// The ids: the first breaks ties of the distance, the second ties of both.
     fn ids(&self) -> (u32, u32);
-    /// Which of two is nearer.
+    /// The order of two items: the nearer is less, of equally near ones that with the lower ids.
     fn rank(&self, other: &Self) -> Ordering {
         self.distance().total_cmp(&other.distance()).then(self.ids().cmp(&other.ids()))
     }
@@ -52,7 +52,8 @@ impl Ranked for NearPair {
     }
 }
 
-/// The at most so many nearest of all that was offered, whatever the order of the offers.
+/// Keeps the nearest of the items offered, at most a given number, in whatever order they are offered. An offer
+/// costs as much time as there are items kept; it is meant for few.
 #[derive(Clone, Debug)]
 pub struct Best<T> {
     most: usize,
@@ -60,12 +61,12 @@ pub struct Best<T> {
 }
 
 impl<T: Ranked> Best<T> {
-    /// Nothing yet, and at most `most` later.
+    /// Has no items yet, and will keep at most `most`.
     pub fn new(most: usize) -> Best<T> {
         Best { most, items: Vec::new() }
     }
 
-    /// Nothing farther than this can still get in.
+    /// The pruning bound: items farther away than this are not kept any more. Infinite while there is room.
     pub fn bound(&self) -> f64 {
         match self.items.last() {
             Some(last) if self.items.len() >= self.most => last.distance(),
@@ -74,16 +75,16 @@ impl<T: Ranked> Best<T> {
         }
     }
 
-    /// Takes an item in, if it is among the nearest so far.
+    /// Keeps an item if it is among the nearest so far.
     pub fn offer(&mut self, item: T) {
-        let place = self.items.partition_point(|known| known.rank(&item).is_lt());
-        if place < self.most {
+        let position = self.items.partition_point(|known| known.rank(&item).is_lt());
+        if position < self.most {
             self.items.truncate(self.most - 1);
-            self.items.insert(place, item);
+            self.items.insert(position, item);
         }
     }
 
-    /// The items, nearest first.
+    /// The items kept, nearest first.
     pub fn into_items(self) -> Vec<T> {
         self.items
     }

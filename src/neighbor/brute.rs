@@ -1,7 +1,11 @@
+//! Searches by brute force, which define what every other search returns.
+
+use super::ball::Ball;
 use super::best::{Best, NearPair, Neighbor};
 use crate::space::{Configs, Space};
 
-/// The at most `k` configurations nearest to `q` among `ids`, nearest first, ties by id.
+/// The at most `k` of `configs` among `ids` that are nearest to `q` by [`Space::distance`], nearest first, ties by
+/// id. The order of `ids` does not matter.
 pub fn k_nearest(
     space: &Space,
     configs: &Configs,
@@ -20,8 +24,31 @@ pub fn k_nearest(
     best.into_items()
 }
 
-/// The at most `count` closest pairs of a configuration of `first` and one of `second`, closest
-/// first, ties by the first id, then by the second.
+/// The configurations within a radius of `q`: all of `configs` among `ids` whose [`Space::distance`] to `q` is at most
+/// `radius`, a length in the scene's unit, nearest first, ties by id. With `most`, at most that many, the nearest
+/// ones. There are none if the radius is negative or not a number; an infinite radius has all configurations in
+/// it. The order of `ids` does not matter.
+pub fn in_radius(
+    space: &Space,
+    configs: &Configs,
+    ids: impl Iterator<Item = u32>,
+    q: &[f64],
+    radius: f64,
+    most: Option<usize>,
+) -> Vec<Neighbor> {
+    let Some(mut ball) = Ball::new(radius, most) else { return Vec::new() };
+    for id in ids {
+        if let Some(distance) =
+            space.distance_unless_above(q, configs.get(id as usize), ball.bound())
+        {
+            ball.offer(Neighbor { distance, id });
+        }
+    }
+    ball.into_neighbors()
+}
+
+/// The at most `count` closest pairs, by [`Space::distance`], of a configuration of `first` and one of `second`, each
+/// given with the ids that take part. Closest first, ties by the first id, then by the second.
 pub fn closest_pairs(
     space: &Space,
     first: (&Configs, &[u32]),
@@ -82,6 +109,33 @@ pub(super) mod tests {
                 // The order in which candidates come must not matter.
                 prop_assert_eq!(&k_nearest(&space, &configs, 0..80, q, k), &all);
                 prop_assert_eq!(&k_nearest(&space, &configs, (0..80).rev(), q, k), &all);
+            }
+        }
+
+        #[test]
+        fn what_is_in_a_radius_is_the_near_part_of_the_sorted_list(
+            ordinal in any::<u64>(), other in 0usize..80, most in 0usize..80,
+        ) {
+            for motion in [Motion::Translation2d, Motion::Rigid2d, Motion::Rigid3d] {
+                let (space, configs) = configs(motion, ordinal);
+                let q = configs.get(7);
+                let mut all: Vec<_> = (0..80u32)
+                    .map(|id| Neighbor { distance: space.distance(q, configs.get(id as usize)), id })
+                    .collect();
+                all.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
+                let exact = space.distance(q, configs.get(other));
+                let radii = [exact, exact.next_up(), exact.next_down(), 0.0, f64::INFINITY, -1.0, f64::NAN];
+                for radius in radii {
+                    let mut expected = all.clone();
+                    expected.retain(|near| near.distance <= radius);
+                    let found = in_radius(&space, &configs, 0..80, q, radius, None);
+                    prop_assert_eq!(&found, &expected);
+                    expected.truncate(most);
+                    let found = in_radius(&space, &configs, 0..80, q, radius, Some(most));
+                    prop_assert_eq!(&found, &expected);
+                    let found = in_radius(&space, &configs, (0..80).rev(), q, radius, Some(most));
+                    prop_assert_eq!(&found, &expected);
+                }
             }
         }
 

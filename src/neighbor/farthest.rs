@@ -1,15 +1,15 @@
 use crate::space::{Configs, PartKind, Space};
 use std::f64::consts::PI;
 
-/// How much nearer than the best pair a bound must be to rule a configuration out: relative to the
-/// pair's distance, and per unit of a rotation's weight, whose small angles are rounded to about 10⁻⁸.
+/// Rounding margin of the bounds on distances: relative to the bound, and in addition per unit of a rotation's
+/// weight, since small angles of rotations are rounded to about 10⁻⁸.
 const MARGIN: f64 = 1e-12;
 const ROTATION_MARGIN: f64 = 1e-6;
 
-/// Two configurations far from one another.
+/// A pair of configurations far from one another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FarPair {
-    /// Their distance.
+    /// Their distance by [`Space::distance`], in the scene's length unit.
     pub distance: f64,
     /// The lower id.
     pub low: u32,
@@ -17,10 +17,12 @@ pub struct FarPair {
     pub high: u32,
 }
 
-/// The two of `configs` among `ids` that are farthest apart; of several such pairs the one with the
-/// lowest ids. `None` of less than two. Exactly what comparing all pairs gives, but most are ruled
-/// out by two bounds: none is farther from a configuration than the farthest corner of the box
-/// around all of them, and none farther apart than their distances from `centre` together.
+/// The pair of `configs` among `ids` that is farthest apart by [`Space::distance`]; of several such pairs the one
+/// with the lowest ids. `None` where there are fewer than two ids.
+///
+/// This is exactly what comparing all pairs gives, but most are ruled out by two bounds. No configuration is
+/// farther from another than the farthest corner of the bounding box of all. Two configurations are at most as
+/// far apart as the sum of their distances from `centre`, any configuration of the space.
 pub fn farthest_pair(
     space: &Space,
     configs: &Configs,
@@ -52,7 +54,8 @@ pub fn farthest_pair(
     Some(best)
 }
 
-/// A pair to begin with: from the lowest id to the farthest, and on from there while that helps.
+/// A far pair to begin with: that of the lowest id and the configuration farthest from it, then of this and
+/// the one farthest from it, and so on while the distance grows.
 fn sweep(space: &Space, configs: &Configs, ids: &[u32]) -> Option<FarPair> {
     let mut from = *ids.iter().min()?;
     let mut best: Option<FarPair> = None;
@@ -70,6 +73,7 @@ fn sweep(space: &Space, configs: &Configs, ids: &[u32]) -> Option<FarPair> {
     }
 }
 
+/// Replaces the best pair by that of `a` and `b` if these are farther apart.
 fn offer(space: &Space, configs: &Configs, (a, b): (u32, u32), best: &mut FarPair) {
     let (low, high) = (a.min(b), a.max(b));
     let ends = (configs.get(low as usize), configs.get(high as usize));
@@ -81,7 +85,7 @@ fn offer(space: &Space, configs: &Configs, (a, b): (u32, u32), best: &mut FarPai
     }
 }
 
-/// Per part of the space the least and the largest value.
+/// The bounding box: per part of the space the least and the largest of its first values.
 fn corners(space: &Space, configs: &Configs, ids: &[u32]) -> Vec<(f64, f64)> {
     let ends = |at: usize| {
         let values = ids.iter().map(|id| configs.get(*id as usize)[at]);
@@ -90,7 +94,7 @@ fn corners(space: &Space, configs: &Configs, ids: &[u32]) -> Vec<(f64, f64)> {
     space.parts().iter().map(|part| ends(part.at)).collect()
 }
 
-/// How far from `q` anything between the corners can be.
+/// An upper bound on the distance from `q` to any configuration in the bounding box.
 fn reach(space: &Space, q: &[f64], corners: &[(f64, f64)]) -> f64 {
     let parts = space.parts().iter().zip(corners);
     let square = parts.map(|(part, (least, largest))| {
@@ -103,6 +107,7 @@ fn reach(space: &Space, q: &[f64], corners: &[(f64, f64)]) -> f64 {
     square.sum::<f64>().sqrt()
 }
 
+/// The part of the rounding margin that rotations need.
 fn rotation_margin(space: &Space) -> f64 {
     let rotations = space.parts().iter().filter(|part| part.kind == PartKind::Rotation);
     rotations.map(|part| part.weight * ROTATION_MARGIN).sum()

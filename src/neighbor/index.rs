@@ -1,66 +1,46 @@
-//! Nearest neighbours among configurations that only become more.
-
 use super::best::{NearPair, Neighbor, Ranked};
 use super::build::Source;
 use super::embedding::{Embedding, length};
-use super::places;
+use super::searched::Searched;
 use super::seek::{Leaves, Search, Seeker};
-use super::shortlist::{Met, Shortlist};
+use super::shared_segments;
+use super::shortlist::{Candidate, Shortlist};
 use super::tree::Tree;
 use crate::shelf::{self, Shelf};
 use crate::space::{Configs, Space};
 use std::sync::Arc;
 
-/// Finds the configurations near a place among those numbered from 0 to [`Index::len`]: what brute
-/// force finds, bit for bit, whatever the segments.
+/// An index of configurations, numbered from 0 to [`Index::len`], to which more can be added. Its searches return
+/// what brute force returns, bit for bit.
 ///
-/// The configurations lie in segments with a tree each that never change, so a copy shares them. Each
-/// segment is at least twice as long as the next: when configurations are added, shorter segments are
-/// built anew together with them, which costs each configuration O(log n) buildings (J. L. Bentley,
-/// J. B. Saxe, *Decomposable searching problems*, 1980).
+/// The configurations lie in segments, in the order of ids: each is a bounding-volume hierarchy over consecutive
+/// ids that never changes, so copies of an index share it. Segments follow the logarithmic method (J. L. Bentley,
+/// J. B. Saxe, *Decomposable searching problems I: static-to-dynamic transformation*, 1980): each is at least
+/// twice as long as the next, and shorter ones are built anew together with configurations that are added. Each
+/// configuration is thereby built into O(log n) trees over time.
 ///
-/// Of an index with a shelf the first segments lie at fixed places, so that they are the same for all who
-/// share it; only the last few configurations lie in segments of its own.
+/// An index with a shelf shares its first segments with all indices on the same shelf. Which configurations a
+/// shared segment holds is fixed, so only the last few configurations lie in segments of the index's own.
 #[derive(Clone, Debug)]
 pub struct Index {
-    embedding: Arc<Embedding>,
-    segments: Vec<Arc<Tree>>,
-    /// So many of them lie at fixed places.
-    settled: usize,
+    pub(super) embedding: Arc<Embedding>,
+    /// The shared segments, then those of the index's own.
+    pub(super) segments: Vec<Arc<Tree>>,
+    /// Number of shared segments.
+    shared: usize,
     shelf: Option<Arc<dyn Shelf>>,
 }
 
-/// What an index is searched for.
-pub trait Candidates {
-    /// The configuration of an id that counts.
-    fn config(&self, id: u32) -> &[f64];
-
-    /// Whether an id counts.
-    fn counts(&self, _id: u32) -> bool {
-        true
-    }
-
-    /// What the id is called in what is found, where ties are broken by that name.
-    fn name(&self, id: u32) -> u32 {
-        id
-    }
-
-    /// Whether all ids count that have the label of `id`, or none. `None` where labels do not decide.
-    fn label_counts(&self, _id: u32) -> Option<bool> {
-        None
-    }
-}
-
 impl Index {
-    /// The index of nothing.
+    /// An index without configurations.
     pub fn new(space: &Space) -> Index {
         Index::with_shelf(space, None)
     }
 
-    /// The index of nothing, with a place for what it will have in common with others.
+    /// An index without configurations that, if it has a shelf, shares segments with others on that shelf.
     pub fn with_shelf(space: &Space, shelf: Option<Arc<dyn Shelf>>) -> Index {
         let embedding = Arc::new(Embedding::new(space));
-        Index { embedding, segments: Vec::new(), settled: 0, shelf }
+        Index { embedding, segments: Vec::new(), shared: 0, shelf }
     }
 
     /// Number of configurations.
@@ -68,15 +48,15 @@ impl Index {
         self.segments.last().map_or(0, |last| last.end())
     }
 
-    /// Whether there are none.
+    /// Whether there are no configurations.
     pub fn is_empty(&self) -> bool {
         self.segments.is_empty()
     }
 
-    /// Forgets all configurations.
+    /// Removes all configurations.
     pub fn clear(&mut self) {
         self.segments.clear();
-        self.settled = 0;
+        self.shared = 0;
     }
 
     #[cfg(test)]
@@ -84,8 +64,12 @@ impl Index {
         self.segments.iter().map(|segment| segment.len()).collect()
     }
 
-    /// Adds the configurations from [`Index::len`] up to `end`. Configurations with one label keep one
-    /// label for ever; among those who share a shelf, who has as many configurations has the same labels.
+    /// Adds the configurations with ids from [`Index::len`] up to, but without, `end`. `config_of` gives the
+    /// configuration of any id below `end`, in stored form; it is always the same one.
+    ///
+    /// `label_of` gives the label of any id below `end`, which [`Searched::label_is_eligible`] is asked about.
+    /// Labels may unite but never part: ids with the same label have the same one for ever. Indices on the same
+    /// shelf have the same labels when they have the same number of configurations.
     pub fn extend<'a>(
         &mut self,
         end: u32,
@@ -96,67 +80,68 @@ impl Index {
             return;
         }
         let embedding = self.embedding.clone();
-        let source =
-            Source { embedding: &embedding, config_of: &config_of, label_of: &label_of, time: end };
+        let (config_of, label_of) = (&config_of, &label_of);
+        let source = Source { embedding: &embedding, config_of, label_of, configs: end };
         if let Some(shelf) = &self.shelf {
-            let settled = places::settled(&self.segments[..self.settled], &**shelf, &source);
-            let loose = self.segments.split_off(self.settled);
-            self.settled = settled.len();
-            self.segments = settled;
-            // Those that do not go on where the others end cover what these do now.
+            let own = self.segments.split_off(self.shared);
+            self.segments = shared_segments::update(&self.segments, &**shelf, &source);
+            self.shared = self.segments.len();
+            // The shared segments may reach further than before. The own segments that begin where they now end
+            // are kept; configurations of the others that are not in shared segments are built in anew below.
             let next = self.len();
-            self.segments.extend(loose.into_iter().skip_while(|tree| tree.first() != next));
+            self.segments.extend(own.into_iter().skip_while(|tree| tree.first() != next));
         }
         let mut count = end - self.len();
-        let loose = &self.segments[self.settled..];
-        let kept = loose.iter().rposition(|segment| {
+        let own = &self.segments[self.shared..];
+        let kept = own.iter().rposition(|segment| {
             let keep = segment.len() >= 2 * count;
             count += if keep { 0 } else { segment.len() };
             keep
         });
-        self.segments.truncate(self.settled + kept.map_or(0, |last| last + 1));
+        self.segments.truncate(self.shared + kept.map_or(0, |last| last + 1));
         if count > 0 {
-            let own = Tree::new(&source, (end - count, count), shelf::private);
-            self.segments.push(Arc::new(own));
+            let tree = Tree::new(&source, (end - count, count), shelf::private);
+            self.segments.push(Arc::new(tree));
         }
     }
 
-    /// The at most `k` candidates nearest to `q`, nearest first, ties by id. Ids from [`Index::len`] up
-    /// to `end` are searched too, one by one.
+    /// The at most `k` eligible configurations nearest to `q` by [`Space::distance`], nearest first, ties by name.
+    /// `q` is in stored form. Ids from [`Index::len`] up to, but without, `end` are searched too, without a tree.
     pub fn k_nearest(
         &self,
         space: &Space,
-        candidates: &impl Candidates,
+        searched: &impl Searched,
         end: u32,
         q: &[f64],
         k: usize,
     ) -> Vec<Neighbor> {
-        self.search((space, candidates, end), &[q], k, |_, near| near)
+        self.nearest((space, searched, end), &[q], k, |_, near| near)
     }
 
-    /// The at most `count` closest pairs of a configuration of `first` and a candidate, closest first,
-    /// ties by the first id, then by the second. `end` is as in [`Index::k_nearest`].
+    /// The at most `count` closest pairs of a configuration of `first`, given with the ids that take part, and an
+    /// eligible configuration of the index. Closest first, ties by the id of the first configuration, then by the
+    /// name of the second. `end` is as in [`Index::k_nearest`].
     pub fn closest_pairs(
         &self,
         space: &Space,
         first: (&Configs, &[u32]),
-        candidates: &impl Candidates,
+        searched: &impl Searched,
         end: u32,
         count: usize,
     ) -> Vec<NearPair> {
         let queries: Vec<_> = first.1.iter().map(|id| first.0.get(*id as usize)).collect();
-        self.search((space, candidates, end), &queries, count, |query, near| NearPair {
+        self.nearest((space, searched, end), &queries, count, |query, near| NearPair {
             distance: near.distance,
             first: first.1[query as usize],
             second: near.id,
         })
     }
 
-    /// The best of what all queries find. Short segments come first, for all queries: what they give
-    /// bounds the search of the long ones.
-    fn search<T: Ranked>(
+    /// The `most` nearest of what all queries together find, as items made of the query's number and the neighbour.
+    /// Short segments are searched first, for all queries: what they give bounds the search of the long ones.
+    fn nearest<T: Ranked>(
         &self,
-        (space, candidates, end): (&Space, &impl Candidates, u32),
+        (space, searched, end): (&Space, &impl Searched, u32),
         queries: &[&[f64]],
         most: usize,
         item: impl Fn(u32, Neighbor) -> T,
@@ -168,54 +153,58 @@ impl Index {
         let axes = self.embedding.axes();
         let mut points = Vec::with_capacity(queries.len() * axes);
         queries.iter().for_each(|q| self.embedding.embed(q, &mut points));
-        let rest = (self.len()..end).filter(|id| candidates.counts(*id));
-        let rest = Leaves::new(&self.embedding, rest, |id| candidates.config(id));
+        let rest = (self.len()..end).filter(|id| searched.is_eligible(*id));
+        let rest = Leaves::new(&self.embedding, rest, |id| searched.config(id));
         let longest = points.chunks_exact(axes.max(1)).map(length).fold(0.0, f64::max);
         let of_segments = self.segments.iter().map(|segment| segment.longest());
-        let bounds = self.embedding.bounds(longest + of_segments.fold(rest.longest, f64::max));
-        let item = |met: &Met| {
-            let distance = space.distance(queries[met.query as usize], candidates.config(met.id));
-            item(met.query, Neighbor { distance, id: candidates.name(met.id) })
+        let longest_found = of_segments.fold(rest.longest, f64::max);
+        let error_bounds = self.embedding.error_bounds(longest + longest_found);
+        let measure = |candidate: &Candidate| {
+            let q = queries[candidate.query as usize];
+            let distance = space.distance(q, searched.config(candidate.id));
+            item(candidate.query, Neighbor { distance, id: searched.name(candidate.id) })
         };
-        let near = Shortlist::new(most, bounds);
-        let mut visitor = Visitor { candidates, query: 0, near, item };
-        let mut each = |visit: &mut dyn FnMut(&[f32], &mut Visitor<_, _>)| {
+        let shortlist = Shortlist::new(most, error_bounds);
+        let mut seeker = Nearest { searched, query: 0, shortlist, measure };
+        let mut for_each_query = |search: &mut dyn FnMut(&[f32], &mut Nearest<_, _>)| {
             for query in 0..queries.len() {
-                visitor.query = query as u32;
-                visit(&points[query * axes..(query + 1) * axes], &mut visitor);
+                seeker.query = query as u32;
+                search(&points[query * axes..(query + 1) * axes], &mut seeker);
             }
         };
-        each(&mut |point, visitor| rest.look(&self.embedding, point, visitor));
+        for_each_query(&mut |point, seeker| rest.search(&self.embedding, point, seeker));
         for tree in self.segments.iter().rev() {
-            each(&mut |point, visitor| {
-                Search::new(tree, &self.embedding, point, end, visitor).everywhere();
+            for_each_query(&mut |point, seeker| {
+                Search::new(tree, &self.embedding, point, end, seeker).search_from_root();
             });
         }
-        let Visitor { mut near, item, .. } = visitor;
-        near.nearest(item).into_iter().map(|(_, item)| item).collect()
+        let Nearest { mut shortlist, measure, .. } = seeker;
+        shortlist.nearest(measure).into_iter().map(|(_, item)| item).collect()
     }
 }
 
-struct Visitor<'a, C, I> {
-    candidates: &'a C,
+/// Seeks the nearest eligible configurations of several queries.
+struct Nearest<'a, S, M> {
+    searched: &'a S,
+    /// Number of the query that is being searched for.
     query: u32,
-    near: Shortlist,
-    item: I,
+    shortlist: Shortlist,
+    measure: M,
 }
 
-impl<C: Candidates, T: Ranked, I: Fn(&Met) -> T> Seeker for Visitor<'_, C, I> {
-    fn limit(&self) -> f32 {
-        self.near.limit()
+impl<S: Searched, T: Ranked, M: Fn(&Candidate) -> T> Seeker for Nearest<'_, S, M> {
+    fn pruning_bound(&self) -> f32 {
+        self.shortlist.pruning_bound()
     }
 
-    fn meet(&mut self, id: u32, square: f32, counts: bool) {
-        if counts || self.candidates.counts(id) {
-            self.near.offer(self.query, id, square);
-            self.near.clear_up(&self.item);
+    fn offer(&mut self, id: u32, square: f32, eligible: bool) {
+        if eligible || self.searched.is_eligible(id) {
+            self.shortlist.offer(self.query, id, square);
+            self.shortlist.trim(&self.measure);
         }
     }
 
-    fn label_counts(&self, id: u32) -> Option<bool> {
-        self.candidates.label_counts(id)
+    fn label_is_eligible(&self, id: u32) -> Option<bool> {
+        self.searched.label_is_eligible(id)
     }
 }

@@ -1,38 +1,40 @@
-//! [`FAN`] points or boxes measured at once, by the instructions that were chosen.
+//! Measuring [`FAN`] points or boxes at once, with the processor's instructions for several numbers.
 //!
-//! Every lane does the same operations of single precision in the same order, none of them fused, so that
-//! squares have the same bits whatever the instructions.
+//! Every lane does the same operations of single precision in the same order, and none of them is fused, so
+//! squared distances have the same bits whatever instructions compute them.
 
 use super::embedding::{Embedding, FAN};
 use crate::lanes::with_lanes;
 use fearless_simd::f32x16;
 use fearless_simd::prelude::*;
 
-/// Squares of distances, and a bit for each that is not beyond the limit; what is not a number is not.
+/// Squared distances, and a bit for each that is not above the pruning bound. One that is not a number is not
+/// above it, so that nothing is pruned because of overflow.
 pub(super) type Measured = ([f32; FAN], u32);
 
 impl Embedding {
-    /// Squares of the distances between a point and those of a leaf, and which are within a limit.
+    /// Measures the squared distances between a point and the points of a leaf.
     #[inline]
-    pub(super) fn near_points(&self, point: &[f32], leaf: &[f32], limit: f32) -> Measured {
+    pub(super) fn near_points(&self, point: &[f32], leaf: &[f32], bound: f32) -> Measured {
         with_lanes!(self.lanes, simd => simd.vectorize(
             #[inline(always)]
-            || within(simd, self.squares(point, leaf), limit),
+            || compare(simd, self.squares(point, leaf), bound),
         ))
     }
 
-    /// The same for boxes: along each axis their least coordinates, then their largest.
+    /// Measures the squared distances between a point and boxes. `sides` has along each axis the least, then
+    /// the largest coordinates of the boxes.
     #[inline]
-    pub(super) fn near_boxes(&self, point: &[f32], sides: &[f32], limit: f32) -> Measured {
+    pub(super) fn near_boxes(&self, point: &[f32], sides: &[f32], bound: f32) -> Measured {
         with_lanes!(self.lanes, simd => simd.vectorize(
             #[inline(always)]
-            || within(simd, self.box_squares(point, sides), limit),
+            || compare(simd, self.box_squares(point, sides), bound),
         ))
     }
 }
 
 #[inline(always)]
-fn within<S: Simd>(simd: S, squares: [f32; FAN], limit: f32) -> Measured {
-    let beyond = f32x16::load_array_ref(simd, &squares).simd_gt(limit).to_bitmask();
-    (squares, !beyond as u32 & 0xFFFF)
+fn compare<S: Simd>(simd: S, squares: [f32; FAN], bound: f32) -> Measured {
+    let above = f32x16::load_array_ref(simd, &squares).simd_gt(bound).to_bitmask();
+    (squares, !above as u32 & 0xFFFF)
 }

@@ -1,25 +1,35 @@
-//! Nearest neighbours. They are *defined* by brute force, nearest first and ties by id; the [`Index`]
-//! returns the same, bit for bit.
+//! Nearest neighbours of configurations.
+//!
+//! What a search returns is *defined* by brute force, which measures every configuration by
+//! [`Space::distance`](crate::space::Space::distance) and orders them by distance, then by id: [`k_nearest`], [`in_radius`] and
+//! [`closest_pairs`]. The [`Index`] returns the same, bit for bit, in less time, as do the searches of a whole set
+//! ([`k_nearest_graph`], [`radius_graph`], [`farthest_pair`]). So nothing about an index can reach a roadmap.
 
+mod ball;
 mod best;
 mod brute;
 mod build;
 mod embedding;
 mod farthest;
-mod graph;
 mod index;
+mod k_nearest_graph;
 mod layout;
 mod measure;
-mod places;
+mod radius;
+mod radius_graph;
+mod searched;
 mod seek;
+mod shared_segments;
 mod shortlist;
 mod tree;
 
 pub use best::{Best, NearPair, Neighbor, Ranked};
-pub use brute::{closest_pairs, k_nearest};
+pub use brute::{closest_pairs, in_radius, k_nearest};
 pub use farthest::{FarPair, farthest_pair};
-pub use graph::k_nearest_graph;
-pub use index::{Candidates, Index};
+pub use index::Index;
+pub use k_nearest_graph::k_nearest_graph;
+pub use radius_graph::radius_graph;
+pub use searched::Searched;
 
 #[cfg(test)]
 mod tests;

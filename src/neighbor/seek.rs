@@ -1,155 +1,161 @@
-//! The search of a tree for what is near a place.
+//! Searching a tree for the points near a query: branch and bound, nearest boxes first.
 
-use super::build::an_id;
+use super::build::first_id;
 use super::embedding::{Embedding, FAN, length};
 use super::layout::NONE;
 use super::tree::Tree;
 
-/// Whoever looks for points near a place.
+/// Receives what a search finds, and says how far the search still has to look.
 pub(super) trait Seeker {
-    /// Points farther from the place, their distance squared, do not matter any more.
-    fn limit(&self) -> f32;
-    /// Takes in a point, given the square of its distance. `counts` says that it is known to matter.
-    fn meet(&mut self, id: u32, square: f32, counts: bool);
-    /// Whether all that has the label of `id` matters, or none. `None` where labels do not decide.
-    fn label_counts(&self, id: u32) -> Option<bool>;
+    /// Points and boxes with a larger squared distance to the query's point are pruned.
+    fn pruning_bound(&self) -> f32;
+    /// Receives a point that is not pruned: its id and its squared distance to the query's point. `eligible` says
+    /// that the id is known to be eligible; otherwise the seeker has to find out.
+    fn offer(&mut self, id: u32, square: f32, eligible: bool);
+    /// Whether all ids with the same label as `id` are eligible, or none of them; `None` if labels do not decide
+    /// that.
+    fn label_is_eligible(&self, id: u32) -> Option<bool>;
 }
 
-/// The search of one tree around one point.
+/// The search of one tree for the points near the point of one query.
 pub(super) struct Search<'a, S> {
     tree: &'a Tree,
     ids: &'a [u32],
     points: &'a [f32],
     embedding: &'a Embedding,
     point: &'a [f32],
-    knows_labels: bool,
+    trusts_labels: bool,
     seeker: &'a mut S,
 }
 
 impl<'a, S: Seeker> Search<'a, S> {
-    /// A search when there are `now` configurations.
+    /// A search by an index that knows the labels of `configs` configurations.
     pub(super) fn new(
         tree: &'a Tree,
         embedding: &'a Embedding,
         point: &'a [f32],
-        now: u32,
+        configs: u32,
         seeker: &'a mut S,
     ) -> Search<'a, S> {
-        // Whoever built it may have been further: what was united there may not be so yet.
-        let knows_labels = tree.time() <= now;
+        // A shared tree may have been built by another process that was further on. Labels that had united
+        // there may still be different here.
+        let trusts_labels = tree.configs_at_build() <= configs;
         let (ids, points) = (tree.ids(), tree.points());
-        Search { tree, ids, points, embedding, point, knows_labels, seeker }
+        Search { tree, ids, points, embedding, point, trusts_labels, seeker }
     }
 
-    /// Shows the seeker every point that may matter.
-    pub(super) fn everywhere(mut self) {
+    /// Searches from the root, and offers the seeker every point that is not pruned.
+    pub(super) fn search_from_root(mut self) {
         if self.tree.len() > 0 {
-            self.visit(self.tree.height() - 1, 0, None, false);
+            self.search_boxes(self.tree.height() - 1, 0, None, false);
         }
     }
 
-    /// The same, but from a leaf outwards: for a point that lies there.
-    pub(super) fn outwards(mut self, leaf: usize) {
-        self.look(leaf, false);
+    /// Does the same from a leaf outwards. That is faster for a query whose point lies in the leaf, since the
+    /// first points offered are near.
+    pub(super) fn search_from_leaf(mut self, leaf: usize) {
+        self.search_leaf(leaf, false);
         let mut index = leaf;
         for level in 0..self.tree.height() {
-            self.visit(level, index / FAN, Some(index % FAN), false);
+            self.search_boxes(level, index / FAN, Some(index % FAN), false);
             index /= FAN;
         }
     }
 
-    /// Visits boxes `FAN * block` and following of a level but for one, nearest first. `counts` says that
-    /// all their points are known to matter: looking a label up is what costs most.
-    fn visit(&mut self, level: usize, block: usize, but: Option<usize>, counts: bool) {
-        let (count, sides) = self.tree.boxes(level, block);
-        let limit = self.seeker.limit();
-        let (squares, mut within) = self.embedding.near_boxes(self.point, sides, limit);
-        let first = block * FAN;
+    /// Searches a group of boxes, those of a level from number `FAN * group` on, without the one at index `but`;
+    /// nearest first. `eligible` says that all their ids are known to be eligible: looking labels up is what costs
+    /// most.
+    fn search_boxes(&mut self, level: usize, group: usize, but: Option<usize>, eligible: bool) {
+        let (count, sides) = self.tree.boxes(level, group);
+        let bound = self.seeker.pruning_bound();
+        let (squares, mut near) = self.embedding.near_boxes(self.point, sides, bound);
+        let first = group * FAN;
         if count < FAN {
-            within &= (1 << count) - 1;
+            near &= (1 << count) - 1;
         }
         if let Some(but) = but {
-            within &= !(1 << but);
+            near &= !(1 << but);
         }
-        if level == 0 && but.is_none() && limit.is_finite() {
-            // Of the last boxes the order hardly matters once there is a limit, and finding it costs.
-            for child in ones(within) {
-                if squares[child] <= self.seeker.limit() {
-                    self.enter(level, first + child, counts);
+        if level == 0 && but.is_none() && bound.is_finite() {
+            // Among leaves the order hardly matters once there is a bound, and finding it costs time.
+            for child in ones(near) {
+                if squares[child] <= self.seeker.pruning_bound() {
+                    self.search_box(level, first + child, eligible);
                 }
             }
             return;
         }
-        // Squares of boxes are numbers and not negative, so their bits order as they do.
-        let (mut near, mut found) = ([0u64; FAN], 0);
-        for child in ones(within) {
+        // Squared distances of boxes are numbers and not negative, so their bits order as they do.
+        let (mut keys, mut found) = ([0u64; FAN], 0);
+        for child in ones(near) {
             let key = u64::from(squares[child].to_bits()) << 32 | child as u64;
-            // Few are within, and mostly in no order: insertion beats what sorts many.
+            // Insertion is the fastest way to sort few keys in no particular order.
             let mut at = found;
-            while at > 0 && near[at - 1] > key {
-                near[at] = near[at - 1];
+            while at > 0 && keys[at - 1] > key {
+                keys[at] = keys[at - 1];
                 at -= 1;
             }
-            near[at] = key;
+            keys[at] = key;
             found += 1;
         }
-        for key in &near[..found] {
-            if f32::from_bits((key >> 32) as u32) > self.seeker.limit() {
+        for key in &keys[..found] {
+            if f32::from_bits((key >> 32) as u32) > self.seeker.pruning_bound() {
                 return;
             }
-            self.enter(level, first + (key & u64::from(u32::MAX)) as usize, counts);
+            self.search_box(level, first + (key & u64::from(u32::MAX)) as usize, eligible);
         }
     }
 
-    fn enter(&mut self, level: usize, index: usize, mut counts: bool) {
-        if !counts && self.knows_labels && self.tree.is_uniform(level, index) {
-            match self.seeker.label_counts(self.ids[an_id(level, index)]) {
+    /// Searches what is in a box, unless its label rules it out.
+    fn search_box(&mut self, level: usize, index: usize, mut eligible: bool) {
+        if !eligible && self.trusts_labels && self.tree.is_uniform(level, index) {
+            match self.seeker.label_is_eligible(self.ids[first_id(level, index)]) {
                 Some(false) => return,
-                Some(true) => counts = true,
+                Some(true) => eligible = true,
                 None => {}
             }
         }
         match level {
-            0 => self.look(index, counts),
-            _ => self.visit(level - 1, index, None, counts),
+            0 => self.search_leaf(index, eligible),
+            _ => self.search_boxes(level - 1, index, None, eligible),
         }
     }
 
-    fn look(&mut self, leaf: usize, counts: bool) {
+    fn search_leaf(&mut self, leaf: usize, eligible: bool) {
         let values = FAN * self.point.len();
         let points = &self.points[leaf * values..(leaf + 1) * values];
         let ids = &self.ids[leaf * FAN..(leaf + 1) * FAN];
-        look(self.embedding, self.point, (ids, points), counts, self.seeker);
+        offer_leaf(self.embedding, self.point, (ids, points), eligible, self.seeker);
     }
 }
 
-/// Shows a seeker the points of a leaf that may matter.
-fn look(
+/// Offers a seeker the points of a leaf that are not pruned.
+fn offer_leaf(
     embedding: &Embedding,
     point: &[f32],
     (ids, points): (&[u32], &[f32]),
-    counts: bool,
+    eligible: bool,
     seeker: &mut impl Seeker,
 ) {
-    let (squares, within) = embedding.near_points(point, points, seeker.limit());
-    for at in ones(within) {
-        if squares[at] > seeker.limit() || ids[at] == NONE {
+    let (squares, near) = embedding.near_points(point, points, seeker.pruning_bound());
+    for at in ones(near) {
+        if squares[at] > seeker.pruning_bound() || ids[at] == NONE {
             continue;
         }
-        seeker.meet(ids[at], squares[at], counts);
+        seeker.offer(ids[at], squares[at], eligible);
     }
 }
 
-/// Points without boxes, [`FAN`] to a leaf: too few to be put in order.
+/// Leaves without a tree, for configurations too few to be arranged: they are searched one after another.
 pub(super) struct Leaves {
     ids: Vec<u32>,
     points: Vec<f32>,
-    /// Length of the longest point.
+    /// Euclidean length of the longest point.
     pub longest: f64,
 }
 
 impl Leaves {
-    /// Those of some ids that are known to matter.
+    /// Leaves with the configurations of some ids, all of them eligible.
     pub(super) fn new<'a>(
         embedding: &Embedding,
         ids: impl Iterator<Item = u32>,
@@ -159,29 +165,29 @@ impl Leaves {
         let leaves = ids.len().div_ceil(FAN);
         let mut points = vec![f32::INFINITY; leaves * FAN * axes];
         let (mut point, mut longest) = (Vec::with_capacity(axes), 0.0);
-        for (place, id) in ids.iter().enumerate() {
+        for (index, id) in ids.iter().enumerate() {
             point.clear();
             embedding.embed(config_of(*id), &mut point);
             longest = length(&point).max(longest);
             for (axis, value) in point.iter().enumerate() {
-                points[(place / FAN * axes + axis) * FAN + place % FAN] = *value;
+                points[(index / FAN * axes + axis) * FAN + index % FAN] = *value;
             }
         }
         ids.resize(leaves * FAN, NONE);
         Leaves { ids, points, longest }
     }
 
-    /// Shows the seeker every point that may matter.
-    pub(super) fn look(&self, embedding: &Embedding, point: &[f32], seeker: &mut impl Seeker) {
+    /// Offers a seeker every point that is not pruned.
+    pub(super) fn search(&self, embedding: &Embedding, point: &[f32], seeker: &mut impl Seeker) {
         let values = FAN * point.len();
         for (leaf, ids) in self.ids.chunks_exact(FAN).enumerate() {
             let points = &self.points[leaf * values..(leaf + 1) * values];
-            look(embedding, point, (ids, points), true, seeker);
+            offer_leaf(embedding, point, (ids, points), true, seeker);
         }
     }
 }
 
-/// The places of the bits that are set, lowest first.
+/// The indices of the bits that are set, lowest first.
 fn ones(mut bits: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let at = bits.trailing_zeros();

@@ -1,60 +1,66 @@
-//! What can be among the nearest, told from squares of distances between points.
+//! The candidates of a search for the nearest: what the distances of points have not ruled out yet.
 
 use super::best::Ranked;
-use super::embedding::Bounds;
+use super::embedding::ErrorBounds;
 
-/// About so many may be in question before they are looked through.
+/// With this many candidates, in addition to four times as many as are wanted, those ruled out meanwhile are
+/// removed.
 const CROWD: usize = 256;
 
-/// Something that was met on a search.
+/// A configuration that may be among the nearest to a query.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Met {
-    /// The square of the distance of the points, as computed.
+pub(super) struct Candidate {
+    /// Squared distance of the points of the configuration and of the query, as computed.
     square: f32,
-    /// Which query met it.
+    /// Number of the query.
     pub query: u32,
-    /// Its id.
+    /// Id of the configuration.
     pub id: u32,
 }
 
-/// All that can be among the `most` nearest of what was offered, whatever the order of the offers.
+/// Keeps all candidates that can be among the `most` nearest of those offered, in whatever order they are offered.
+///
+/// Each squared distance of points gives an upper bound on the distance of the configurations. The least `most`
+/// of these upper bounds say how far the wanted configurations can be, so points farther away are pruned.
 #[derive(Debug)]
 pub(super) struct Shortlist {
     most: usize,
-    bounds: Bounds,
-    met: Vec<Met>,
-    /// The least of the squares that were offered, in ascending order.
-    squares: Vec<f32>,
-    limit: f32,
+    error_bounds: ErrorBounds,
+    candidates: Vec<Candidate>,
+    /// The `most` least squared distances offered, ascending; infinite as long as there are fewer.
+    least_squares: Vec<f32>,
+    pruning_bound: f32,
 }
 
 impl Shortlist {
-    /// Nothing yet, and at most `most`, which is not 0, later.
-    pub fn new(most: usize, bounds: Bounds) -> Shortlist {
-        let limit = f32::INFINITY;
-        Shortlist { most, bounds, met: Vec::new(), squares: vec![limit; most], limit }
+    /// Has no candidates yet; at most `most` configurations, which is not 0, are wanted.
+    pub fn new(most: usize, error_bounds: ErrorBounds) -> Shortlist {
+        let (candidates, least_squares) = (Vec::new(), vec![f32::INFINITY; most]);
+        Shortlist { most, error_bounds, candidates, least_squares, pruning_bound: f32::INFINITY }
     }
 
-    /// Forgets all.
+    /// Removes all candidates, for another search.
     pub fn clear(&mut self) {
-        self.met.clear();
-        self.squares.fill(f32::INFINITY);
-        self.limit = f32::INFINITY;
+        self.candidates.clear();
+        self.least_squares.fill(f32::INFINITY);
+        self.pruning_bound = f32::INFINITY;
     }
 
-    /// Points farther apart, their distance squared, are of no use any more.
-    pub fn limit(&self) -> f32 {
-        self.limit
+    /// Points with a larger squared distance belong to configurations that are not among the nearest.
+    pub fn pruning_bound(&self) -> f32 {
+        self.pruning_bound
     }
 
-    /// Takes in what was met, given the square of the distance of the points.
+    /// Adds a candidate, given the squared distance of the points.
     pub fn offer(&mut self, query: u32, id: u32, square: f32) {
-        self.met.push(Met { square, query, id });
-        let Some(last) = self.squares.last_mut().filter(|last| square < **last) else { return };
+        self.candidates.push(Candidate { square, query, id });
+        let Some(last) = self.least_squares.last_mut().filter(|last| square < **last) else {
+            return;
+        };
         *last = square;
-        // Without branches that nobody can foresee.
+        // Inserts without branches, which the processor could not predict.
         let mut before = f32::NEG_INFINITY;
-        for at in &mut self.squares {
+        for at in &mut self.least_squares {
             let here = *at;
             *at = if here < square {
                 here
@@ -65,28 +71,33 @@ impl Shortlist {
             };
             before = here;
         }
-        self.limit = self.bounds.limit(self.bounds.most(self.squares[self.most - 1]));
+        let farthest = self.error_bounds.largest_square(self.least_squares[self.most - 1]);
+        self.pruning_bound = self.error_bounds.pruning_bound(farthest);
     }
 
-    /// To be called after offers: drops what cannot be among the nearest, where there is much of it.
-    pub fn clear_up<T: Ranked>(&mut self, item: impl Fn(&Met) -> T) {
+    /// Bounds the number of candidates; to be called after offers. Where even those not ruled out are many, as
+    /// in a crowd of equal configurations, it measures them by `measure` and keeps the nearest.
+    pub fn trim<T: Ranked>(&mut self, measure: impl Fn(&Candidate) -> T) {
         let crowd = 4 * self.most + CROWD;
-        if self.met.len() > crowd && self.left().len() > crowd / 2 {
-            self.met = self.nearest(item).into_iter().map(|(met, _)| met).collect();
+        if self.candidates.len() > crowd && self.remaining().len() > crowd / 2 {
+            let nearest = self.nearest(measure).into_iter();
+            self.candidates = nearest.map(|(candidate, _)| candidate).collect();
         }
     }
 
-    /// What can still be among the nearest.
-    pub fn left(&mut self) -> &[Met] {
-        let limit = self.limit;
-        // What is not a number says nothing.
-        self.met.retain(|met| met.square <= limit || met.square.is_nan());
-        &self.met
+    /// The candidates that can still be among the nearest.
+    pub fn remaining(&mut self) -> &[Candidate] {
+        let bound = self.pruning_bound;
+        // A squared distance that is not a number, because of overflow, rules nothing out.
+        self.candidates.retain(|candidate| candidate.square <= bound || candidate.square.is_nan());
+        &self.candidates
     }
 
-    /// The nearest, nearest first.
-    pub fn nearest<T: Ranked>(&mut self, item: impl Fn(&Met) -> T) -> Vec<(Met, T)> {
-        let mut items: Vec<_> = self.left().iter().map(|met| (*met, item(met))).collect();
+    /// The at most `most` nearest by the distances that `measure` gives, nearest first.
+    pub fn nearest<T: Ranked>(&mut self, measure: impl Fn(&Candidate) -> T) -> Vec<(Candidate, T)> {
+        let remaining = self.remaining().iter();
+        let mut items: Vec<_> =
+            remaining.map(|candidate| (*candidate, measure(candidate))).collect();
         items.sort_unstable_by(|a, b| a.1.rank(&b.1));
         items.truncate(self.most);
         items

@@ -88,23 +88,53 @@ fn configs(space: &Space, stream: &mut Stream, count: usize) -> Configs {
     configs
 }
 
-/// Ids with one of a few labels; those of one label count.
+/// Ids with one of a few labels; all are eligible, or those with one label.
 struct Labelled<'a> {
     configs: &'a Configs,
     label_of: &'a [u32],
     wanted: Option<u32>,
 }
 
-impl Candidates for Labelled<'_> {
+impl Searched for Labelled<'_> {
     fn config(&self, id: u32) -> &[f64] {
         self.configs.get(id as usize)
     }
-    fn counts(&self, id: u32) -> bool {
-        self.label_counts(id) != Some(false)
+    fn is_eligible(&self, id: u32) -> bool {
+        self.label_is_eligible(id) != Some(false)
     }
-    fn label_counts(&self, id: u32) -> Option<bool> {
+    fn label_is_eligible(&self, id: u32) -> Option<bool> {
         self.wanted.map(|wanted| self.label_of[id as usize] == wanted)
     }
+}
+
+/// A radius around a query, often exactly the distance of a configuration or next to it, and how many are wanted.
+fn draw_radius(
+    space: &Space,
+    stream: &mut Stream,
+    configs: &Configs,
+    q: &[f64],
+) -> (f64, Option<usize>) {
+    let other = (stream.unit() * configs.len() as f64) as usize;
+    let exact = if configs.is_empty() { 1.0 } else { space.distance(q, configs.get(other)) };
+    let radius = match (stream.unit() * 8.0) as u32 {
+        0 | 1 => exact,
+        2 => exact.next_up(),
+        3 => exact.next_down(),
+        4 => 0.0,
+        5 => f64::INFINITY,
+        6 => [-1.0, f64::NEG_INFINITY, f64::NAN][(stream.unit() * 3.0) as usize],
+        _ => stream.unit() * stream.unit() * space.diameter(),
+    };
+    (radius, (stream.unit() < 0.5).then(|| (stream.unit() * stream.unit() * 300.0) as usize))
+}
+
+/// The edges of the radius graph by definition.
+fn near_pairs(space: &Space, configs: &Configs, radius: f64) -> Vec<(u32, u32)> {
+    let count = configs.len() as u32;
+    let pairs = (0..count).flat_map(|low| (low + 1..count).map(move |high| (low, high)));
+    let distance =
+        |id: (u32, u32)| space.distance(configs.get(id.0 as usize), configs.get(id.1 as usize));
+    pairs.filter(|pair| distance(*pair) <= radius).collect()
 }
 
 /// An index over the first of the configurations, built in steps, and labels that unite meanwhile.
@@ -164,11 +194,15 @@ proptest! {
             let (end, label_of) = &states[*state];
             index.extend(*end, |id| configs.get(id as usize), |id| label_of[id as usize]);
             let wanted = Some((stream.unit() * 5.0) as u32);
-            let candidates = Labelled { configs: &configs, label_of, wanted };
-            let ids = (0..*end).filter(|id| candidates.counts(*id));
+            let searched = Labelled { configs: &configs, label_of, wanted };
+            let ids = (0..*end).filter(|id| searched.is_eligible(*id));
             let q = configs.get((stream.unit() * configs.len() as f64) as usize);
             let expected = k_nearest(&space, &configs, ids, q, 7);
-            prop_assert_eq!(index.k_nearest(&space, &candidates, *end, q, 7), expected);
+            prop_assert_eq!(index.k_nearest(&space, &searched, *end, q, 7), expected);
+            let (radius, most) = draw_radius(&space, &mut stream, &configs, q);
+            let ids = (0..*end).filter(|id| searched.is_eligible(*id));
+            let expected = in_radius(&space, &configs, ids, q, radius, most);
+            prop_assert_eq!(index.in_radius(&space, &searched, *end, q, radius, most), expected);
         }
     }
 
@@ -182,28 +216,37 @@ proptest! {
         for space in spaces() {
             let configs = configs(&space, &mut stream, count);
             let ids = 0..configs.len() as u32;
-            // Labels by place, so that whole boxes have one.
+            // Labels by position, so that whole boxes have the same one.
             let mut label_of: Vec<u32> = configs
                 .iter()
                 .map(|q| if q.first().is_some_and(|x| *x < 0.0) { 0 } else { 1 + (stream.unit() * 4.0) as u32 })
                 .collect();
-            let (index, steps) = index(&space, &configs, &mut label_of, &mut stream);
+            let (mut index, steps) = index(&space, &configs, &mut label_of, &mut stream);
             for wanted in [None, Some(0), Some(1)] {
-                let candidates = Labelled { configs: &configs, label_of: &label_of, wanted };
+                let searched = Labelled { configs: &configs, label_of: &label_of, wanted };
                 let some: Vec<u32> =
-                    ids.clone().filter(|id| candidates.counts(*id)).collect();
+                    ids.clone().filter(|id| searched.is_eligible(*id)).collect();
                 let others = super::tests::configs(&space, &mut stream, 6);
                 let mut queries: Vec<&[f64]> = others.iter().collect();
                 queries.extend(configs.iter().step_by(61));
                 for q in queries {
                     let expected = k_nearest(&space, &configs, some.iter().copied(), q, k);
-                    let found = index.k_nearest(&space, &candidates, ids.end, q, k);
+                    let found = index.k_nearest(&space, &searched, ids.end, q, k);
                     prop_assert_eq!(found, expected, "{:?} {:?}", steps, wanted);
+
+                    let (radius, most) = draw_radius(&space, &mut stream, &configs, q);
+                    let expected =
+                        in_radius(&space, &configs, some.iter().copied(), q, radius, most);
+                    for lanes in Lanes::all() {
+                        Arc::make_mut(&mut index.embedding).lanes = lanes;
+                        let found = index.in_radius(&space, &searched, ids.end, q, radius, most);
+                        prop_assert_eq!(&found, &expected, "{} {:?} {:?}", radius, most, lanes);
+                    }
                 }
                 let first: Vec<u32> = (0..others.len() as u32).collect();
                 let first = (&others, &first[..]);
                 let expected = closest_pairs(&space, first, (&configs, &some), k);
-                let found = index.closest_pairs(&space, first, &candidates, ids.end, k);
+                let found = index.closest_pairs(&space, first, &searched, ids.end, k);
                 prop_assert_eq!(found, expected, "{:?} {:?}", steps, wanted);
             }
         }
@@ -239,6 +282,23 @@ proptest! {
     }
 
     #[test]
+    fn the_radius_graph_has_all_pairs_within_the_radius(
+        ordinal in any::<u64>(),
+        count in 0usize..300,
+    ) {
+        let mut stream = Seed::of_set(1, "radius graph", ordinal).stream(Purpose::Sampling);
+        for space in spaces() {
+            let configs = configs(&space, &mut stream, count);
+            let q = draw(&space, &mut stream, &configs);
+            // The radius is a distance between two of the configurations, or one that no pair need have.
+            let from = if configs.is_empty() || stream.unit() < 0.3 { &q[..] } else { configs.get(0) };
+            let (radius, _) = draw_radius(&space, &mut stream, &configs, from);
+            let expected = near_pairs(&space, &configs, radius);
+            prop_assert_eq!(radius_graph(&space, &configs, radius), expected, "{}", radius);
+        }
+    }
+
+    #[test]
     fn points_bound_configurations(ordinal in any::<u64>()) {
         let mut stream = Seed::of_set(1, "points", ordinal).stream(Purpose::Sampling);
         for space in spaces() {
@@ -246,13 +306,13 @@ proptest! {
             let embedding = Embedding::new(&space);
             let (leaf, points) = leaf(&embedding, &configs);
             let longest = points.iter().map(|point| length(point)).fold(0.0, f64::max);
-            let bounds = embedding.bounds(2.0 * longest);
+            let error_bounds = embedding.error_bounds(2.0 * longest);
             for (q, point) in configs.iter().zip(&points) {
                 let squares = embedding.squares(point, &leaf);
                 for (square, other) in squares.into_iter().zip(configs.iter()) {
                     let distance = space.distance(q, other);
-                    prop_assert!(distance * distance <= bounds.most(square));
-                    prop_assert!(square <= bounds.limit(distance * distance));
+                    prop_assert!(distance * distance <= error_bounds.largest_square(square));
+                    prop_assert!(square <= error_bounds.pruning_bound(distance * distance));
                 }
             }
         }
@@ -331,9 +391,18 @@ fn equals_are_told_apart_by_their_ids() {
         for end in [500, 800] {
             index.extend(end, |id| configs.get(id as usize), |_| 0);
         }
-        let candidates = Labelled { configs: &configs, label_of: &[], wanted: None };
+        let searched = Labelled { configs: &configs, label_of: &[], wanted: None };
         let expected = k_nearest(&space, &configs, 0..900, &q, 9);
-        assert_eq!(index.k_nearest(&space, &candidates, 900, &q, 9), expected);
+        assert_eq!(index.k_nearest(&space, &searched, 900, &q, 9), expected);
+        // The differences are far below what single precision tells apart.
+        for radius in [0.0, 3e-13, 1e-12, f64::INFINITY] {
+            for most in [None, Some(9), Some(500)] {
+                let expected = in_radius(&space, &configs, 0..900, &q, radius, most);
+                assert_eq!(index.in_radius(&space, &searched, 900, &q, radius, most), expected);
+            }
+            let expected = near_pairs(&space, &configs, radius);
+            assert_eq!(radius_graph(&space, &configs, radius), expected, "{radius}");
+        }
     }
 }
 
@@ -351,16 +420,16 @@ fn labels_of_a_later_state_are_not_believed() {
     let label_of: Vec<u32> = (0..64).map(|id| id % 2).collect();
     early.extend(64, config_of, |id| label_of[id as usize]);
     assert_eq!((shelf.made(), early.segment_lengths()), (made, vec![64]), "it is the other's");
-    let candidates = Labelled { configs: &configs, label_of: &label_of, wanted: Some(1) };
+    let searched = Labelled { configs: &configs, label_of: &label_of, wanted: Some(1) };
     let odd = || (0..64).filter(|id| id % 2 == 1);
     for q in configs.iter() {
         let expected = k_nearest(&space, &configs, odd(), q, 5);
-        assert_eq!(early.k_nearest(&space, &candidates, 64, q, 5), expected);
+        assert_eq!(early.k_nearest(&space, &searched, 64, q, 5), expected);
     }
 }
 
 #[test]
-fn what_one_index_has_made_others_find_and_what_is_superseded_goes() {
+fn what_one_index_has_built_others_find_and_what_is_superseded_goes() {
     let space = rigid_space(Motion::Rigid3d, [0.0; 3], [3.0; 3], 0.5);
     let mut stream = Seed::of_set(1, "shelf", 0).stream(Purpose::Sampling);
     let configs = configs(&space, &mut stream, 1000);
@@ -391,10 +460,14 @@ fn lengths_of_any_size_keep_their_neighbours() {
         let mut index = Index::new(&space);
         index.extend(300, |id| configs.get(id as usize), |_| 0);
         assert_eq!(k_nearest_graph(&space, &configs, 5), graph(&space, &configs, 5), "{scale}");
-        let candidates = Labelled { configs: &configs, label_of: &[], wanted: None };
+        let searched = Labelled { configs: &configs, label_of: &[], wanted: None };
         for q in configs.iter().step_by(7) {
             let expected = k_nearest(&space, &configs, 0..300, q, 10);
-            assert_eq!(index.k_nearest(&space, &candidates, 300, q, 10), expected, "{scale}");
+            assert_eq!(index.k_nearest(&space, &searched, 300, q, 10), expected, "{scale}");
+            let radius = space.distance(q, configs.get(5));
+            let expected = in_radius(&space, &configs, 0..300, q, radius, None);
+            let found = index.in_radius(&space, &searched, 300, q, radius, None);
+            assert_eq!(found, expected, "{scale}");
         }
     }
 }

@@ -1,13 +1,14 @@
-//! One segment: a balanced box tree over points that never change.
+//! A segment of the index: a bounding-volume hierarchy over points that never change.
 
 use super::build::{self, Source};
 use super::embedding::{Embedding, FAN};
 use super::layout::{Head, Layout, Level};
 use crate::shelf::Block;
 
-/// A balanced tree of boxes. Leaves hold [`FAN`] points but for the last; [`FAN`] leaves following one
-/// another have a box together, as many such boxes one again, and so on. Points are put in order by
-/// cutting parts across their longest axis, always so that whole boxes go to the left.
+/// A balanced tree of axis-aligned bounding boxes. Each leaf is a bucket of [`FAN`] points, but for the last, which
+/// may have fewer. Every [`FAN`] consecutive leaves have a common box, every [`FAN`] consecutive boxes of a level
+/// have one on the next level. Points are arranged as for a k-d tree, by cutting sets of points across the axis of
+/// their widest spread; cuts are placed so that only the last box of a level is not full.
 #[derive(Debug)]
 pub(super) struct Tree {
     head: Head,
@@ -16,8 +17,8 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    /// A tree over `len` configurations from `first` on, in a block that `keep` has filled: it is given how
-    /// long the block is and what fills it.
+    /// Builds the tree over the `len` configurations from id `first` on. `keep` provides the block: it is given
+    /// the block's length in bytes and the function that fills a block of zeros.
     pub(super) fn new(
         source: &Source,
         (first, len): (u32, u32),
@@ -29,7 +30,8 @@ impl Tree {
         Tree { head: Head::read(&block), layout, block }
     }
 
-    /// The same, if `find` has such a block: it is given how long that is.
+    /// The tree over the `len` configurations from id `first` on, built earlier, if `find` has its block. `find` is
+    /// given the block's length in bytes.
     pub(super) fn found(
         embedding: &Embedding,
         (first, len): (u32, u32),
@@ -39,8 +41,8 @@ impl Tree {
         let layout = Layout::new(axes, len as usize);
         let block = find(layout.bytes)?;
         let head = Head::read(&block);
-        let is_it = (head.first, head.len, head.axes) == (first, len, axes as u32);
-        is_it.then_some(Tree { head, layout, block })
+        let as_expected = (head.first, head.len, head.axes) == (first, len, axes as u32);
+        as_expected.then_some(Tree { head, layout, block })
     }
 
     /// The first id.
@@ -53,19 +55,19 @@ impl Tree {
         self.head.len
     }
 
-    /// The id behind the last.
+    /// One more than the last id.
     pub(super) fn end(&self) -> u32 {
         self.head.first + self.head.len
     }
 
-    /// Length of the longest point.
+    /// Euclidean length of the longest point.
     pub(super) fn longest(&self) -> f64 {
         self.head.longest
     }
 
-    /// How many configurations there were when the labels were looked up.
-    pub(super) fn time(&self) -> u32 {
-        self.head.time
+    /// Number of configurations of the whole index when the tree was built: the labels are those of that state.
+    pub(super) fn configs_at_build(&self) -> u32 {
+        self.head.configs_at_build
     }
 
     /// Number of levels of boxes.
@@ -73,18 +75,18 @@ impl Tree {
         self.layout.levels.len()
     }
 
-    /// Per leaf the ids of its points, [`NONE`] where it has none.
+    /// Per leaf [`FAN`] ids of its points; [`NONE`](super::layout::NONE) where it has fewer points.
     pub(super) fn ids(&self) -> &[u32] {
         bytemuck::cast_slice(&self.block[self.layout.ids.clone()])
     }
 
-    /// Per leaf and axis the coordinates of its points.
+    /// Per leaf and axis the coordinates of its [`FAN`] points.
     pub(super) fn points(&self) -> &[f32] {
         bytemuck::cast_slice(&self.block[self.layout.points.clone()])
     }
 
-    /// How many boxes follow `FAN * group` on a level, it included, and per axis the least, then the largest
-    /// coordinates of at most [`FAN`] of them.
+    /// A group of boxes of a level, those from number `FAN * group` on: how many boxes the level has from there
+    /// on, and per axis the least, then the largest coordinates of the first [`FAN`] of these.
     pub(super) fn boxes(&self, level: usize, group: usize) -> (usize, &[f32]) {
         let Level { count, sides, .. } = &self.layout.levels[level];
         let bytes = 2 * FAN * self.head.axes as usize * size_of::<f32>();
@@ -92,7 +94,7 @@ impl Tree {
         (count - group * FAN, bytemuck::cast_slice(sides))
     }
 
-    /// Whether all points of a box had one label when they were looked up.
+    /// Whether all points of a box had the same label when the tree was built.
     pub(super) fn is_uniform(&self, level: usize, index: usize) -> bool {
         self.block[self.layout.levels[level].uniform.start + index] == 1
     }

@@ -82,7 +82,7 @@ impl Edges {
         }
     }
 
-    /// Puts on the shelf what fills whole blocks.
+    /// Moves what fills whole blocks to the shelf, which replicas of the roadmap share.
     pub(super) fn share_full_blocks(&mut self, shelf: &dyn Shelf) {
         let blocks = self.rest.weights.len() / BLOCK;
         let columns = self.rest.columns();

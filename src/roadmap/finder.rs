@@ -1,25 +1,26 @@
-//! Nodes and components near a place, by indices that whoever asks pays for.
+//! Searches for the nodes and components near a configuration, by indices that are built when they pay.
 //!
-//! What is found is what brute force finds, so the indices may come and go as it pays. Who never asks
-//! (a coordinator, a ledger's reader) never builds one.
+//! Searches return what brute force returns, so no result depends on whether there is an index. The indices are
+//! built by searches; processes that never search (a coordinator, a reader of ledgers) never build one.
 
 use super::component::Component;
 use super::components::Components;
 use super::indices::{Centres, NO_ENTRY, TAIL, read};
-use crate::neighbor::{self, Best, Candidates, Index, NearPair, Neighbor};
+use crate::neighbor::{self, Best, Index, NearPair, Neighbor, Searched};
 use crate::space::{Configs, Space};
 use std::sync::RwLockReadGuard;
 use std::sync::atomic::Ordering;
 
-/// More new nodes are added to the index once they have been searched so often: that costs about as
-/// much as adding them.
+/// As soon as there are more new nodes they are added to the index after this many searches, which together cost
+/// about as much as adding them.
 const SEARCHES: u32 = 32;
-/// Of a component of at most so many nodes all are looked at.
+/// Components with at most this many nodes are searched by brute force.
 const FEW_MEMBERS: usize = 256;
-/// At most so many components are compared one by one.
+/// At most this many components are searched by brute force.
 const FEW_COMPONENTS: usize = 64;
 
-/// Searches of nodes and components.
+/// Searches of nodes and components. Distances are those of [`Space::distance`], `configs` are those of the graph's
+/// nodes, queries are in stored form.
 impl Components {
     /// The at most `k` of the graph's nodes nearest to `q`, nearest first, ties by id.
     pub fn k_nearest(
@@ -37,8 +38,27 @@ impl Components {
         index.k_nearest(space, &All(configs), self.nodes(), q, k)
     }
 
-    /// The at most `count` closest pairs of a configuration of `first` and a node of `component`,
-    /// closest first, ties by the first id, then by the second.
+    /// The graph's nodes within a radius of `q`: all whose distance to `q` is at most `radius`, a length in the scene's
+    /// unit, nearest first, ties by id. With `most`, at most that many, the nearest ones. There are none if the
+    /// radius is negative or not a number; an infinite radius has all nodes in it.
+    pub fn in_radius(
+        &self,
+        space: &Space,
+        configs: &Configs,
+        q: &[f64],
+        radius: f64,
+        most: Option<usize>,
+    ) -> Vec<Neighbor> {
+        if self.nodes() < TAIL {
+            return neighbor::in_radius(space, configs, 0..self.nodes(), q, radius, most);
+        }
+        let index = self.index(space, configs, 1);
+        let index = index.as_ref().expect("made");
+        index.in_radius(space, &All(configs), self.nodes(), q, radius, most)
+    }
+
+    /// The at most `count` closest pairs of a configuration of `first`, given with the ids that take part, and a node
+    /// of `component`. Closest first, ties by the first id, then by the second.
     pub fn closest_pairs(
         &self,
         space: &Space,
@@ -59,8 +79,8 @@ impl Components {
         index.closest_pairs(space, first, &members, self.nodes(), count)
     }
 
-    /// The at most `count` components whose centres are nearest to `centre`, nearest first, ties by
-    /// name; each is given by its name.
+    /// The at most `count` components whose centres are nearest to `centre`, nearest first, ties by name. The id of
+    /// each is its component's name.
     pub fn nearest(&self, space: &Space, centre: &[f64], count: usize) -> Vec<Neighbor> {
         let mut best = Best::new(count);
         let mut offer = |component: &Component| {
@@ -92,7 +112,7 @@ impl Components {
         best.into_items()
     }
 
-    /// The index over nodes, for so many searches. It may lack the last ones.
+    /// The index of the nodes, about to be searched by `searches` queries. It may lack the last nodes.
     fn index(
         &self,
         space: &Space,
@@ -119,10 +139,10 @@ impl Components {
     }
 }
 
-/// All nodes.
+/// All nodes of a graph.
 struct All<'a>(&'a Configs);
 
-impl Candidates for All<'_> {
+impl Searched for All<'_> {
     fn config(&self, node: u32) -> &[f64] {
         self.0.get(node as usize)
     }
@@ -135,21 +155,21 @@ struct Members<'a> {
     slot: u32,
 }
 
-impl Candidates for Members<'_> {
+impl Searched for Members<'_> {
     fn config(&self, node: u32) -> &[f64] {
         self.configs.get(node as usize)
     }
 
-    fn counts(&self, node: u32) -> bool {
+    fn is_eligible(&self, node: u32) -> bool {
         self.components.slot_of(node) == self.slot
     }
 
-    fn label_counts(&self, node: u32) -> Option<bool> {
-        Some(self.counts(node))
+    fn label_is_eligible(&self, node: u32) -> Option<bool> {
+        Some(self.is_eligible(node))
     }
 }
 
-/// The entries that count, under the names of their components.
+/// The current entries, under the names of their components.
 struct Entries<'a> {
     centres: &'a Centres,
     slots: &'a [Option<Component>],
@@ -161,12 +181,12 @@ impl Entries<'_> {
     }
 }
 
-impl Candidates for Entries<'_> {
+impl Searched for Entries<'_> {
     fn config(&self, entry: u32) -> &[f64] {
         self.component(entry).map_or(&self.centres.nowhere, |component| &component.centre)
     }
 
-    fn counts(&self, entry: u32) -> bool {
+    fn is_eligible(&self, entry: u32) -> bool {
         let slot = self.centres.slots[entry as usize];
         self.centres.entry_of[slot as usize] == entry && self.slots[slot as usize].is_some()
     }

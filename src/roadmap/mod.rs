@@ -127,7 +127,7 @@ impl Roadmap {
             }
         }
         if let Some(shelf) = &self.shelf {
-            self.configs.settle(&**shelf);
+            self.configs.share_full_blocks(&**shelf);
             self.edges.share_full_blocks(&**shelf);
         }
         if self.keeps_edges {
@@ -144,6 +144,17 @@ impl Roadmap {
     /// The at most `k` milestones nearest to `q`, nearest first, ties by id.
     pub fn k_nearest(&self, space: &Space, q: &[f64], k: usize) -> Vec<Neighbor> {
         self.components.k_nearest(space, &self.configs, q, k)
+    }
+
+    /// The milestones within a radius of `q`; see [`Components::in_radius`].
+    pub fn in_radius(
+        &self,
+        space: &Space,
+        q: &[f64],
+        radius: f64,
+        most: Option<usize>,
+    ) -> Vec<Neighbor> {
+        self.components.in_radius(space, &self.configs, q, radius, most)
     }
 
     /// The milestones.

@@ -1,6 +1,6 @@
 use super::*;
 use crate::img::{Setup, build};
-use crate::neighbor::{Best, NearPair, closest_pairs, k_nearest};
+use crate::neighbor::{Best, NearPair, closest_pairs, in_radius, k_nearest};
 use crate::problem::Problem;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::shelf::tests::Flaky;
@@ -113,6 +113,13 @@ fn check(space: &Space, roadmap: &Roadmap, queries: &Configs, some: u32, k: usiz
     for q in queries.iter() {
         let expected = k_nearest(space, configs, 0..nodes, q, k);
         assert_eq!(roadmap.k_nearest(space, q, k), expected);
+
+        // A node lies exactly on the sphere.
+        let radius = space.distance(q, configs.get(some as usize));
+        for (radius, most) in [(radius, None), (radius, Some(k)), (f64::INFINITY, Some(k))] {
+            let expected = in_radius(space, configs, 0..nodes, q, radius, most);
+            assert_eq!(roadmap.in_radius(space, q, radius, most), expected);
+        }
 
         let mut best = Best::new(k);
         for component in components.iter() {

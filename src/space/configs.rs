@@ -85,8 +85,8 @@ impl Configs {
             && self.values().all(f64::is_finite)
     }
 
-    /// Puts on the shelf what fills whole blocks.
-    pub(crate) fn settle(&mut self, shelf: &dyn Shelf) {
+    /// Moves what fills whole blocks to the shelf, which replicas of the roadmap share.
+    pub(crate) fn share_full_blocks(&mut self, shelf: &dyn Shelf) {
         let length = BLOCK * self.dofs();
         let mut rest = &self.values[..];
         while let Some((values, others)) = rest.split_at_checked(length.max(1)) {
@@ -96,8 +96,8 @@ impl Configs {
             self.blocks.push(shelf::kept(shelf, name, bytes.len(), &mut fill));
             rest = others;
         }
-        let settled = self.values.len() - rest.len();
-        self.values.drain(..settled);
+        let shared = self.values.len() - rest.len();
+        self.values.drain(..shared);
     }
 }
 
@@ -112,8 +112,8 @@ impl PartialEq for Configs {
 impl Encode for Configs {
     fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
         self.dofs.encode(encoder)?;
-        let settled = self.blocks.len() * BLOCK * self.dofs();
-        ((settled + self.values.len()) as u64).encode(encoder)?;
+        let shared = self.blocks.len() * BLOCK * self.dofs();
+        ((shared + self.values.len()) as u64).encode(encoder)?;
         self.values().try_for_each(|value| value.encode(encoder))
     }
 }

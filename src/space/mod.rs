@@ -120,7 +120,7 @@ impl Space {
     /// Draws a configuration uniformly: reals in their intervals, angles on the circle, rotations
     /// on SO(3) by the Haar measure. `out` has [`Space::len`] values.
     pub fn sample_uniform(&self, stream: &mut Stream, out: &mut [f64]) {
-        self.place(|| stream.unit(), out);
+        self.fill_from_unit_numbers(|| stream.unit(), out);
     }
 
     /// The dimension of the unit cube that [`Space::of_cube`] maps to the space: one per real value and angle, three
@@ -136,10 +136,15 @@ impl Space {
     /// If the point has too few coordinates.
     pub fn of_cube(&self, point: &[f64], out: &mut [f64]) {
         let mut coordinates = point.iter();
-        self.place(|| *coordinates.next().expect("as many coordinates as the cube has"), out);
+        self.fill_from_unit_numbers(
+            || *coordinates.next().expect("as many coordinates as the cube has"),
+            out,
+        );
     }
 
-    fn place(&self, mut unit: impl FnMut() -> f64, out: &mut [f64]) {
+    /// Writes the configuration, in stored form, that numbers in `[0, 1]` stand for: one per real and angle, three per
+    /// rotation. `unit` gives them in the order of the parts.
+    fn fill_from_unit_numbers(&self, mut unit: impl FnMut() -> f64, out: &mut [f64]) {
         let between =
             |share: f64, low: f64, high: f64| (low + share * (high - low)).clamp(low, high);
         for part in &self.parts {
