@@ -36,6 +36,7 @@ mod lanes;
 pub mod connect;
 pub mod evaluate;
 pub mod export;
+pub mod finder;
 pub mod generator;
 pub mod img;
 pub mod local;

@@ -2,9 +2,11 @@
 
 use super::JoinInput;
 use crate::context::Context;
+use crate::finder::{Finder, KNearest};
 use crate::local::{self, Planner};
 use crate::model::Scratch;
 use crate::roadmap::{Components, Configs, Edge};
+use std::collections::BTreeSet;
 
 /// The roadmap, or an earlier increment of the round.
 pub(super) struct Part<'a> {
@@ -18,6 +20,8 @@ pub(super) struct Part<'a> {
 pub(super) struct Candidates<'a> {
     pub old: Vec<Part<'a>>,
     pub new: Part<'a>,
+    /// Of an increment that grew from the roadmap: its pairs of a new and an old node that have an edge already.
+    linked: BTreeSet<(u32, u32)>,
 }
 
 /// A pair to be tried; ids are those after the round.
@@ -41,23 +45,29 @@ impl<'a> Candidates<'a> {
             first += configs.len() as u32;
         }
         let new = old.pop().filter(|_| !input.increments.is_empty())?;
-        Some(Candidates { old, new })
+        let increment = &input.increments[input.increments.len() - 1].increment;
+        let linked = increment.links_from(new.first).map(|link| (link.high, link.low)).collect();
+        Some(Candidates { old, new, linked })
     }
 
     /// Each new node in order with its `neighbors` nearest old ones, nearest first, ties by id.
     pub fn nearest(&self, cx: &Context, neighbors: u32) -> Vec<Candidate> {
+        self.found(cx, &KNearest { neighbors })
+    }
+
+    /// Each new node in order with the old ones that a finder gives for it, nearest first, ties by id.
+    pub fn found(&self, cx: &Context, finder: &dyn Finder) -> Vec<Candidate> {
         let mut candidates = Vec::new();
         for (index, q) in self.new.configs.iter().enumerate() {
             let mut near = Vec::new();
             for part in &self.old {
-                let k = neighbors as usize;
-                for mut neighbor in part.components.k_nearest(&cx.space, part.configs, q, k) {
+                for mut neighbor in finder.near(&cx.space, part.configs, part.components, q) {
                     neighbor.id += part.first;
                     near.push(neighbor);
                 }
             }
             near.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
-            near.truncate(neighbors as usize);
+            near.truncate(finder.most().unwrap_or(usize::MAX));
             let new = self.new.first + index as u32;
             candidates.extend(near.iter().map(|neighbor| Candidate {
                 distance: neighbor.distance,
@@ -76,6 +86,9 @@ impl<'a> Candidates<'a> {
         pair: Candidate,
         scratch: &mut Scratch,
     ) -> Option<Edge> {
+        if self.linked.contains(&(pair.new, pair.old)) {
+            return None;
+        }
         let ends = (self.config(pair.old), self.config(pair.new));
         local::connect(cx, planners, ends, 1, scratch).map(|(planner, cost)| Edge {
             low: pair.old,

@@ -7,12 +7,14 @@ mod candidates;
 mod component_pairs;
 mod nearest;
 mod nearest_nodes;
+mod neighbors;
 mod until_joined;
 
 methods! {
     /// Connection within a node set, as a problem file names it.
     pub enum WithinKind: dyn Within {
         Nearest(nearest::Nearest),
+        Neighbors(neighbors::Neighbors), // new ones at the end, since ledgers know methods by number
     }
 }
 
@@ -22,12 +24,14 @@ methods! {
         ComponentPairs(component_pairs::ComponentPairs),
         NearestNodes(nearest_nodes::NearestNodes),
         UntilJoined(until_joined::UntilJoined),
+        Neighbors(neighbors::Neighbors), // new ones at the end, since ledgers know methods by number
     }
 }
 
 pub use component_pairs::ComponentPairs;
 pub use nearest::Nearest;
 pub use nearest_nodes::NearestNodes;
+pub use neighbors::Neighbors;
 pub use until_joined::UntilJoined;
 
 use crate::context::Context;

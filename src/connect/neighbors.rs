@@ -1,0 +1,71 @@
+use super::candidates::Candidates;
+use super::{Among, JoinInput, Within, default_planners};
+use crate::context::Context;
+use crate::finder::FinderKind;
+use crate::local::{self, Planner};
+use crate::methods::Complaint;
+use crate::model::Scratch;
+use crate::roadmap::{Configs, Edge};
+use crate::seed::Seed;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+
+/// Each milestone with its neighbours by any neighbour finder, within a set or among sets. All pairs are tried and
+/// all successes kept: within a set in ascending order from the lower to the higher id, among sets each new
+/// milestone in order with its neighbours, nearest first, from the old one to the new.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields)]
+pub struct Neighbors {
+    /// The neighbour finder.
+    #[serde(default)]
+    pub finder: FinderKind,
+    /// Local planners, tried in this order until one succeeds.
+    #[serde(default = "default_planners")]
+    pub planners: Vec<Planner>,
+}
+
+impl Neighbors {
+    fn complaint(&self) -> Option<Complaint> {
+        self.finder.method().complaint().or_else(|| local::complaint(&self.planners))
+    }
+}
+
+impl Within for Neighbors {
+    fn connect(
+        &self,
+        cx: &Context,
+        _seed: &Seed,
+        configs: &Configs,
+        scratch: &mut Scratch,
+    ) -> Vec<Edge> {
+        let pairs = self.finder.method().pairs(&cx.space, configs);
+        let mut edges = Vec::new();
+        for (low, high) in pairs {
+            let ends = (configs.get(low as usize), configs.get(high as usize));
+            let joined = local::connect(cx, &self.planners, ends, 1, scratch);
+            edges.extend(joined.map(|(planner, cost)| Edge {
+                low,
+                high,
+                planner: planner.tag(),
+                cost,
+            }));
+        }
+        edges
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        self.complaint()
+    }
+}
+
+impl Among for Neighbors {
+    fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
+        let Some(candidates) = Candidates::new(input) else { return Vec::new() };
+        let pairs = candidates.found(cx, self.finder.method()).into_iter();
+        pairs.filter_map(|pair| candidates.connect(cx, &self.planners, pair, scratch)).collect()
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        self.complaint()
+    }
+}
