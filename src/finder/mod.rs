@@ -4,15 +4,18 @@
 //! the same, bit for bit, in less time. So whether and when an index is built changes no roadmap.
 
 mod k_nearest;
+mod radius;
 
 methods! {
     /// The neighbour finders, as a problem file names them.
     pub enum FinderKind: dyn Finder {
-        KNearest(k_nearest::KNearest), // new ones at the end, since ledgers know methods by number
+        KNearest(k_nearest::KNearest),
+        Radius(radius::Radius), // new ones at the end, since ledgers know methods by number
     }
 }
 
 pub use k_nearest::KNearest;
+pub use radius::Radius;
 
 use crate::methods::{Complaint, methods};
 use crate::neighbor::Neighbor;

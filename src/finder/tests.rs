@@ -7,7 +7,12 @@ use proptest::prelude::*;
 
 /// Every finder once.
 fn finders(neighbors: u32) -> Vec<FinderKind> {
-    vec![FinderKind::KNearest(KNearest { neighbors })]
+    let radius = 0.1 * f64::from(neighbors);
+    vec![
+        FinderKind::KNearest(KNearest { neighbors }),
+        FinderKind::Radius(Radius { radius, most: None }),
+        FinderKind::Radius(Radius { radius, most: Some(neighbors) }),
+    ]
 }
 
 proptest! {

@@ -1,0 +1,53 @@
+use super::Finder;
+use crate::methods::Complaint;
+use crate::neighbor::{Neighbor, radius_graph};
+use crate::roadmap::{Components, Configs};
+use crate::space::Space;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+
+/// All milestones within a radius, as the first PRM has them (Kavraki et al. 1996, §III-A: *"within some
+/// predefined distance"*); with `most` the nearest of them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields)]
+pub struct Radius {
+    /// The largest distance, in the space's metric.
+    pub radius: f64,
+    /// The most neighbours of a configuration. Within a set there may be more: there both milestones of a pair
+    /// have it.
+    #[serde(default)]
+    pub most: Option<u32>,
+}
+
+impl Finder for Radius {
+    fn near(
+        &self,
+        space: &Space,
+        configs: &Configs,
+        components: &Components,
+        q: &[f64],
+    ) -> Vec<Neighbor> {
+        components.in_radius(space, configs, q, self.radius, self.most())
+    }
+
+    fn pairs(&self, space: &Space, configs: &Configs) -> Vec<(u32, u32)> {
+        let Some(most) = self.most() else { return radius_graph(space, configs, self.radius) };
+        // Both relations are symmetric in the distance: a pair is kept where either milestone has it among its
+        // nearest.
+        let mut pairs = crate::neighbor::k_nearest_graph(space, configs, most);
+        let config = |id: u32| configs.get(id as usize);
+        pairs.retain(|(a, b)| space.distance(config(*a), config(*b)) <= self.radius);
+        pairs
+    }
+
+    fn most(&self) -> Option<usize> {
+        self.most.map(|most| most as usize)
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        if !(self.radius > 0.0 && self.radius <= crate::scene::LENGTH_MAX) {
+            return Some(("radius", self.radius.to_string(), "a positive length"));
+        }
+        (self.most == Some(0)).then(|| ("most", "0".to_owned(), "at least 1"))
+    }
+}
