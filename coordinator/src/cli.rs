@@ -1,7 +1,9 @@
 //! The command line.
 
 use crate::exit;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use roadmill::export::{FORMATS, RoadmapFormat};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -359,26 +361,18 @@ pub struct ExportArguments {
     /// The run folder
     pub run: PathBuf,
     /// The format
-    #[arg(long, value_enum)]
-    pub format: Format,
+    #[arg(long, value_parser = formats())]
+    pub format: String,
     /// The file to be written; of csv the nodes, the edges go beside it into NAME.edges.csv
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
 }
 
-/// A format of `export`.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum Format {
-    /// The graph with typed attributes, for networkx, Gephi, igraph, …
-    Graphml,
-    /// Two tables, of the nodes and of the edges
-    Csv,
-    /// NumPy arrays
-    Npz,
-    /// A roadmap of Parasol's planners and of Vizmo
-    Map,
-    /// A picture of the scene, the roadmap and the path
-    Svg,
+/// The formats of `export`, each with what it is for.
+fn formats() -> PossibleValuesParser {
+    let format =
+        |format: &&dyn RoadmapFormat| PossibleValue::new(format.name()).help(format.about());
+    PossibleValuesParser::new(FORMATS.iter().map(format))
 }
 
 /// Of the hidden worker command.

@@ -1,8 +1,26 @@
+use super::format::{CannotExport, ExportFile, Exported, RoadmapFormat};
 use super::markup::escaped;
 use super::planner_name;
 use crate::problem::Problem;
 use crate::roadmap::Roadmap;
 use std::fmt::Write;
+
+/// See [`graphml`].
+pub(super) struct Graphml;
+
+impl RoadmapFormat for Graphml {
+    fn name(&self) -> &'static str {
+        "graphml"
+    }
+
+    fn about(&self) -> &'static str {
+        "The graph with typed attributes, for networkx, Gephi, igraph, …"
+    }
+
+    fn files(&self, exported: &Exported) -> Result<Vec<ExportFile>, CannotExport> {
+        Ok(vec![ExportFile::named(graphml(exported.problem, exported.roadmap))])
+    }
+}
 
 /// The attribute of nodes that is no degree of freedom.
 const COMPONENT: &str = "component";
@@ -12,7 +30,8 @@ const COMPONENT: &str = "component";
 /// Of a node: a double per degree of freedom under its name, lengths in the problem's unit and
 /// angles in radians, and `component` (int), the smallest node id in its connected component. Of an
 /// edge, whose source is the lower node: `weight` (double, length in the space's metric), `planner`
-/// (string) and `planner_tag` (int). The graph itself has `problem` (string), `seed` (string, since it
+/// (string) and `planner_tag` (int); where costs depend on the direction also `weight_back` and `peak` (doubles).
+/// Nodes also have a double for each value that the model gives them. The graph itself has `problem` (string), `seed` (string, since it
 /// may need 64 bits) and `digest` (string). Numbers are written so that reading them back gives the
 /// same bits.
 pub fn graphml(problem: &Problem, roadmap: &Roadmap) -> String {
@@ -45,7 +64,18 @@ pub fn graphml(problem: &Problem, roadmap: &Roadmap) -> String {
         key(&format!("q{index}"), "node", &format!("{clash}{}", dof.name), "double", dof.unit);
     }
     key(COMPONENT, "node", COMPONENT, "int", "");
-    key("weight", "edge", "weight", "double", "length");
+    let (values, unit) = {
+        let model = problem.model.description();
+        (model.node_values(), model.cost_unit())
+    };
+    for value in values {
+        key(value.name, "node", value.name, "double", value.unit);
+    }
+    key("weight", "edge", "weight", "double", unit);
+    if roadmap.edges().is_directed() {
+        key("weight_back", "edge", "weight_back", "double", unit);
+        key("peak", "edge", "peak", "double", unit);
+    }
     key("planner", "edge", "planner", "string", "");
     key("planner_tag", "edge", "planner_tag", "int", "");
     put(format_args!("<graph id=\"roadmap\" edgedefault=\"undirected\">"));
@@ -54,17 +84,27 @@ pub fn graphml(problem: &Problem, roadmap: &Roadmap) -> String {
     put(format_args!("<data key=\"digest\">{}</data>", roadmap.digest()));
     for (node, q) in roadmap.configs().iter().enumerate() {
         let component = roadmap.components().of_node(node as u32).name;
-        let values: String = (q.iter().enumerate())
+        let dofs: String = (q.iter().enumerate())
             .map(|(index, value)| format!("<data key=\"q{index}\">{value}</data>"))
             .collect();
+        let numbers = values.iter().zip(roadmap.values_of(node, values.len()));
+        let numbers: String = numbers
+            .map(|(value, number)| format!("<data key=\"{}\">{number}</data>", value.name))
+            .collect();
         put(format_args!(
-            "<node id=\"{node}\">{values}<data key=\"component\">{component}</data></node>"
+            "<node id=\"{node}\">{dofs}<data key=\"component\">{component}</data>{numbers}</node>"
         ));
     }
     for edge in roadmap.edges().iter() {
+        let directed = edge.cost.directed().map_or_else(String::new, |cost| {
+            format!(
+                "<data key=\"weight_back\">{}</data><data key=\"peak\">{}</data>",
+                cost.backward, cost.peak
+            )
+        });
         put(format_args!(
             "<edge source=\"{}\" target=\"{}\"><data key=\"weight\">{}</data>\
-             <data key=\"planner\">{}</data><data key=\"planner_tag\">{}</data></edge>",
+             <data key=\"planner\">{}</data><data key=\"planner_tag\">{}</data>{directed}</edge>",
             edge.low,
             edge.high,
             edge.weight(),

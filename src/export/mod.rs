@@ -3,6 +3,7 @@
 mod animation;
 mod csv;
 mod drawing;
+mod format;
 mod graphml;
 mod journey;
 mod markup;
@@ -19,6 +20,7 @@ mod view;
 
 pub use animation::animation;
 pub use csv::{edges_csv, nodes_csv};
+pub use format::{CannotExport, ExportFile, Exported, RoadmapFormat};
 pub use graphml::graphml;
 pub use npz::npz;
 pub use parasol::{parasol_map, parasol_path};
@@ -26,6 +28,10 @@ pub use path_csv::path_csv;
 pub use svg::svg;
 
 use crate::local::Planner;
+
+/// The formats of roadmaps.
+pub const FORMATS: &[&dyn RoadmapFormat] =
+    &[&graphml::Graphml, &csv::Csv, &npz::Npz, &parasol::Map, &svg::Svg];
 
 /// The name of the local planner that a tag stands for.
 fn planner_name(tag: u8) -> String {

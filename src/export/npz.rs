@@ -1,8 +1,28 @@
+use super::format::{CannotExport, ExportFile, Exported, RoadmapFormat};
 use crate::problem::Problem;
 use crate::roadmap::Roadmap;
 use std::io::{self, Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
+
+/// See [`npz`].
+pub(super) struct Npz;
+
+impl RoadmapFormat for Npz {
+    fn name(&self) -> &'static str {
+        "npz"
+    }
+
+    fn about(&self) -> &'static str {
+        "NumPy arrays"
+    }
+
+    fn files(&self, exported: &Exported) -> Result<Vec<ExportFile>, CannotExport> {
+        let arrays = npz(exported.problem, exported.roadmap);
+        let arrays = arrays.map_err(|error| CannotExport(error.to_string()))?;
+        Ok(vec![ExportFile::named(arrays)])
+    }
+}
 
 /// A roadmap as NumPy arrays in an `.npz` file, the same bytes for the same roadmap:
 ///
@@ -11,8 +31,12 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 /// | `nodes` | n × dofs, `<f8` | configurations; lengths in the problem's unit, angles in radians |
 /// | `components` | n, `<u4` | smallest node id in the node's connected component |
 /// | `edges` | m × 2, `<u4` | node ids, the lower first |
-/// | `weights` | m, `<f8` | lengths of the edges in the space's metric |
+/// | `weights` | m, `<f8` | costs of the edges: of most models their lengths in the space's metric |
 /// | `planners` | m, `u1` | tags of the local planners |
+/// | `values` | n × values, `<f8` | what the model gives every milestone; only where it gives something |
+/// | `value_names` | values, `<U…` | names of these; as `values` |
+/// | `weights_back` | m, `<f8` | costs from the higher node to the lower; only where costs depend on the direction |
+/// | `peaks` | m, `<f8` | the highest energies on the edges; as `weights_back` |
 /// | `dof_names` | dofs, `<U…` | names of the degrees of freedom |
 /// | `dof_units` | dofs, `<U…` | `length`, `rad` or `1` |
 ///
@@ -38,6 +62,20 @@ pub fn npz(problem: &Problem, roadmap: &Roadmap) -> io::Result<Vec<u8>> {
     let bytes = edges.iter().flat_map(|edge| edge.weight().to_le_bytes());
     archive.add("weights", "<f8", &shape, bytes)?;
     archive.add("planners", "|u1", &shape, edges.iter().map(|edge| edge.planner))?;
+    let values = problem.model.description().node_values();
+    if !values.is_empty() {
+        let numbers = roadmap.values().iter().flat_map(|value| value.to_le_bytes());
+        archive.add("values", "<f8", &format!("({}, {})", nodes.len(), values.len()), numbers)?;
+        let names = values.iter().map(|value| value.name).collect::<Vec<_>>();
+        archive.texts("value_names", &names)?;
+    }
+    if edges.is_directed() {
+        let costs = || edges.iter().filter_map(|edge| edge.cost.directed());
+        let bytes = costs().flat_map(|cost| cost.backward.to_le_bytes());
+        archive.add("weights_back", "<f8", &shape, bytes)?;
+        let bytes = costs().flat_map(|cost| cost.peak.to_le_bytes());
+        archive.add("peaks", "<f8", &shape, bytes)?;
+    }
     archive.texts("dof_names", &names)?;
     archive.texts("dof_units", &units)?;
     Ok(archive.0.finish()?.into_inner())

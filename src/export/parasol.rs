@@ -5,6 +5,7 @@
 //! mean `Rz · Ry · Rx`. Between configurations Open-PPL interpolates each number by itself where
 //! roadmill turns about one axis: nodes are the same there, motions between them nearly.
 
+use super::format::{CannotExport, ExportFile, Exported, RoadmapFormat};
 use crate::context::Context;
 use crate::local::Planner;
 use crate::math;
@@ -14,6 +15,24 @@ use crate::roadmap::Roadmap;
 use crate::space::{PartKind, Space};
 use std::f64::consts::PI;
 use std::fmt::Write;
+
+/// See [`parasol_map`].
+pub(super) struct Map;
+
+impl RoadmapFormat for Map {
+    fn name(&self) -> &'static str {
+        "map"
+    }
+
+    fn about(&self) -> &'static str {
+        "A roadmap of Parasol's planners and of Vizmo"
+    }
+
+    fn files(&self, exported: &Exported) -> Result<Vec<ExportFile>, CannotExport> {
+        let Exported { problem, roadmap, .. } = *exported;
+        Ok(vec![ExportFile::named(parasol_map(problem, &problem.context(), roadmap))])
+    }
+}
 
 /// A roadmap as a `.map` file. It names the environment `NAME.env`, after the problem, which is not
 /// written. A node's line is `id configuration degree`, then for every edge, which stands at both its

@@ -1,4 +1,5 @@
 use super::drawing::{Drawing, FLOOR, INK, PAPER, RULE, WARM, blend, decimal};
+use super::format::{CannotExport, ExportFile, Exported, RoadmapFormat};
 use super::markup::escaped;
 use super::view::{MARGIN_PX, View};
 use crate::model::Figure;
@@ -8,6 +9,27 @@ use crate::roadmap::Roadmap;
 use crate::scene::Pose;
 use std::collections::BTreeSet;
 use std::fmt::Write;
+
+/// See [`svg`].
+pub(super) struct Svg;
+
+impl RoadmapFormat for Svg {
+    fn name(&self) -> &'static str {
+        "svg"
+    }
+
+    fn about(&self) -> &'static str {
+        "A picture of the scene, the roadmap and the path"
+    }
+
+    fn files(&self, exported: &Exported) -> Result<Vec<ExportFile>, CannotExport> {
+        let Exported { problem, roadmap, path } = *exported;
+        let picture = svg(problem, roadmap, path);
+        let picture =
+            picture.ok_or_else(|| CannotExport("this model cannot be drawn".to_owned()))?;
+        Ok(vec![ExportFile::named(picture)])
+    }
+}
 
 /// Height of the line of text below the scene, in pixels.
 const CAPTION_PX: f64 = 30.0;

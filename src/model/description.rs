@@ -16,6 +16,11 @@ pub trait Description {
         &[]
     }
 
+    /// The unit of what edges cost.
+    fn cost_unit(&self) -> &'static str {
+        "length"
+    }
+
     /// Makes the model ready for work.
     fn prepare(&self) -> Box<dyn Model>;
 

@@ -174,6 +174,11 @@ impl Roadmap {
         &self.values
     }
 
+    /// The `count` numbers that the model gives the milestone `node`.
+    pub fn values_of(&self, node: usize, count: usize) -> &[f64] {
+        &self.values[node * count..(node + 1) * count]
+    }
+
     /// The connected components.
     pub fn components(&self) -> &Components {
         &self.components

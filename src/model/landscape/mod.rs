@@ -57,6 +57,10 @@ impl Description for Landscape {
         ENERGY
     }
 
+    fn cost_unit(&self) -> &'static str {
+        "energy"
+    }
+
     fn prepare(&self) -> Box<dyn Model> {
         let Landscape { highest, tolerance, .. } = *self;
         let terms = self.energy.terms();
