@@ -5,7 +5,7 @@ use crate::support::noting::{Attaching, Cap, listed};
 use roadmill::connect::{AmongKind, ComponentPairs, Nearest, WithinKind};
 use roadmill::evaluate::Samples;
 use roadmill::generator::{GeneratorKind, Sample};
-use roadmill::local::Planner;
+use roadmill::local::{Planner, RotateAt};
 use roadmill::problem::Problem;
 use roadmill::sampler::SamplerKind;
 use roadmill::{Context, Strategy};
@@ -40,7 +40,7 @@ impl Default for Choices {
             nodes: 100_000,
             seconds: 60.0,
             neighbors: 10,
-            planners: vec![Planner::StraightLine, Planner::RotateAt { percent: 50 }],
+            planners: vec![Planner::StraightLine, Planner::RotateAt(RotateAt { percent: 50 })],
             among: None,
             samples: vec!["uniform".to_owned()],
             tests: STRATEGIES.map(str::to_owned).into(),

@@ -7,12 +7,47 @@
 mod rotate_at;
 mod straight_line;
 
+/// The enum of local planners, with what follows from the list of those that have settings.
+macro_rules! planners {
+    ($($variant:ident($planner:ty),)+) => {
+        /// The local planners, as a problem file names them. An edge records which one succeeded, by its tag.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
+        #[serde(rename_all = "kebab-case", deny_unknown_fields)]
+        pub enum Planner {
+            /// Straight in the configuration space: tag 0.
+            StraightLine,
+            $(#[allow(missing_docs)] $variant($planner),)+
+        }
+
+        impl Planner {
+            /// The planner behind its role.
+            pub fn method(&self) -> &dyn LocalPlanner {
+                match self {
+                    Planner::StraightLine => &StraightLine,
+                    $(Planner::$variant(planner) => planner,)+
+                }
+            }
+
+            /// The planner that a tag stands for.
+            pub fn from_tag(tag: u8) -> Option<Planner> {
+                StraightLine::of_tag(tag).map(|_| Planner::StraightLine)
+                    $(.or_else(|| <$planner>::of_tag(tag).map(Planner::$variant)))+
+            }
+        }
+    };
+}
+
+planners! {
+    RotateAt(rotate_at::RotateAt), // new ones at the end, since ledgers know planners by number
+}
+
+pub use rotate_at::RotateAt;
+
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::{Cost, Scratch};
 use crate::roadmap::{Configs, EdgeCost};
 use bincode::{Decode, Encode};
-use rotate_at::RotateAt;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use straight_line::StraightLine;
@@ -21,53 +56,35 @@ use straight_line::StraightLine;
 pub trait LocalPlanner {
     /// Appends to `out` the configurations strictly between `a` and `b` at which the motion turns.
     fn turns(&self, cx: &Context, a: &[f64], b: &[f64], out: &mut Configs);
-}
 
-/// The local planners. An edge records which one succeeded, by its tag.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Planner {
-    /// Straight in the configuration space: tag 0.
-    StraightLine,
-    /// Translate, turn on the way, translate: tags 1 to 101.
-    RotateAt {
-        /// Where it turns, in hundredths of the way from the first end to the second.
-        percent: u8,
-    },
+    /// The number that stands for the planner on edges and in files. No two planners share one.
+    fn tag(&self) -> u8;
+
+    /// The name that exported files use.
+    fn name(&self) -> String;
+
+    /// The planner of this kind that a tag stands for.
+    fn of_tag(tag: u8) -> Option<Self>
+    where
+        Self: Sized;
+
+    /// What is wrong with the settings.
+    fn complaint(&self) -> Option<Complaint> {
+        None
+    }
 }
 
 impl Planner {
     /// The number that stands for the planner on edges and in files.
     pub fn tag(self) -> u8 {
-        match self {
-            Planner::StraightLine => 0,
-            Planner::RotateAt { percent } => 1 + percent,
-        }
-    }
-
-    /// The planner that a tag stands for.
-    pub fn from_tag(tag: u8) -> Option<Planner> {
-        match tag {
-            0 => Some(Planner::StraightLine),
-            1..=101 => Some(Planner::RotateAt { percent: tag - 1 }),
-            _ => None,
-        }
-    }
-
-    fn turns(self, cx: &Context, a: &[f64], b: &[f64], out: &mut Configs) {
-        match self {
-            Planner::StraightLine => StraightLine.turns(cx, a, b, out),
-            Planner::RotateAt { percent } => {
-                RotateAt { s: f64::from(percent) / 100.0 }.turns(cx, a, b, out);
-            }
-        }
+        self.method().tag()
     }
 
     /// The planner's whole motion from `a` to `b`: both ends and the turns between them.
     pub fn motion(self, cx: &Context, a: &[f64], b: &[f64]) -> Configs {
         let mut motion = Configs::new(a.len());
         motion.push(a);
-        self.turns(cx, a, b, &mut motion);
+        self.method().turns(cx, a, b, &mut motion);
         motion.push(b);
         motion
     }
@@ -76,10 +93,7 @@ impl Planner {
 /// The name that exported files use: `straight-line`, `rotate-at-50`.
 impl fmt::Display for Planner {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Planner::StraightLine => f.write_str("straight-line"),
-            Planner::RotateAt { percent } => write!(f, "rotate-at-{percent}"),
-        }
+        f.write_str(&self.method().name())
     }
 }
 
@@ -88,12 +102,7 @@ pub fn complaint(planners: &[Planner]) -> Option<Complaint> {
     if planners.is_empty() {
         return Some(("planners", "[]".to_owned(), "at least one local planner"));
     }
-    let percents = planners.iter().filter_map(|planner| match planner {
-        Planner::RotateAt { percent } => Some(*percent),
-        Planner::StraightLine => None,
-    });
-    let wrong = percents.filter(|percent| *percent > 100).max()?;
-    Some(("percent", wrong.to_string(), "0 to 100"))
+    planners.iter().find_map(|planner| planner.method().complaint())
 }
 
 /// The first of `planners` whose motion from `a` to `b`, both valid, is valid, and what the motion costs. Checks `refinement` times finer than the problem's resolution.

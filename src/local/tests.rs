@@ -23,7 +23,7 @@ position = [4.0, 3.15, 0.0]
 fn rotate_at_translates_turns_and_translates() {
     let cx = Problem::parse(Path::new("door.toml"), DOOR).unwrap().context();
     let (a, b) = ([2.0, 2.0, 0.0], [6.0, 2.0, 1.5]);
-    let motion = Planner::RotateAt { percent: 75 }.motion(&cx, &a, &b);
+    let motion = Planner::RotateAt(RotateAt { percent: 75 }).motion(&cx, &a, &b);
     let expected = [a, [5.0, 2.0, 0.0], [5.0, 2.0, 1.5], b];
     assert!(motion.iter().eq(expected.iter().map(|q| &q[..])));
     assert_eq!(Planner::StraightLine.motion(&cx, &a, &b).len(), 2);
@@ -35,7 +35,8 @@ fn the_first_planner_that_succeeds_is_recorded() {
     let (a, b) = ([1.0, 2.0, 0.0], [7.0, 2.0, 1.5]);
     let scratch = &mut Scratch::new();
     // In the door it must lie lengthwise: a straight motion turns too early, and so does one half way.
-    let (early, late) = (Planner::RotateAt { percent: 50 }, Planner::RotateAt { percent: 100 });
+    let (early, late) =
+        (Planner::RotateAt(RotateAt { percent: 50 }), Planner::RotateAt(RotateAt { percent: 100 }));
     assert_eq!(connect(&cx, &[Planner::StraightLine, early], (&a, &b), 1, scratch), None);
     let found = connect(&cx, &[Planner::StraightLine, late, early], (&a, &b), 1, scratch);
     let (planner, cost) = found.expect("turning behind the door is free");
@@ -46,12 +47,15 @@ fn the_first_planner_that_succeeds_is_recorded() {
     assert_eq!(connect(&cx, &[late], (&b, &a), 1, scratch), None);
 }
 
+/// The last tag that names a planner.
+const LAST_TAG: u8 = 101;
+
 #[test]
 fn tags_name_planners_and_no_other_numbers_do() {
     for tag in 0..=u8::MAX {
         match Planner::from_tag(tag) {
             Some(planner) => assert_eq!(planner.tag(), tag),
-            None => assert!(tag > 101),
+            None => assert!(tag > LAST_TAG),
         }
     }
 }

@@ -71,7 +71,8 @@ pub struct Imported {
 
 /// How a description is read from a problem file.
 pub(crate) trait ReadTables: Sized {
-    /// The keys of the tables of the file that describe the model; no other model has one of them.
+    /// The keys of the tables of the file that describe the model, first the one that it cannot do without; no
+    /// other model has one of them.
     const TABLES: &'static [&'static str];
 
     /// Reads and checks these tables. `notes` gets what was chosen where the file leaves a choice.

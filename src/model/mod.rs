@@ -46,12 +46,14 @@ macro_rules! models {
                 }
             }
 
-            /// The keys of the tables of the model that a problem file describes: the first listed of which it
-            /// has a table.
+            /// The keys of the tables of the model that a problem file describes: the model whose first table it
+            /// has, or else any, or else the first model.
             pub(crate) fn tables_in(source: &Source) -> &'static [&'static str] {
                 let listed = [$(<$description as ReadTables>::TABLES),+];
-                let described = |keys: &&&[&str]| keys.iter().any(|key| source.has(key));
-                listed.iter().find(described).unwrap_or(&listed[0])
+                let has_first = |keys: &&&[&str]| source.has(keys[0]);
+                let has_any = |keys: &&&[&str]| keys.iter().any(|key| source.has(key));
+                let described = listed.iter().find(has_first).or_else(|| listed.iter().find(has_any));
+                described.unwrap_or(&listed[0])
             }
 
             /// Reads the tables of that model. `notes` gets what was chosen where the file leaves a choice.
