@@ -4,6 +4,7 @@
 //! [`Space::interpolate`](crate::space::Space::interpolate). The motion is free when those
 //! configurations and every stretch between them are valid.
 
+mod manhattan;
 mod rotate_at;
 mod straight_line;
 
@@ -38,9 +39,11 @@ macro_rules! planners {
 }
 
 planners! {
-    RotateAt(rotate_at::RotateAt), // new ones at the end, since ledgers know planners by number
+    RotateAt(rotate_at::RotateAt),
+    Manhattan(manhattan::Manhattan), // new ones at the end, since ledgers know planners by number
 }
 
+pub use manhattan::Manhattan;
 pub use rotate_at::RotateAt;
 
 use crate::context::Context;

@@ -30,6 +30,20 @@ fn rotate_at_translates_turns_and_translates() {
 }
 
 #[test]
+fn manhattan_changes_one_degree_of_freedom_after_the_other() {
+    let cx = Problem::parse(Path::new("door.toml"), DOOR).unwrap().context();
+    let motion = |a: &[f64], b: &[f64]| {
+        let motion = Planner::Manhattan(Manhattan {}).motion(&cx, a, b);
+        motion.iter().map(<[f64]>::to_vec).collect::<Vec<_>>()
+    };
+    let (a, b) = ([2.0, 2.0, 0.0], [6.0, 1.0, 1.5]);
+    assert_eq!(motion(&a, &b), [a.to_vec(), vec![6.0, 2.0, 0.0], vec![6.0, 1.0, 0.0], b.to_vec()]);
+    let turned = [2.0, 2.0, 1.5];
+    assert_eq!(motion(&a, &turned), [a, turned], "what does not change makes no turn");
+    assert_eq!(motion(&a, &a), [a, a]);
+}
+
+#[test]
 fn the_first_planner_that_succeeds_is_recorded() {
     let cx = Problem::parse(Path::new("door.toml"), DOOR).unwrap().context();
     let (a, b) = ([1.0, 2.0, 0.0], [7.0, 2.0, 1.5]);
@@ -48,7 +62,7 @@ fn the_first_planner_that_succeeds_is_recorded() {
 }
 
 /// The last tag that names a planner.
-const LAST_TAG: u8 = 101;
+const LAST_TAG: u8 = 102;
 
 #[test]
 fn tags_name_planners_and_no_other_numbers_do() {
