@@ -4,6 +4,7 @@
 //! places below.
 
 mod bridge;
+mod energy;
 mod gaussian;
 mod grid;
 mod halton;
@@ -26,6 +27,7 @@ methods! {
         Obprm(obprm::Obprm),
         Uobprm(uobprm::Uobprm),
         Maprm(maprm::Maprm),
+        Energy(energy::Energy),
     }
 }
 
@@ -37,6 +39,7 @@ impl Default for SamplerKind {
 }
 
 pub use bridge::Bridge;
+pub use energy::Energy;
 pub use gaussian::Gaussian;
 pub use grid::Grid;
 pub use halton::Halton;

@@ -1,5 +1,6 @@
 //! What samplers promise: laws that all of them keep, and per method the distribution that its paper says.
 
+mod energy;
 mod laws;
 mod maprm;
 mod mix;
