@@ -5,7 +5,7 @@ use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::Scratch;
-use crate::query::{Attachment, attach};
+use crate::query::{Attachment, attach, attach_for_good};
 use crate::roadmap::{Edge, Roadmap};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
@@ -78,6 +78,11 @@ impl Evaluator for MaxFlow {
 
         let nodes = roadmap.configs().len();
         let mut edges: Vec<Edge> = roadmap.edges().iter().collect();
+        let attach = if edges.iter().any(|edge| edge.cost.directed().is_some()) {
+            attach_for_good
+        } else {
+            attach
+        };
         for (index, q) in from.iter().chain(to).enumerate() {
             let id = (nodes + index) as u32;
             edges.extend(attach(cx, roadmap, q, id, &self.how(), scratch));

@@ -1,8 +1,10 @@
 //! Queries: attaching two configurations to a roadmap and finding a path between them.
 
+mod attach;
 mod path;
 mod shorten;
 
+pub(crate) use attach::{attach, attach_for_good};
 pub use path::Path;
 pub use shorten::shorten;
 
@@ -10,7 +12,7 @@ use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::Scratch;
-use crate::roadmap::{Edge, Graph, Roadmap};
+use crate::roadmap::{Edge, Graph, Roadmap, Route};
 use bincode::{Decode, Encode};
 use std::collections::BTreeSet;
 
@@ -69,78 +71,102 @@ pub fn solve(
     let nodes = roadmap.configs().len() as u32;
     let from_start = attach(cx, roadmap, start, nodes, attachment, scratch);
     let from_goal = attach(cx, roadmap, goal, nodes + 1, attachment, scratch);
-    let reached = |edges: &[Edge]| -> BTreeSet<u32> {
-        edges.iter().map(|edge| roadmap.components().of_node(edge.low).name).collect()
-    };
-    let mut answer = Answer {
-        attached: [from_start.len() as u32, from_goal.len() as u32],
-        connected: !reached(&from_start).is_disjoint(&reached(&from_goal)),
-        path: None,
-        dropped_edges: 0,
-    };
-    if !answer.connected {
-        return answer;
-    }
-
-    let mut edges: Vec<Edge> = roadmap.edges().iter().collect();
-    edges.extend(from_start);
-    edges.extend(from_goal);
-    let config = |node: u32| match node.checked_sub(nodes) {
-        None => roadmap.configs().get(node as usize),
-        Some(0) => start,
-        Some(_) => goal,
-    };
-    let graph = Graph::new(nodes as usize + 2, &edges);
-    let (mut passed, mut failed) = (BTreeSet::new(), BTreeSet::new());
-    while let Some(route) = graph.shortest(nodes, nodes + 1, &failed) {
-        let blocked = route.edges.iter().find(|index| {
-            let edge = &edges[**index as usize];
-            !passed.contains(*index) && {
-                let ends = (config(edge.low), config(edge.high));
-                let planner = Planner::from_tag(edge.planner).into_iter().collect::<Vec<_>>();
-                let free = local::connect(cx, &planner, ends, PATH_REFINEMENT, scratch).is_some();
-                if free {
-                    passed.insert(**index);
-                }
-                !free
-            }
-        });
-        match blocked {
-            Some(index) => {
-                failed.insert(*index);
-            }
-            None => {
-                answer.path = Some(Path::along(cx, &route, &edges, config));
-                break;
-            }
-        }
-    }
-    answer.dropped_edges = failed.len() as u64;
-    answer
+    let search = Search { cx, roadmap, ends: [start, goal], attached: [from_start, from_goal] };
+    let shortest = |graph: &Graph, failed: &BTreeSet<u32>| graph.shortest(nodes, nodes + 1, failed);
+    search.answer(shortest, scratch)
 }
 
-/// The edges by which `q`, as node `id`, attaches to its nearest nodes, nearest first. Each is
-/// tried from the node, whose id is lower, to `q`.
-pub(crate) fn attach(
+/// The lowest barrier between `start` and `goal`, both valid, through a roadmap of a model with energies, and the
+/// shortest path, by the edges' costs, that does not exceed it; infinity where there is no path. Edges are checked as
+/// [`solve`] does. The ends are attached to all nodes that were once their nearest.
+pub fn lowest_barrier(
     cx: &Context,
     roadmap: &Roadmap,
-    q: &[f64],
-    id: u32,
+    (start, goal): (&[f64], &[f64]),
     attachment: &Attachment,
     scratch: &mut Scratch,
-) -> Vec<Edge> {
-    let configs = roadmap.configs();
-    let mut edges = Vec::new();
-    for neighbor in roadmap.k_nearest(&cx.space, q, attachment.neighbors as usize) {
-        let ends = (configs.get(neighbor.id as usize), q);
-        let joined = local::connect(cx, &attachment.planners, ends, 1, scratch);
-        let (low, high) = (neighbor.id, id);
-        edges.extend(joined.map(|(planner, cost)| Edge {
-            low,
-            high,
-            planner: planner.tag(),
-            cost,
-        }));
+) -> (f64, Answer) {
+    let nodes = roadmap.configs().len() as u32;
+    let from_start = attach_for_good(cx, roadmap, start, nodes, attachment, scratch);
+    let from_goal = attach_for_good(cx, roadmap, goal, nodes + 1, attachment, scratch);
+    let energy = cx.model.energy(start, scratch).unwrap_or(f64::NEG_INFINITY);
+    let search = Search { cx, roadmap, ends: [start, goal], attached: [from_start, from_goal] };
+    let mut barrier = f64::INFINITY;
+    let lowest = |graph: &Graph, failed: &BTreeSet<u32>| {
+        let (found, route) = graph.lowest_barrier(nodes, nodes + 1, energy, failed)?;
+        barrier = found;
+        Some(route)
+    };
+    let answer = search.answer(lowest, scratch);
+    (if answer.path.is_some() { barrier } else { f64::INFINITY }, answer)
+}
+
+/// A question to a roadmap: its ends, and the edges that attach them.
+struct Search<'a> {
+    cx: &'a Context,
+    roadmap: &'a Roadmap,
+    ends: [&'a [f64]; 2],
+    attached: [Vec<Edge>; 2],
+}
+
+impl Search<'_> {
+    /// The first route that `find` gives whose edges all pass the finer check. `find` is given the edges that have
+    /// failed it.
+    fn answer(
+        self,
+        mut find: impl FnMut(&Graph, &BTreeSet<u32>) -> Option<Route>,
+        scratch: &mut Scratch,
+    ) -> Answer {
+        let Search { cx, roadmap, ends: [start, goal], attached: [from_start, from_goal] } = self;
+        let nodes = roadmap.configs().len() as u32;
+        let reached = |edges: &[Edge]| -> BTreeSet<u32> {
+            edges.iter().map(|edge| roadmap.components().of_node(edge.low).name).collect()
+        };
+        let mut answer = Answer {
+            attached: [from_start.len() as u32, from_goal.len() as u32],
+            connected: !reached(&from_start).is_disjoint(&reached(&from_goal)),
+            path: None,
+            dropped_edges: 0,
+        };
+        if !answer.connected {
+            return answer;
+        }
+
+        let mut edges: Vec<Edge> = roadmap.edges().iter().collect();
+        edges.extend(from_start);
+        edges.extend(from_goal);
+        let config = |node: u32| match node.checked_sub(nodes) {
+            None => roadmap.configs().get(node as usize),
+            Some(0) => start,
+            Some(_) => goal,
+        };
+        let graph = Graph::new(nodes as usize + 2, &edges);
+        let (mut passed, mut failed) = (BTreeSet::new(), BTreeSet::new());
+        while let Some(route) = find(&graph, &failed) {
+            let blocked = route.edges.iter().find(|index| {
+                let edge = &edges[**index as usize];
+                !passed.contains(*index) && {
+                    let ends = (config(edge.low), config(edge.high));
+                    let planner = Planner::from_tag(edge.planner).into_iter().collect::<Vec<_>>();
+                    let free =
+                        local::connect(cx, &planner, ends, PATH_REFINEMENT, scratch).is_some();
+                    if free {
+                        passed.insert(**index);
+                    }
+                    !free
+                }
+            });
+            match blocked {
+                Some(index) => {
+                    failed.insert(*index);
+                }
+                None => {
+                    answer.path = Some(Path::along(cx, &route, &edges, config));
+                    break;
+                }
+            }
+        }
+        answer.dropped_edges = failed.len() as u64;
+        answer
     }
-    edges
 }

@@ -1,0 +1,72 @@
+//! Attaching configurations to a roadmap.
+
+use super::Attachment;
+use crate::context::Context;
+use crate::local;
+use crate::model::Scratch;
+use crate::neighbor::{Best, Neighbor};
+use crate::roadmap::{Edge, Roadmap};
+use std::collections::BTreeSet;
+
+/// The edges by which `q`, as node `id`, attaches to its nearest nodes, nearest first. Each is
+/// tried from the node, whose id is lower, to `q`.
+pub(crate) fn attach(
+    cx: &Context,
+    roadmap: &Roadmap,
+    q: &[f64],
+    id: u32,
+    attachment: &Attachment,
+    scratch: &mut Scratch,
+) -> Vec<Edge> {
+    let near = roadmap.k_nearest(&cx.space, q, attachment.neighbors as usize);
+    to_nodes(cx, roadmap, (q, id), near.iter().map(|near| near.id), attachment, scratch)
+}
+
+/// The same, to all nodes that were among the nearest at the end of some round, in the order of their ids. What is
+/// attached stays attached while the roadmap grows, so that no barrier rises and no flow falls.
+pub(crate) fn attach_for_good(
+    cx: &Context,
+    roadmap: &Roadmap,
+    q: &[f64],
+    id: u32,
+    attachment: &Attachment,
+    scratch: &mut Scratch,
+) -> Vec<Edge> {
+    let mut best = Best::new(attachment.neighbors as usize);
+    let (mut near, mut next) = (BTreeSet::new(), 0);
+    for extent in roadmap.rounds() {
+        for node in next..extent.nodes {
+            let config = roadmap.configs().get(node);
+            if let Some(distance) = cx.space.distance_unless_above(q, config, best.bound()) {
+                best.offer(Neighbor { distance, id: node as u32 });
+            }
+        }
+        next = extent.nodes;
+        near.extend(best.clone().into_items().into_iter().map(|near| near.id));
+    }
+    to_nodes(cx, roadmap, (q, id), near.into_iter(), attachment, scratch)
+}
+
+fn to_nodes(
+    cx: &Context,
+    roadmap: &Roadmap,
+    (q, id): (&[f64], u32),
+    nodes: impl Iterator<Item = u32>,
+    attachment: &Attachment,
+    scratch: &mut Scratch,
+) -> Vec<Edge> {
+    let configs = roadmap.configs();
+    let mut edges = Vec::new();
+    for low in nodes {
+        let ends = (configs.get(low as usize), q);
+        let joined = local::connect(cx, &attachment.planners, ends, 1, scratch);
+        let high = id;
+        edges.extend(joined.map(|(planner, cost)| Edge {
+            low,
+            high,
+            planner: planner.tag(),
+            cost,
+        }));
+    }
+    edges
+}
