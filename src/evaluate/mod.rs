@@ -9,6 +9,7 @@ mod connectivity;
 mod coverage;
 mod expansion;
 mod information_gain;
+mod lowest_barrier;
 mod max_flow;
 mod network;
 mod not;
@@ -28,6 +29,7 @@ methods! {
         Expansion(expansion::Expansion),
         MaxFlow(max_flow::MaxFlow),
         InformationGain(information_gain::InformationGain),
+        LowestBarrier(lowest_barrier::LowestBarrier),
     }
 }
 
@@ -37,6 +39,7 @@ pub use connectivity::Connectivity;
 pub use coverage::Coverage;
 pub use expansion::Expansion;
 pub use information_gain::InformationGain;
+pub use lowest_barrier::LowestBarrier;
 pub use max_flow::MaxFlow;
 pub use not::Not;
 pub use query::Query;
