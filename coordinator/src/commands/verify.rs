@@ -8,7 +8,7 @@ use crate::run::{Replay, Scan, Told};
 use crate::signals::Signals;
 use roadmill::BITS_VERSION;
 use roadmill::img::{
-    Event, Executor, Finished, Job, LOSSES_MAX, Outcome, RoundSet, Setup, TICK, Threads,
+    Cut, Event, Executor, Finished, Job, LOSSES_MAX, Loss, Outcome, RoundSet, Setup, TICK, Threads,
 };
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Roadmap};
@@ -137,7 +137,7 @@ struct Check<'a> {
     choice: Choice,
     signals: &'a Signals,
     ahead: usize,
-    /// What each job should come to, and how often it was lost.
+    /// What each job should come to, and how many workers died at it.
     at_work: BTreeMap<Job, (Outcome, u32)>,
     /// The first job, in the order of the ledger, that came to something else.
     difference: Option<((u64, u8), String)>,
@@ -242,16 +242,19 @@ impl Check<'_> {
                     self.compare(job, &expected, &finished);
                 }
             }
-            Some(Event::Lost(job)) => {
-                if let Some((_, losses)) = self.at_work.get_mut(&job) {
-                    *losses += 1;
-                    if *losses == LOSSES_MAX {
+            Some(Event::Lost(job, loss)) => {
+                if let Some((_, deaths)) = self.at_work.get_mut(&job) {
+                    *deaths += u32::from(loss == Loss::Worker);
+                    if *deaths >= LOSSES_MAX {
                         let name = job_name(job, &self.setup.problem);
                         let message = format!("{name} killed its workers");
                         return Err(Failure::new(Code::WorkersLost, message));
                     }
                     executor.submit(job);
                 }
+            }
+            Some(Event::Cut(Cut::WorkersLost(why))) => {
+                return Err(Failure::new(Code::WorkersLost, why));
             }
             Some(Event::Cut(cut)) => {
                 return Err(Failure::new(Code::WorkersLost, format!("{cut:?}")));

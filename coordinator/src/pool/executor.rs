@@ -3,7 +3,7 @@ use super::process::{Executable, WorkerProcess};
 use super::roster::Roster;
 use crate::cpu::Meter;
 use crate::signals::Signals;
-use roadmill::img::{Cut, Event, Executor, Finished, Front, Job, Round, Setup};
+use roadmill::img::{Cut, Event, Executor, Finished, Front, Job, Loss, Round, Setup};
 use roadmill::roadmap::{Digest, Increment, Outline, Tally};
 use roadmill::wire;
 use roadmill_workers::channel::{ChannelError, Delivery, Hub, Received, WorkerId};
@@ -170,7 +170,8 @@ impl Pool {
         let status = worker.process.end();
         self.hub.forget(id);
         self.asking.remove(&id);
-        self.events.extend(self.roster.dismiss(id).into_iter().map(Event::Lost));
+        let lost = self.roster.dismiss(id).into_iter();
+        self.events.extend(lost.map(|job| Event::Lost(job, Loss::Worker)));
         self.fruitless_deaths += 1;
         let status = status.map_or_else(String::new, |status| format!(" ({status})"));
         if self.fruitless_deaths > (3 * self.wanted).max(5) {
