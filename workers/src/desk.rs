@@ -1,8 +1,8 @@
 //! What lies before a worker: jobs to do, what they read, and outcomes to tell.
 
-use crate::channel::{CHUNK_BYTES, StoreReader};
 use crate::error::WorkerError;
 use crate::faults::{Faults, Slip};
+use crate::line::SharedData;
 use crate::message::{Bytes, Done, Entry, FromWorker, ToWorker};
 use roadmill::img::{Job, Outcome, Replica, Setup};
 use roadmill::roadmap::Digest;
@@ -15,6 +15,9 @@ use std::time::Instant;
 
 /// A worker that has so many jobs left to begin tells what it has done, so that it need not wait for more.
 const HELD_WHEN_TELLING: usize = 2;
+/// A worker tells what it has done once that takes more bytes than this, so that long outcomes are on their
+/// way while it works.
+const TOLD_BYTES: usize = 128 << 10;
 
 /// A job that is done.
 struct Finished {
@@ -27,7 +30,7 @@ struct Finished {
 /// A worker's jobs and outcomes.
 pub struct Desk<'a> {
     setup: &'a Setup,
-    store: &'a StoreReader,
+    shared: &'a dyn SharedData,
     faults: &'a Faults,
     replica: Replica,
     scratch: Scratch,
@@ -45,13 +48,13 @@ impl<'a> Desk<'a> {
     /// One without jobs.
     pub fn new(
         setup: &'a Setup,
-        store: &'a StoreReader,
+        shared: &'a dyn SharedData,
         faults: &'a Faults,
         replica: Replica,
     ) -> Desk<'a> {
         Desk {
             setup,
-            store,
+            shared,
             faults,
             replica,
             scratch: Scratch::new(),
@@ -92,7 +95,7 @@ impl<'a> Desk<'a> {
         let bytes: usize = self.done.iter().map(|done| done.outcome.len()).sum();
         // Where few jobs come at once, not after each of them.
         let few = HELD_WHEN_TELLING.min(self.done.len());
-        self.is_urgent || self.jobs.len() <= few || bytes > CHUNK_BYTES
+        self.is_urgent || self.jobs.len() <= few || bytes > TOLD_BYTES
     }
 
     /// The message that tells all that is done, and what goes wrong with it.
@@ -160,7 +163,7 @@ impl<'a> Desk<'a> {
         match bytes {
             Bytes::Here(bytes) => Ok(Cow::Borrowed(bytes)),
             Bytes::Stored { offset, length, digest } => {
-                let bytes = (self.store.read(*offset, *length))
+                let bytes = (self.shared.stored(*offset, *length))
                     .map_err(|error| WorkerError::System("cannot read the store", error))?;
                 if Digest::of(&bytes) == *digest {
                     Ok(Cow::Owned(bytes))

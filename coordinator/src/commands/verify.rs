@@ -1,8 +1,7 @@
 use super::difference;
-use super::grow::workers;
+use super::grow::{start, workers};
 use crate::cli::VerifyArguments;
 use crate::exit::{Code, Failure};
-use crate::pool::Pool;
 use crate::run::ledger::{Chapter, Judged, job_name};
 use crate::run::{Replay, Scan, Told};
 use crate::signals::Signals;
@@ -45,10 +44,10 @@ pub fn verify(arguments: &VerifyArguments) -> Result<Code, Failure> {
     let counts = if arguments.crew.threads.is_some() {
         check.run(&mut Threads::new(setup.clone(), workers))?
     } else {
-        let pool = Pool::start(setup.clone(), workers, signals.clone());
-        let mut pool = pool.map_err(Failure::system)?;
-        let counts = check.run(&mut pool);
-        pool.close().map_err(Failure::system)?;
+        let dispatcher = start(&setup, workers).map_err(Failure::system)?;
+        let mut dispatcher = dispatcher.with_signals(signals.clone());
+        let counts = check.run(&mut dispatcher);
+        dispatcher.close().map_err(Failure::system)?;
         counts?
     };
     let (sets, judgements) = counts;
