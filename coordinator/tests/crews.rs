@@ -18,6 +18,7 @@ use roadmill_coordinator::run::{LedgerWriter, RunLock, Stopped};
 use roadmill_workers::message::ToWorker;
 use roadmill_workers::stream::{Kind, StreamLine, header};
 use roadmill_workers::{Line, NothingShared, WorkerError, WorkerId, build_id, serve};
+use rustix::event::{PollFd, PollFlags, poll};
 use std::fs;
 use std::io::{Read, Write};
 use std::os::unix::net::UnixStream;
@@ -319,6 +320,17 @@ fn a_job_is_not_blamed_for_members_that_leave_and_they_end_the_build_all_the_sam
     }
 }
 
+fn first_news(crew: &mut impl Crew) -> News {
+    let begun = Instant::now();
+    loop {
+        assert!(begun.elapsed() < PATIENCE, "it hangs");
+        crew.wait(Duration::from_millis(2), None);
+        if let Some(news) = crew.next().expect("the crew is well") {
+            return news;
+        }
+    }
+}
+
 #[test]
 fn a_member_that_is_silent_is_lost() {
     let crew = WorkerThread::crew(1, |_, mut stream| {
@@ -329,16 +341,26 @@ fn a_member_that_is_silent_is_lost() {
     let crew = crew.expect("this program is a file");
     let mut crew = crew.with_silence_max(Duration::from_millis(1));
     let member = crew.hire().expect("it starts");
-    let begun = Instant::now();
-    let news = loop {
-        assert!(begun.elapsed() < PATIENCE, "it hangs");
-        crew.wait(Duration::from_millis(2), None);
-        if let Some(news) = crew.next().expect("the crew is well") {
-            break news;
-        }
-    };
+    let news = first_news(&mut crew);
     let News::Lost { member: lost, why } = news else { panic!("{news:?}") };
     assert!(lost == member && why.contains("silent"), "{lost} {why}");
+    crew.dismiss(member);
+    crew.close().expect("nothing is left");
+}
+
+/// Also when it dies before it has read what was sent to it, which breaks the connection.
+#[test]
+fn a_worker_that_panics_has_died() {
+    let crew = WorkerThread::crew(1, |_, stream| {
+        let mut fds = [PollFd::new(&stream, PollFlags::IN)];
+        poll(&mut fds, None).expect("it can be waited for");
+        panic_quietly()
+    });
+    let mut crew = crew.expect("this program is a file");
+    let member = crew.hire().expect("it starts");
+    crew.send(member, Arc::new(b"unread".to_vec())).expect("it is short");
+    let news = first_news(&mut crew);
+    assert!(matches!(&news, News::Died { member: died, .. } if *died == member), "{news:?}");
     crew.dismiss(member);
     crew.close().expect("nothing is left");
 }

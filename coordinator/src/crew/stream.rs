@@ -36,7 +36,7 @@ pub trait FarEnd {
     fn wait(&mut self) {}
 }
 
-/// A member to be: its end of the stream is with whoever is at the far end.
+/// A worker that was started: the crew's end of its stream, and what is known of it at the far end.
 pub type Started = (UnixStream, Box<dyn FarEnd>);
 
 /// Workers that speak along connected sockets, in frames ([`roadmill_workers::stream`]). They share nothing:
@@ -65,7 +65,7 @@ struct Member {
     replies: VecDeque<Reply>,
     /// When anything came from it last.
     heard: Instant,
-    /// Its loss was told: nothing more is read.
+    /// Its loss is among the news: nothing more is read.
     is_lost: bool,
 }
 
@@ -115,6 +115,10 @@ impl Member {
                 Ok(_) => self.heard = Instant::now(),
                 Err(error) if error.kind() == ErrorKind::Interrupted => continue,
                 Err(error) if error.kind() == ErrorKind::WouldBlock => return,
+                // The far end was closed with something unread in it.
+                Err(error) if error.kind() == ErrorKind::ConnectionReset => {
+                    return self.lose(id, None, news);
+                }
                 Err(error) => {
                     return self.lose(id, Some(format!("its stream broke: {error}")), news);
                 }
@@ -157,7 +161,7 @@ impl Member {
                 Ok(written) => reply.written += written,
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(error) if error.kind() == ErrorKind::WouldBlock => return,
-                // The reason is found where the stream is read.
+                // A far end that takes nothing has ended, which shows when the stream is read.
                 Err(_) => return self.replies.clear(),
             }
         }
