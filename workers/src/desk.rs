@@ -1,4 +1,5 @@
-//! What lies before a worker: jobs to do, what they read, and outcomes to tell.
+//! A worker's desk: the jobs that the worker holds, what they read, and the outcomes that the coordinator has
+//! not been told yet.
 
 use crate::error::WorkerError;
 use crate::faults::{Faults, Slip};
@@ -34,18 +35,18 @@ pub struct Desk<'a> {
     faults: &'a Faults,
     replica: Replica,
     scratch: Scratch,
-    /// To be done, the most urgent first.
+    /// Jobs to be done, the most urgent first.
     jobs: BTreeSet<Job>,
-    /// To be told.
+    /// Jobs that are done, of which the coordinator is to be told.
     done: Vec<Finished>,
-    /// What goes wrong when it is told.
+    /// What a test wants to go wrong when the coordinator is told.
     slip: Option<Slip>,
-    /// Somebody waits for what is done.
+    /// Whether the build waits for something among what is done.
     is_urgent: bool,
 }
 
 impl<'a> Desk<'a> {
-    /// One without jobs.
+    /// A desk without jobs.
     pub fn new(
         setup: &'a Setup,
         shared: &'a dyn SharedData,
