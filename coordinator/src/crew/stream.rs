@@ -124,7 +124,7 @@ impl Member {
                 }
             }
             loop {
-                match self.frames.next() {
+                match self.frames.take() {
                     Ok(Some(Frame::Message(message))) => {
                         news.push_back(News::Message { member: id, message });
                     }

@@ -49,7 +49,7 @@ impl<R: Read + AsFd, W: Write + Send + 'static> StreamLine<R, W> {
 
     /// The reply, if all of it has come.
     fn reply(&mut self) -> Result<Option<Vec<u8>>, WorkerError> {
-        while let Some(frame) = self.frames.next()? {
+        while let Some(frame) = self.frames.take()? {
             if let Frame::Message(reply) = frame {
                 self.is_awaiting = false;
                 return Ok(Some(reply));
@@ -162,7 +162,7 @@ mod tests {
         let mut frames = Frames::default();
         let sent = loop {
             frames.read_from(&mut far).expect("it can be read");
-            match frames.next().expect("frames come") {
+            match frames.take().expect("frames come") {
                 Some(Frame::Message(message)) => break message,
                 Some(Frame::Beat) | None => {}
             }
