@@ -1,14 +1,19 @@
 //! `roadmill`: the coordinator of builds, and the command line around it.
+//!
+//! A program of your own can build with worker processes too: an executable `roadmill`
+//! ([`crew::Executable::at`]), a crew of processes that run it ([`crew::LocalCrew`]), and a
+//! [`dispatch::Dispatcher`] over the crew as the executor of [`roadmill::img::drive`].
 
 mod cli;
 mod commands;
 mod cpu;
+pub mod crew;
+pub mod dispatch;
 pub mod exit;
 mod memory;
-mod pool;
 mod progress;
 pub mod run;
-mod signals;
+pub mod signals;
 
 use clap::Parser;
 use exit::Failure;

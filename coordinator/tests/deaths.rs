@@ -139,6 +139,20 @@ fn a_worker_that_talks_nonsense_is_replaced_and_changes_nothing() {
     assert_eq!(scratch.summary("run").digest, scratch.undisturbed_digest(48));
 }
 
+/// More often than as many workers may die at a job.
+#[test]
+fn a_job_is_not_blamed_for_workers_that_talk_nonsense_about_it() {
+    let scratch = Scratch::new();
+    scratch.write("endless.toml", ENDLESS);
+    let arguments = ["build", "endless.toml", "--out", "run", "--workers", "2", "--max-sets", "48"];
+    let marks: Vec<_> = (0..4).map(|number| scratch.path(&format!("mark-{number}"))).collect();
+    let named: Vec<_> =
+        marks.iter().map(|mark| format!("garble-at=b:4:{}", mark.display())).collect();
+    scratch.start_with_faults(&arguments, &named.join(",")).finish().assert_code(0);
+    assert!(marks.iter().all(|mark| mark.is_file()), "the faults came about");
+    assert_eq!(scratch.summary("run").digest, scratch.undisturbed_digest(48));
+}
+
 #[test]
 fn workers_that_never_start_end_the_build() {
     let scratch = Scratch::new();

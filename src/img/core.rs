@@ -9,16 +9,27 @@ use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A job that was lost this often is taken to be what kills its workers.
+/// A job at which this many workers have died is taken to be what kills them.
 pub const LOSSES_MAX: u32 = 3;
+
+/// Why a job was lost: whether the job may be to blame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loss {
+    /// The worker died of itself while it held the job: by a signal, a panic or an exit. The job may be
+    /// what killed it.
+    Worker,
+    /// The worker was lost, or was ended, whatever its jobs: its connection broke, it fell silent, or it
+    /// sent something that is no message. The job is not to blame.
+    Member,
+}
 
 /// What happened.
 #[derive(Clone, Debug)]
 pub enum Event {
     /// A job was done, for the first time or again.
     Done(Job, Finished),
-    /// A job was lost with the worker that had it.
-    Lost(Job),
+    /// A job was lost with the worker that held it.
+    Lost(Job, Loss),
     /// The build is to end where it is.
     Cut(Cut),
 }
@@ -120,7 +131,7 @@ pub enum Stop {
         /// How hard it tried.
         gave_up: GaveUp,
     },
-    /// A job that killed [`LOSSES_MAX`] workers.
+    /// A job at which [`LOSSES_MAX`] workers died.
     Deadly(Job),
     /// A job that gave two different outcomes: the machine or the program is broken.
     Contradiction(Job),
@@ -198,7 +209,7 @@ pub struct Core {
     waiting: VecDeque<u64>,
     /// Nodes of the roadmap after the round of the last place to be generated.
     nodes_ahead: u64,
-    /// Jobs at work, with how often each was lost.
+    /// Jobs at work, and how many workers died at each ([`Loss::Worker`]).
     at_work: BTreeMap<Job, u32>,
     done: BTreeMap<Job, Digest>,
     progress: Progress,
@@ -270,7 +281,7 @@ impl Core {
         }
         match event {
             Event::Done(job, finished) => self.done(job, finished, &mut commands),
-            Event::Lost(job) => self.lost(job, &mut commands),
+            Event::Lost(job, loss) => self.lost(job, loss, &mut commands),
             Event::Cut(cut) => self.stop(Stop::Cut(cut), &mut commands),
         }
         self.advance(&mut commands);
@@ -289,10 +300,11 @@ impl Core {
         }
     }
 
-    fn lost(&mut self, job: Job, commands: &mut Vec<Command>) {
-        if let Some(losses) = self.at_work.get_mut(&job) {
-            *losses += 1;
-            if *losses >= LOSSES_MAX {
+    /// Hands a lost job out again, unless too many workers died at it.
+    fn lost(&mut self, job: Job, loss: Loss, commands: &mut Vec<Command>) {
+        if let Some(deaths) = self.at_work.get_mut(&job) {
+            *deaths += u32::from(loss == Loss::Worker);
+            if *deaths >= LOSSES_MAX {
                 self.stop(Stop::Deadly(job), commands);
             } else {
                 commands.push(Command::Submit(job));

@@ -16,7 +16,7 @@ mod simulated;
 mod threads;
 
 pub use self::core::{
-    Command, Core, Cut, Event, Judgement, LOSSES_MAX, Past, Progress, Round, RoundSet, Stop,
+    Command, Core, Cut, Event, Judgement, LOSSES_MAX, Loss, Past, Progress, Round, RoundSet, Stop,
 };
 pub use drive::{Executor, InProcess, Observer, TICK, drive};
 pub use job::{Finished, Job, Joined, Outcome, Task};

@@ -1,6 +1,6 @@
 //! An executor that does everything that can go wrong, all from one seed.
 
-use super::{Event, Executor, Finished, InProcess, Job, Replica, Round, Setup, Task};
+use super::{Event, Executor, Finished, InProcess, Job, Loss, Replica, Round, Setup, Task};
 use crate::model::Scratch;
 use crate::roadmap::{Digest, Increment, Roadmap, Tally};
 use crate::seed::{Purpose, Seed, Stream};
@@ -13,8 +13,9 @@ use std::time::Duration;
 /// suites that really run them test.
 pub type Memo = BTreeMap<(Job, Digest), Finished>;
 
-/// A pool of simulated workers that answer late and in any order, answer twice, crash, and are
-/// given up for dead though they answer later. No job is lost so often that the build would end.
+/// A pool of simulated workers that answer late and in any order, answer twice, die at work, leave for
+/// reasons of their own, and are given up for dead though they answer later. No job is lost to so many
+/// deaths that the build would end; how often workers leave is not bounded.
 pub struct Simulated<'a> {
     setup: Arc<Setup>,
     replica: Replica,
@@ -26,7 +27,8 @@ pub struct Simulated<'a> {
     waiting: BTreeSet<Job>,
     /// Jobs at work with what they will answer.
     running: Vec<(Job, Finished)>,
-    losses: BTreeMap<Job, u32>,
+    /// How many workers died at each job.
+    deaths: BTreeMap<Job, u32>,
     scratch: Scratch,
 }
 
@@ -42,7 +44,7 @@ impl<'a> Simulated<'a> {
             workers,
             waiting: BTreeSet::new(),
             running: Vec::new(),
-            losses: BTreeMap::new(),
+            deaths: BTreeMap::new(),
             scratch: Scratch::new(),
         }
     }
@@ -123,14 +125,20 @@ impl Executor for Simulated<'_> {
             }
             let index = self.below(self.running.len());
             let (job, finished) = self.running[index].clone();
-            let losses = self.losses.entry(job).or_default();
-            if *losses + 1 < super::core::LOSSES_MAX && self.stream.unit() < 0.1 {
-                *losses += 1;
+            if self.chance(0.15) {
+                let is_death = self.chance(0.5);
+                let deaths = self.deaths.entry(job).or_default();
+                let loss = if is_death && *deaths + 1 < super::core::LOSSES_MAX {
+                    *deaths += 1;
+                    Loss::Worker
+                } else {
+                    Loss::Member
+                };
                 // Half of the workers given up for dead answer all the same, some time later.
                 if self.chance(0.5) {
                     self.running.swap_remove(index);
                 }
-                return Some(Event::Lost(job));
+                return Some(Event::Lost(job, loss));
             }
             // Some answer again.
             if !self.chance(0.1) {

@@ -129,16 +129,23 @@ fn impossible_answers_end_the_build() {
 }
 
 #[test]
-fn a_job_lost_three_times_ends_the_build_and_is_named() {
+fn a_job_at_which_three_workers_die_ends_the_build_and_is_named() {
     let setup = setup();
     let mut core = Core::new(&setup, 0);
     core.start();
     let job = generate(1);
-    for _ in 0..2 {
-        assert_eq!(jobs(&core.on_event(Event::Lost(job))), [job]);
+    // Members that leave, before and in between, are not held against the job.
+    for loss in [[Loss::Member; 5].as_slice(), &[Loss::Worker, Loss::Member, Loss::Worker]].concat()
+    {
+        assert_eq!(jobs(&core.on_event(Event::Lost(job, loss))), [job]);
     }
-    assert_eq!(stop(&core.on_event(Event::Lost(job))), Some(&Stop::Deadly(job)));
-    assert!(core.on_event(Event::Lost(job)).is_empty());
+    for _ in 0..20 {
+        assert_eq!(jobs(&core.on_event(Event::Lost(job, Loss::Member))), [job]);
+    }
+    let other = core.on_event(Event::Lost(generate(0), Loss::Worker));
+    assert_eq!(jobs(&other), [generate(0)], "deaths are counted job by job");
+    assert_eq!(stop(&core.on_event(Event::Lost(job, Loss::Worker))), Some(&Stop::Deadly(job)));
+    assert!(core.on_event(Event::Lost(job, Loss::Worker)).is_empty());
 }
 
 /// Whether a sampler's failure counts must not depend on how early it is known.

@@ -1,4 +1,4 @@
-use super::{Event, Executor, Finished, InProcess, Job, Replica, Round, Setup};
+use super::{Event, Executor, Finished, InProcess, Job, Loss, Replica, Round, Setup};
 use crate::model::Scratch;
 use crate::roadmap::{Increment, Roadmap, Tally};
 use crossbeam::channel::{Receiver, RecvTimeoutError, Sender, unbounded};
@@ -53,7 +53,7 @@ impl Threads {
                 let run = || SCRATCH.with_borrow_mut(|scratch| task.run(&setup, scratch));
                 let event = match catch_unwind(AssertUnwindSafe(run)) {
                     Ok(outcome) => Event::Done(job, Finished::new(outcome)),
-                    Err(_) => Event::Lost(job),
+                    Err(_) => Event::Lost(job, Loss::Worker),
                 };
                 // Free the inputs first, so that the fold that follows finds the roadmap unshared.
                 drop(task);

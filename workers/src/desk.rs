@@ -1,8 +1,9 @@
-//! What lies before a worker: jobs to do, what they read, and outcomes to tell.
+//! A worker's desk: the jobs that the worker holds, what they read, and the outcomes that the coordinator has
+//! not been told yet.
 
-use crate::channel::{CHUNK_BYTES, StoreReader};
 use crate::error::WorkerError;
 use crate::faults::{Faults, Slip};
+use crate::line::SharedData;
 use crate::message::{Bytes, Done, Entry, FromWorker, ToWorker};
 use roadmill::img::{Job, Outcome, Replica, Setup};
 use roadmill::model::Scratch;
@@ -15,6 +16,9 @@ use std::time::Instant;
 
 /// A worker that has so many jobs left to begin tells what it has done, so that it need not wait for more.
 const HELD_WHEN_TELLING: usize = 2;
+/// A worker tells what it has done once that takes more bytes than this, so that long outcomes are on their
+/// way while it works.
+const TOLD_BYTES: usize = 128 << 10;
 
 /// A job that is done.
 struct Finished {
@@ -27,31 +31,31 @@ struct Finished {
 /// A worker's jobs and outcomes.
 pub struct Desk<'a> {
     setup: &'a Setup,
-    store: &'a StoreReader,
+    shared: &'a dyn SharedData,
     faults: &'a Faults,
     replica: Replica,
     scratch: Scratch,
-    /// To be done, the most urgent first.
+    /// Jobs to be done, the most urgent first.
     jobs: BTreeSet<Job>,
-    /// To be told.
+    /// Jobs that are done, of which the coordinator is to be told.
     done: Vec<Finished>,
-    /// What goes wrong when it is told.
+    /// What a test wants to go wrong when the coordinator is told.
     slip: Option<Slip>,
-    /// Somebody waits for what is done.
+    /// Whether the build waits for something among what is done.
     is_urgent: bool,
 }
 
 impl<'a> Desk<'a> {
-    /// One without jobs.
+    /// A desk without jobs.
     pub fn new(
         setup: &'a Setup,
-        store: &'a StoreReader,
+        shared: &'a dyn SharedData,
         faults: &'a Faults,
         replica: Replica,
     ) -> Desk<'a> {
         Desk {
             setup,
-            store,
+            shared,
             faults,
             replica,
             scratch: Scratch::new(),
@@ -92,7 +96,7 @@ impl<'a> Desk<'a> {
         let bytes: usize = self.done.iter().map(|done| done.outcome.len()).sum();
         // Where few jobs come at once, not after each of them.
         let few = HELD_WHEN_TELLING.min(self.done.len());
-        self.is_urgent || self.jobs.len() <= few || bytes > CHUNK_BYTES
+        self.is_urgent || self.jobs.len() <= few || bytes > TOLD_BYTES
     }
 
     /// The message that tells all that is done, and what goes wrong with it.
@@ -160,7 +164,7 @@ impl<'a> Desk<'a> {
         match bytes {
             Bytes::Here(bytes) => Ok(Cow::Borrowed(bytes)),
             Bytes::Stored { offset, length, digest } => {
-                let bytes = (self.store.read(*offset, *length))
+                let bytes = (self.shared.stored(*offset, *length))
                     .map_err(|error| WorkerError::System("cannot read the store", error))?;
                 if Digest::of(&bytes) == *digest {
                     Ok(Cow::Owned(bytes))

@@ -13,7 +13,9 @@ use std::fs::File;
 use std::path::PathBuf;
 
 /// Faults separated by commas: `die-at=LABEL:ORDINAL` ends each worker that is to generate that
-/// set. The others come about once, and a `FILE`, which must not be there yet, marks that they have:
+/// set. The others come about once, and a `FILE`, which must not be there yet, marks that they have; a set
+/// with several of them has one after the other.
+///
 /// `garble-at=LABEL:ORDINAL:FILE` makes the first worker answer with rubbish, `twice-at=…` makes it give
 /// its answer again instead of the one to its next job, and `half-at=…` ends it while it sends.
 const VARIABLE: &str = "ROADMILL_FAULTS";
@@ -57,12 +59,17 @@ pub struct Faults {
 }
 
 impl Faults {
+    /// No faults.
+    pub fn none() -> Faults {
+        Faults { faults: Vec::new(), is_ending: Cell::new(false) }
+    }
+
     /// Reads the environment.
     ///
     /// # Errors
     /// When it names faults that there are not: a test would pass without having tested.
     pub fn read() -> Result<Faults, WorkerError> {
-        let mut faults = Faults { faults: Vec::new(), is_ending: Cell::new(false) };
+        let mut faults = Faults::none();
         let Some(text) = std::env::var_os(VARIABLE) else {
             return Ok(faults);
         };
@@ -80,16 +87,19 @@ impl Faults {
         };
         let label = &setup.problem.strategies[strategy as usize].label;
         let here = |fault: &&Fault| fault.ordinal == ordinal && fault.label == *label;
-        match &self.faults.iter().find(here)?.effect {
+        // A set may have several faults: one after the other comes about.
+        let kind = self.faults.iter().filter(here).find_map(|fault| match &fault.effect {
             Effect::Die => die(),
-            Effect::Once(mark, _) if File::create_new(mark).is_err() => None,
-            Effect::Once(_, Kind::Garble) => Some(Slip::Instead(RUBBISH.to_vec())),
-            Effect::Once(_, Kind::Twice) => Some(Slip::Twice),
-            Effect::Once(_, Kind::Half) => {
+            Effect::Once(mark, kind) => File::create_new(mark).ok().map(|_| *kind),
+        })?;
+        Some(match kind {
+            Kind::Garble => Slip::Instead(RUBBISH.to_vec()),
+            Kind::Twice => Slip::Twice,
+            Kind::Half => {
                 self.is_ending.set(true);
-                Some(Slip::Instead(vec![0xff; LONG_BYTES]))
+                Slip::Instead(vec![0xff; LONG_BYTES])
             }
-        }
+        })
     }
 
     /// To be called whenever the worker waits for the coordinator.

@@ -26,6 +26,9 @@ use std::sync::Arc;
 /// Version of these messages.
 pub const PROTOCOL: u32 = 4;
 
+/// The longest message in bytes, either way.
+pub const MESSAGE_BYTES_MAX: u64 = 1 << 30;
+
 /// From a worker.
 #[derive(Debug, Clone, PartialEq, Encode, BorrowDecode)]
 pub enum FromWorker<'a> {
@@ -85,7 +88,7 @@ pub enum Entry {
 /// Bytes for all workers.
 #[derive(Debug, Clone, PartialEq, Encode, Decode)]
 pub enum Bytes {
-    /// In the channel's store, once for all.
+    /// Stored where all workers can read them: see [`SharedData::stored`](crate::SharedData::stored).
     Stored {
         /// Where they begin.
         offset: u64,
@@ -94,6 +97,6 @@ pub enum Bytes {
         /// Their digest.
         digest: Digest,
     },
-    /// In the message itself, where shared memory is short.
+    /// In the message itself, where workers share no memory or it is short.
     Here(Arc<Vec<u8>>),
 }

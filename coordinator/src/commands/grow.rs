@@ -1,11 +1,12 @@
-//! What `build` and `resume` share: growing a roadmap from wherever it is.
+//! What `build` and `resume` share: growing a roadmap from its beginning, or from where a run stopped.
 
 use super::write_whole;
 use crate::cli::{CrewArguments, GrowthArguments};
 use crate::cpu::CpuClock;
+use crate::crew::{CrewError, Executable, LocalCrew};
+use crate::dispatch::{Dispatcher, Imported};
 use crate::exit::{Code, Failure};
 use crate::memory::resident_bytes;
-use crate::pool::{Imported, Pool};
 use crate::progress::{Reporter, print_json};
 use crate::run::{
     CoordinatorCpu, LedgerWriter, Replay, RunFolder, Scan, SetFiles, Stopped, Summary, Times, Told,
@@ -25,10 +26,10 @@ use std::time::{Duration, Instant};
 
 /// The most worker processes or threads.
 const WORKERS_MAX: usize = 4096;
-/// Sets per worker that may be generated ahead of the current round: some milliseconds of work for each, where
-/// sets are short, so that none waits for the end of a round.
+/// Sets per worker that may be generated ahead of the current round. Where sets are short these are some
+/// milliseconds of work for each worker, so that no worker has to wait for the end of a round.
 const LOOKAHEAD_PER_WORKER: u64 = 8;
-/// Looking at every process's memory takes a moment.
+/// Between two times that the memory of all processes is added up, which takes a while.
 const MEMORY_PAUSE: Duration = Duration::from_secs(1);
 
 /// A roadmap to be grown, and by whom.
@@ -36,9 +37,9 @@ pub(super) struct Growth<'a> {
     pub problem: Problem,
     pub folder: RunFolder,
     pub ledger: LedgerWriter,
-    /// What there is already; its verdicts are those by the problem's own criteria.
+    /// The ledger as it was found, where a build goes on. Its verdicts are by the evaluators of `problem`.
     pub past: Option<Scan>,
-    /// Sets that need not be generated.
+    /// Files of sets, which are read instead of being generated.
     pub imports: SetFiles,
     pub arguments: &'a GrowthArguments,
     pub workers: usize,
@@ -47,7 +48,7 @@ pub(super) struct Growth<'a> {
 }
 
 impl Growth<'_> {
-    /// Grows the roadmap to its end.
+    /// Grows the roadmap until the build stops; the exit code.
     pub fn grow(self) -> Result<Code, Failure> {
         let Growth { mut folder, past, imports, arguments, workers, signals, .. } = self;
         let verdicts = past.as_ref().and_then(|past| past.verdicts.clone()).unwrap_or_default();
@@ -72,8 +73,8 @@ impl Growth<'_> {
             let stop = watch.drive(past.as_ref(), &mut threads)?;
             (stop, threads.tally().clone(), None)
         } else {
-            let mut pool = match Pool::start(setup.clone(), workers, signals) {
-                Ok(pool) => pool,
+            let dispatcher = match start(&setup, workers) {
+                Ok(dispatcher) => dispatcher.with_signals(signals),
                 Err(error) => {
                     if past.is_none() {
                         folder.discard();
@@ -82,13 +83,13 @@ impl Growth<'_> {
                 }
             };
             folder.begun()?;
-            watch.stored = pool.stored_bytes();
-            let mut pool = Imported::new(pool, imports);
-            let stop = watch.drive(past.as_ref(), &mut pool);
-            // Also where the ledger cannot be written: the workers end before their channel does.
-            let (tally, pool) = (pool.tally().clone(), pool.into_inner());
-            let seconds = (pool.message_seconds(), pool.fold_seconds());
-            if let Err(error) = pool.close() {
+            watch.stored = dispatcher.stored_bytes();
+            let mut dispatcher = Imported::new(dispatcher, imports);
+            let stop = watch.drive(past.as_ref(), &mut dispatcher);
+            // Closed before a failure is returned, too: the workers have to end before their channel does.
+            let (tally, dispatcher) = (dispatcher.tally().clone(), dispatcher.into_inner());
+            let seconds = (dispatcher.message_seconds(), dispatcher.fold_seconds());
+            if let Err(error) = dispatcher.close() {
                 eprintln!("{}: {error}; the next run tries again", watch.setup.problem.name);
             }
             (stop?, tally, Some(seconds))
@@ -98,12 +99,20 @@ impl Growth<'_> {
     }
 }
 
-/// How many workers or threads there are to be.
+/// Starts worker processes that run this program.
+pub(super) fn start(
+    setup: &Arc<Setup>,
+    workers: usize,
+) -> Result<Dispatcher<LocalCrew>, CrewError> {
+    Dispatcher::start(setup.clone(), LocalCrew::open(Executable::own()?, workers)?)
+}
+
+/// How many workers or threads the command line asks for; one for each processor if it does not say.
 pub(super) fn workers(crew: &CrewArguments) -> Result<usize, Failure> {
     let (option, workers) = match (crew.workers, crew.threads) {
         (Some(workers), _) => ("--workers", workers),
         (None, Some(threads)) => ("--threads", threads),
-        // Knows the process's affinity and its group's quota.
+        // Counts only the processors that the system lets this process use.
         (None, None) => ("", std::thread::available_parallelism().map_or(1, usize::from)),
     };
     if (1..=WORKERS_MAX).contains(&workers) {
@@ -125,8 +134,8 @@ pub(super) fn limit(problem: &mut Problem, arguments: &GrowthArguments) -> Resul
     }
 }
 
-/// Keeps the ledger, tells how far the build is, and ends it when time is up, memory is short or a
-/// signal comes.
+/// Watches a build: writes its ledger, reports how far the build is, and ends it when time is up, memory is
+/// short or a signal comes.
 struct Watch {
     setup: Arc<Setup>,
     ledger: LedgerWriter,
@@ -137,9 +146,9 @@ struct Watch {
     verdicts: Vec<Verdict>,
     seconds: Option<f64>,
     memory: Option<u64>,
-    /// After which round the memory was looked at last, and when.
+    /// After which round the memory was added up last, and when.
     weighed: (u64, Option<Instant>),
-    /// Bytes of shared memory, which no process counts as its own.
+    /// Bytes stored for the workers in shared memory, which count as no process's own.
     stored: Arc<AtomicU64>,
 }
 
@@ -159,7 +168,7 @@ impl Watch {
         executor.take_failure().map_or(Ok(stop), Err)
     }
 
-    /// Folds what there is already.
+    /// Folds the rounds that the ledger has already.
     fn restore(&self, scan: &Scan, executor: &mut impl Executor) -> Result<Past, Failure> {
         let mut replay = Replay::new(scan, &self.setup.problem)?;
         let mut past = Past::new(&self.setup);
@@ -177,14 +186,15 @@ impl Watch {
         Ok(past)
     }
 
-    /// Writes down and says what the build came to; `pool_seconds` are those of messages and of folds.
+    /// Writes the summary and the ledger's last record, and reports them. `dispatch_seconds` are the CPU seconds
+    /// that the dispatcher spent on messages and on folds, where there was one.
     fn end(
         mut self,
         json: bool,
         folder: &RunFolder,
         stop: &Stop,
         tally: &Tally,
-        pool_seconds: Option<(f64, f64)>,
+        dispatch_seconds: Option<(f64, f64)>,
     ) -> Result<Code, Failure> {
         let problem = &self.setup.problem;
         let stopped = Stopped::new(stop, problem);
@@ -193,7 +203,7 @@ impl Watch {
             write_whole(&folder.file("path.csv"), path_csv(&self.setup.cx.space, path))?;
         }
         let coordinator_cpu_seconds = self.cpu.own_seconds();
-        let coordinator_cpu = pool_seconds.map(|(messages, fold)| {
+        let coordinator_cpu = dispatch_seconds.map(|(messages, fold)| {
             let ledger = self.ledger.cpu_seconds();
             let rest = coordinator_cpu_seconds - messages - fold - ledger;
             CoordinatorCpu { messages, fold, ledger, rest }
@@ -208,12 +218,12 @@ impl Watch {
         let summary = Summary::new(problem, folder.path(), tally, &self.verdicts, &stopped, times);
         let text = serde_json::to_string_pretty(&summary).map_err(Failure::system)?;
         write_whole(&folder.file("summary.json"), text + "\n")?;
-        // Last: a build that is killed before comes here again when it goes on.
+        // Written last: a build that is killed before this has no end in its ledger and can go on to here again.
         self.ledger.stopped(&stopped)?;
         if json {
             print_json(&summary);
         } else {
-            // Whoever closes the pipe does not want it.
+            // A pipe that its reader has closed is no failure: the reader has seen enough.
             let _ = writeln!(std::io::stdout(), "{summary}");
         }
         match stopped.outcome(problem) {
@@ -222,7 +232,7 @@ impl Watch {
         }
     }
 
-    /// Whether memory is short, looked at after rounds.
+    /// Whether memory is short. Added up once after a round, since only rounds make the roadmap larger.
     fn is_short_of_memory(&mut self, rounds: u64) -> bool {
         let (round, at) = self.weighed;
         let Some(limit) = self.memory.filter(|_| round < rounds) else { return false };

@@ -1,14 +1,13 @@
 use super::difference;
-use super::grow::workers;
+use super::grow::{start, workers};
 use crate::cli::VerifyArguments;
 use crate::exit::{Code, Failure};
-use crate::pool::Pool;
 use crate::run::ledger::{Chapter, Judged, job_name};
 use crate::run::{Replay, Scan, Told};
 use crate::signals::Signals;
 use roadmill::BITS_VERSION;
 use roadmill::img::{
-    Event, Executor, Finished, Job, LOSSES_MAX, Outcome, RoundSet, Setup, TICK, Threads,
+    Cut, Event, Executor, Finished, Job, LOSSES_MAX, Loss, Outcome, RoundSet, Setup, TICK, Threads,
 };
 use roadmill::model::Scratch;
 use roadmill::problem::Problem;
@@ -45,10 +44,10 @@ pub fn verify(arguments: &VerifyArguments) -> Result<Code, Failure> {
     let counts = if arguments.crew.threads.is_some() {
         check.run(&mut Threads::new(setup.clone(), workers))?
     } else {
-        let pool = Pool::start(setup.clone(), workers, signals.clone());
-        let mut pool = pool.map_err(Failure::system)?;
-        let counts = check.run(&mut pool);
-        pool.close().map_err(Failure::system)?;
+        let dispatcher = start(&setup, workers).map_err(Failure::system)?;
+        let mut dispatcher = dispatcher.with_signals(signals.clone());
+        let counts = check.run(&mut dispatcher);
+        dispatcher.close().map_err(Failure::system)?;
         counts?
     };
     let (sets, judgements) = counts;
@@ -137,7 +136,7 @@ struct Check<'a> {
     choice: Choice,
     signals: &'a Signals,
     ahead: usize,
-    /// What each job should come to, and how often it was lost.
+    /// What each job should come to, and how many workers died at it.
     at_work: BTreeMap<Job, (Outcome, u32)>,
     /// The first job, in the order of the ledger, that came to something else.
     difference: Option<((u64, u8), String)>,
@@ -248,16 +247,19 @@ impl Check<'_> {
                     self.compare(job, &expected, &finished);
                 }
             }
-            Some(Event::Lost(job)) => {
-                if let Some((_, losses)) = self.at_work.get_mut(&job) {
-                    *losses += 1;
-                    if *losses == LOSSES_MAX {
+            Some(Event::Lost(job, loss)) => {
+                if let Some((_, deaths)) = self.at_work.get_mut(&job) {
+                    *deaths += u32::from(loss == Loss::Worker);
+                    if *deaths >= LOSSES_MAX {
                         let name = job_name(job, &self.setup.problem);
                         let message = format!("{name} killed its workers");
                         return Err(Failure::new(Code::WorkersLost, message));
                     }
                     executor.submit(job);
                 }
+            }
+            Some(Event::Cut(Cut::WorkersLost(why))) => {
+                return Err(Failure::new(Code::WorkersLost, why));
             }
             Some(Event::Cut(cut)) => {
                 return Err(Failure::new(Code::WorkersLost, format!("{cut:?}")));

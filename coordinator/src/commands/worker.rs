@@ -1,7 +1,7 @@
 use crate::cli::WorkerArguments;
 use crate::exit::{Code, Failure};
-use roadmill_workers::WorkerError;
-use roadmill_workers::channel::{ChannelError, WorkerId, private_umask};
+use roadmill_workers::WorkerId;
+use roadmill_workers::channel::private_umask;
 
 /// Runs a worker process.
 pub fn worker(arguments: &WorkerArguments) -> Result<Code, Failure> {
@@ -13,11 +13,7 @@ pub fn worker(arguments: &WorkerArguments) -> Result<Code, Failure> {
     };
     match roadmill_workers::run(&arguments) {
         Ok(never) => match never {},
-        // The run is over; a worker that notices first has nothing to complain of.
-        Err(
-            WorkerError::Orphaned
-            | WorkerError::Channel(ChannelError::HubGone | ChannelError::Abandoned),
-        ) => Ok(Code::Done),
+        Err(error) if error.is_end() => Ok(Code::Done),
         Err(error) => Err(Failure::system(format!("worker {}: {error}", arguments.worker))),
     }
 }

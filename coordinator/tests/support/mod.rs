@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// Whatever takes longer hangs. Nothing else is ever concluded from a time.
-const PATIENCE: Duration = Duration::from_secs(60);
+pub const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A build without end, in small steps: whoever starts it stops it when enough has happened to
 /// it, however fast the machine is, and then compares it with an undisturbed one of that size.

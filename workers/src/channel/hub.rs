@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::os::fd::{AsFd, BorrowedFd};
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::AtomicU64;
 
 use iceoryx2::port::ReceiveError;
 use iceoryx2::port::update_connections::UpdateConnections;
@@ -136,6 +137,11 @@ impl Hub {
     /// What all workers can read; see [`StoreReader`](super::StoreReader).
     pub fn store(&mut self) -> &mut Store {
         &mut self.store
+    }
+
+    /// How many bytes the store takes, now and whenever it is looked at.
+    pub fn stored_bytes(&self) -> Arc<AtomicU64> {
+        self.store.bytes()
     }
 
     /// Readable when [`receive`](Hub::receive) has something to do.

@@ -47,10 +47,10 @@ mod shared_files;
 mod shelf;
 mod store;
 
-use std::fmt;
-
 use rustix::fs::Mode;
 
+pub use crate::id::WorkerId;
+pub use crate::message::MESSAGE_BYTES_MAX;
 pub use error::ChannelError;
 pub use header::Fault;
 pub use hub::{Delivery, Hub, Received};
@@ -58,23 +58,9 @@ pub use link::Link;
 pub use shelf::SharedShelf;
 pub use store::{Store, StoreReader};
 
-/// The longest message in bytes, either way.
-pub const MESSAGE_BYTES_MAX: u64 = 1 << 30;
-
 /// Bytes of a message that travel at once. Throughput hardly changes from 128 KiB on, and with this
 /// the channel of 64 workers still fits into 64 MB, the `/dev/shm` that containers often get.
 pub const CHUNK_BYTES: usize = 128 << 10;
-
-/// Names a worker process. The coordinator chooses it and never uses it again in the same run,
-/// not even for the process that replaces a dead one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct WorkerId(pub u64);
-
-impl fmt::Display for WorkerId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
-}
 
 /// Makes every file that this process creates from now on accessible to its own user only.
 ///

@@ -6,32 +6,34 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// An executor that takes what there is from files of sets and leaves all other jobs to another.
+/// An executor that reads sets from files, as far as there are files of them, and leaves all other jobs to the
+/// executor behind it.
 pub struct Imported<E> {
     inner: E,
     files: SetFiles,
-    /// Sets to be read.
+    /// Jobs whose sets are still to be read from the files.
     waiting: BTreeSet<Job>,
     failure: Option<Failure>,
 }
 
 impl<E: Executor> Imported<E> {
-    /// Puts files before an executor.
+    /// Sets come from `files` where these have them, everything else from `inner`.
     pub fn new(inner: E, files: SetFiles) -> Imported<E> {
         Imported { inner, files, waiting: BTreeSet::new(), failure: None }
     }
 
-    /// The other executor.
+    /// The executor behind the files.
     pub fn into_inner(self) -> E {
         self.inner
     }
 
-    /// Why the build was cut, if that was because a set could not be read.
+    /// Why a set could not be read, if that is what ended the build.
     pub fn take_failure(&mut self) -> Option<Failure> {
         self.failure.take()
     }
 }
 
+/// The strategy and the ordinal of the set that a job generates, if that is what the job does.
 fn set_of(job: Job) -> Option<(u32, u64)> {
     match job {
         Job::Generate { strategy, ordinal, .. } => Some((strategy, ordinal)),

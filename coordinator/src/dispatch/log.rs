@@ -1,7 +1,7 @@
+use crate::crew::Crew;
 use roadmill::img::{Job, Outcome, Round};
 use roadmill::roadmap::{Digest, Increment};
 use roadmill::wire;
-use roadmill_workers::channel::Store;
 use roadmill_workers::message::{Bytes, Entry};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,9 +9,9 @@ use std::sync::Arc;
 /// The most bytes of entries in one message; a worker that is far behind gets several.
 const PART_BYTES_MAX: usize = 32 << 20;
 
-/// Everything that has changed the replicas so far, ready to be sent: each worker has its place in
-/// it, and a new one starts at the beginning. As long as there is room, the bytes stand in the channel's
-/// store, once for all workers, and as they came.
+/// Everything that has changed the workers' replicas so far, ready to be sent. Each worker has read the log up
+/// to a place of its own; a new worker begins at the beginning. Where the crew can store bytes for all its
+/// members they stand there once, as they came from the worker that made them.
 #[derive(Debug, Default)]
 pub struct Log {
     entries: Vec<Entry>,
@@ -32,17 +32,17 @@ impl Log {
     }
 
     /// Appends the increment at `place`, the next one.
-    pub fn publish(&mut self, place: u64, increment: &Increment, store: &mut Store) {
+    pub fn publish(&mut self, place: u64, increment: &Increment, crew: &mut impl Crew) {
         let kept = self.increments.remove(&place);
         let made = || Outcome::Increment(Ok(increment.clone()));
-        self.entries.push(Entry::Increment(kept.unwrap_or_else(|| put(&made(), store))));
+        self.entries.push(Entry::Increment(kept.unwrap_or_else(|| put(&made(), crew))));
     }
 
     /// Appends the end of a round.
-    pub fn fold(&mut self, round: &Round, store: &mut Store) {
+    pub fn fold(&mut self, round: &Round, crew: &mut impl Crew) {
         let joins = round.sets.iter().map(|set| {
             let kept = self.joins.remove(&set.place);
-            kept.unwrap_or_else(|| put(&Outcome::Joined(set.joined.clone()), store))
+            kept.unwrap_or_else(|| put(&Outcome::Joined(set.joined.clone()), crew))
         });
         self.entries.push(Entry::Fold(joins.collect()));
     }
@@ -66,14 +66,14 @@ impl Log {
     }
 }
 
-/// The bytes of an outcome that came from no worker.
-fn put(outcome: &Outcome, store: &mut Store) -> Bytes {
+/// The bytes of an outcome that no worker has sent: of a set that was imported, or of a build that goes on.
+fn put(outcome: &Outcome, crew: &mut impl Crew) -> Bytes {
     let bytes = wire::encode(outcome);
-    let stored = store.append(&bytes);
+    let stored = crew.store(&bytes);
     bytes_of(&bytes, stored, Digest::of(&bytes))
 }
 
-/// Bytes that stand in the store at `stored`, or else go by messages.
+/// Bytes as an entry names them: where the crew has stored them, or else themselves.
 pub fn bytes_of(bytes: &[u8], stored: Option<u64>, digest: Digest) -> Bytes {
     match stored {
         Some(offset) => Bytes::Stored { offset, length: bytes.len() as u64, digest },

@@ -1,33 +1,39 @@
-use roadmill::img::Job;
-use roadmill_workers::channel::WorkerId;
+use roadmill::img::{Job, Loss};
+use roadmill_workers::WorkerId;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// As much work as a worker is to hold, by what jobs of its kind took before. Messages cost the coordinator
-/// some 50 µs and a worker that waits for the reply some 100, which this makes little of; and no worker
-/// is longer than this behind another that has nothing left to do.
+/// The work that a worker is given at once, in seconds, by what jobs of the same kinds took before. A message
+/// costs the coordinator some 50 µs and a worker that waits for the reply some 100 µs: little beside this. And
+/// when one worker runs out of jobs, no other has more left than this.
 const HELD_SECONDS: f64 = 0.02;
-/// The share that a new measurement has in what a kind of jobs is taken to last.
+/// The weight of the newest measurement in the moving average of what jobs of a kind take.
 const NEWEST: f64 = 0.25;
 
-/// Which jobs wait, and who holds which. Where jobs are short a worker is given several at once, but of
-/// each urgency no more than its share of all that are open, so that none is left without while another
-/// has many to begin. A job that was lost is handed out alone: should it kill again, no other is lost with
-/// it, and none other is blamed.
+/// Which jobs wait, and which worker holds which jobs. Short jobs are handed out several at once. Of each
+/// urgency a worker gets at most an even share of the jobs that are open (waiting or held), so that no worker
+/// goes without while another holds jobs that it has yet to begin.
+///
+/// A job at which a worker died is a suspect: it may be what killed the worker. Suspects are handed out alone,
+/// so that a job that kills again takes no other job with it and no other job is blamed. Jobs that were lost
+/// for reasons of the worker ([`Loss::Member`]) are handed out like all others.
 #[derive(Debug, Default)]
 pub struct Roster {
-    /// By urgency.
+    /// The jobs that wait, by urgency.
     waiting: [BTreeSet<Job>; URGENCIES],
-    /// Waiting or held, by urgency.
+    /// How many jobs wait or are held, by urgency.
     open: [usize; URGENCIES],
+    /// The jobs that each ready worker holds.
     held: BTreeMap<WorkerId, BTreeSet<Job>>,
-    /// Lost and not yet done.
+    /// Jobs at which a worker died, and which have not been done since.
     suspects: BTreeSet<Job>,
-    /// What jobs of a kind take.
+    /// What jobs of a kind take, in seconds: a moving average.
     seconds: BTreeMap<Kind, f64>,
 }
 
+/// How many urgencies there are.
 const URGENCIES: usize = 3;
 
+/// How urgent a job is: 0 is the most urgent, since most other work waits for it.
 fn urgency(job: &Job) -> usize {
     match job {
         Job::Evaluate { .. } => 0,
@@ -36,7 +42,8 @@ fn urgency(job: &Job) -> usize {
     }
 }
 
-/// Urgency, and which strategy or evaluator: these take about as long every time.
+/// A job's urgency, and the index of its strategy or evaluator. Jobs in which both are the same take about
+/// equally long.
 type Kind = (usize, u32);
 
 fn kind(job: &Job) -> Kind {
@@ -47,34 +54,34 @@ fn kind(job: &Job) -> Kind {
 }
 
 impl Roster {
-    /// A worker is ready.
+    /// Takes in a worker that is ready for jobs.
     pub fn enlist(&mut self, worker: WorkerId) {
         self.held.insert(worker, BTreeSet::new());
     }
 
-    /// How many workers are ready.
+    /// How many workers are ready for jobs, at work or not.
     pub fn workers(&self) -> usize {
         self.held.len()
     }
 
-    /// Whether a worker holds nothing.
+    /// Whether a worker holds no jobs.
     pub fn is_free(&self, worker: WorkerId) -> bool {
         self.held.get(&worker).is_none_or(BTreeSet::is_empty)
     }
 
-    /// Whether a job waits that somebody who holds nothing could do.
+    /// Whether a job waits: a worker that holds no jobs could be given one.
     pub fn has_work(&self) -> bool {
         self.waiting.iter().any(|jobs| !jobs.is_empty())
     }
 
-    /// A job is to be done.
+    /// Takes in a job that is to be done.
     pub fn submit(&mut self, job: Job) {
         self.open[urgency(&job)] += 1;
         self.waiting[urgency(&job)].insert(job);
     }
 
-    /// Hands out jobs to a worker, the most urgent first; none if it has enough. Jobs that `is_needed`
-    /// denies are dropped.
+    /// Hands out jobs to a worker, the most urgent first; none if the worker holds enough. Jobs for which
+    /// `is_needed` says false are dropped.
     pub fn give(&mut self, worker: WorkerId, is_needed: impl Fn(Job) -> bool) -> Vec<Job> {
         let mut given = Vec::new();
         let workers = self.held.len();
@@ -97,7 +104,7 @@ impl Roster {
                     return given;
                 }
                 let own = held.iter().filter(|other| urgency(other) == urgency(&job)).count();
-                // Rounded down: the rest is for whoever is done first.
+                // The share is rounded down: what remains is for the workers that are done first.
                 if own >= (*open / workers).max(1) {
                     break;
                 }
@@ -113,7 +120,7 @@ impl Roster {
         given
     }
 
-    /// A worker says that it has done a job in so many seconds; whether it had it to do.
+    /// Takes note that a worker has done a job, in so many seconds. False if the worker did not hold the job.
     pub fn done(&mut self, worker: WorkerId, job: Job, seconds: f64) -> bool {
         if !self.held.get_mut(&worker).is_some_and(|held| held.remove(&job)) {
             return false;
@@ -125,11 +132,14 @@ impl Roster {
         true
     }
 
-    /// A worker is gone: the jobs lost with it, which are to be submitted again if they still matter.
-    pub fn dismiss(&mut self, worker: WorkerId) -> BTreeSet<Job> {
+    /// Takes note that a worker is gone, and why. The jobs that are lost with the worker: whoever still needs
+    /// them submits them again.
+    pub fn dismiss(&mut self, worker: WorkerId, loss: Loss) -> BTreeSet<Job> {
         let lost = self.held.remove(&worker).unwrap_or_default();
         lost.iter().for_each(|job| self.open[urgency(job)] -= 1);
-        self.suspects.extend(&lost);
+        if loss == Loss::Worker {
+            self.suspects.extend(&lost);
+        }
         lost
     }
 }
@@ -230,6 +240,22 @@ mod tests {
         }
     }
 
+    #[test]
+    fn jobs_lost_with_a_member_are_handed_out_together_again() {
+        let given_after = |loss| {
+            let mut roster = roster(1, 1e-4);
+            (0..4).for_each(|place| roster.submit(generate(place)));
+            assert_eq!(roster.give(WorkerId(0), |_| true).len(), 4);
+            let lost = roster.dismiss(WorkerId(0), loss);
+            assert_eq!((lost.len(), roster.open), (4, [0; URGENCIES]));
+            roster.enlist(WorkerId(1));
+            lost.into_iter().for_each(|job| roster.submit(job));
+            roster.give(WorkerId(1), |_| true).len()
+        };
+        assert_eq!(given_after(Loss::Member), 4);
+        assert_eq!(given_after(Loss::Worker), 1, "suspects are handed out alone");
+    }
+
     /// One of several jobs kills: only that one is lost again, whoever gets it.
     #[test]
     fn a_job_that_kills_is_found_among_those_lost_with_it() {
@@ -249,7 +275,7 @@ mod tests {
                         assert!(roster.done(worker, job, 1e-4) && done.insert(job));
                         continue;
                     }
-                    for lost in roster.dismiss(worker) {
+                    for lost in roster.dismiss(worker, Loss::Worker) {
                         *losses.entry(lost).or_insert(0) += 1;
                         roster.submit(lost);
                     }

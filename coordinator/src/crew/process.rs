@@ -1,38 +1,32 @@
-use roadmill_workers::channel::WorkerId;
+use super::SILENCE_MAX;
+use super::executable::Executable;
+use roadmill_workers::WorkerId;
 use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
-use std::fs::File;
-use std::io::Read;
-use std::os::fd::{AsFd, AsRawFd, BorrowedFd};
+use std::io::{ErrorKind, Read};
+use std::os::fd::{AsFd, BorrowedFd};
 use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::{Child, ChildStdout, Command, ExitStatus, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-/// A worker whose heart has not beaten for this long is stopped or stuck, and is replaced. Jobs
-/// may take as long as they like: the heart has a thread of its own.
-const SILENCE_MAX: Duration = Duration::from_secs(30);
-
-/// The executable of this process, held open: an upgrade may replace the file.
-#[derive(Debug)]
-pub struct Executable(File);
-
-impl Executable {
-    /// Opens it.
-    ///
-    /// # Errors
-    /// When it cannot be opened.
-    pub fn open() -> std::io::Result<Executable> {
-        File::open("/proc/self/exe").map(Executable)
-    }
+/// Whether a worker process shows that it lives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pulse {
+    /// It does.
+    Beating,
+    /// It has ended.
+    Ended,
+    /// It has shown nothing for [`SILENCE_MAX`].
+    Silent,
 }
 
 /// A worker process.
 #[derive(Debug)]
 pub struct WorkerProcess {
     child: Child,
+    /// Its standard output, on which a byte a second shows that it lives.
     heart: ChildStdout,
     last_beat: Instant,
-    gone: bool,
 }
 
 impl WorkerProcess {
@@ -46,7 +40,7 @@ impl WorkerProcess {
         channel: &Path,
         worker: WorkerId,
     ) -> std::io::Result<WorkerProcess> {
-        let mut child = Command::new(format!("/proc/self/fd/{}", executable.0.as_raw_fd()))
+        let mut child = Command::new(executable.descriptor_path())
             .arg0("roadmill")
             .arg("worker")
             .arg("--channel")
@@ -58,36 +52,29 @@ impl WorkerProcess {
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .spawn()?;
-        let heart = child.stdout.take().ok_or(std::io::ErrorKind::BrokenPipe)?;
+        let heart = child.stdout.take().ok_or(ErrorKind::BrokenPipe)?;
         fcntl_setfl(&heart, fcntl_getfl(&heart)? | OFlags::NONBLOCK)?;
-        Ok(WorkerProcess { child, heart, last_beat: Instant::now(), gone: false })
+        Ok(WorkerProcess { child, heart, last_beat: Instant::now() })
     }
 
-    /// Readable when the heart has beaten or the process has ended.
+    /// Readable when the process has shown that it lives, or has ended.
     pub fn as_fd(&self) -> BorrowedFd<'_> {
         self.heart.as_fd()
     }
 
-    /// Takes note of heartbeats; whether the process has ended. Ends one that has fallen silent.
-    pub fn look(&mut self) -> bool {
+    /// Takes note of the signs of life that have come.
+    pub fn look(&mut self) -> Pulse {
         let mut beats = [0; 64];
         loop {
             match self.heart.read(&mut beats) {
                 // Only the worker holds the other end.
-                Ok(0) => self.gone = true,
-                Ok(_) => {
-                    self.last_beat = Instant::now();
-                    continue;
-                }
-                Err(error) if error.kind() == std::io::ErrorKind::Interrupted => continue,
-                Err(_) => {}
+                Ok(0) => return Pulse::Ended,
+                Ok(_) => self.last_beat = Instant::now(),
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(_) => break,
             }
-            break;
         }
-        if self.last_beat.elapsed() > SILENCE_MAX {
-            self.gone = true;
-        }
-        self.gone
+        if self.last_beat.elapsed() > SILENCE_MAX { Pulse::Silent } else { Pulse::Beating }
     }
 
     /// Ends the process, if it has not ended, and waits for it.
