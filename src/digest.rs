@@ -1,4 +1,6 @@
 use bincode::{Decode, Encode};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
 /// A BLAKE3 digest, shown as 64 hexadecimal digits.
@@ -21,6 +23,23 @@ impl fmt::Display for Digest {
 impl fmt::Debug for Digest {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
+    }
+}
+
+/// As text, 64 hexadecimal digits.
+impl Serialize for Digest {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Digest {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Digest, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        let digest = blake3::Hash::from_hex(&text);
+        digest.map(|hash| Digest(*hash.as_bytes())).map_err(|_| {
+            D::Error::custom(format!("`{text}` found; a digest of 64 hexadecimal digits expected"))
+        })
     }
 }
 

@@ -1,24 +1,30 @@
 //! Generators: what makes a node set. One file per method.
 //!
 //! A generator makes an increment of the roadmap, a pure function of the problem, the set's seed and what the
-//! generator says that it reads. One that reads nothing is given out to workers ahead of the rounds; one
-//! that *grows* the roadmap reads it as it was at the start of the set's round.
+//! generator says that it reads. One that reads nothing, or the roadmap of a *parent* run, is given out to workers
+//! ahead of the rounds; one that *grows* the roadmap reads it as it was at the start of the set's round.
 
 mod expansion;
+mod parent;
+mod reuse;
 mod sample;
 
 methods! {
     /// The generators, as a problem file names them.
     pub enum GeneratorKind: dyn Generator {
         Sample(sample::Sample),
-        Expansion(expansion::Expansion), // new ones at the end, since ledgers know methods by number
+        Expansion(expansion::Expansion),
+        Reuse(reuse::Reuse), // new ones at the end, since ledgers know methods by number
     }
 }
 
 pub use expansion::Expansion;
+pub use parent::{NoRuns, Parent, ParentRoadmap, ParentRun, Runs};
+pub use reuse::Reuse;
 pub use sample::Sample;
 
 use crate::context::Context;
+use crate::digest::Digest;
 use crate::methods::{Complaint, methods};
 use crate::model::Scratch;
 use crate::roadmap::{Increment, Roadmap};
@@ -32,6 +38,9 @@ pub enum Reads {
     Nothing,
     /// The roadmap as it was at the start of the set's round.
     Roadmap,
+    /// The roadmap of another run, which is part of the problem; the digest is the hash of the run's ledger.
+    /// Sets can be made in any order, in any place, at any time.
+    Parent(Digest),
 }
 
 /// A way of making node sets.
@@ -55,6 +64,16 @@ pub trait Generator {
         frozen: Option<&Roadmap>,
         scratch: &mut Scratch,
     ) -> Result<Increment, GaveUp>;
+
+    /// The run whose roadmap the method reads.
+    fn parent(&self) -> Option<&Parent> {
+        None
+    }
+
+    /// The same, to take the roadmap in.
+    fn parent_mut(&mut self) -> Option<&mut Parent> {
+        None
+    }
 
     /// What is wrong with the settings.
     fn complaint(&self) -> Option<Complaint> {

@@ -105,7 +105,7 @@ impl Problem {
         Some(format!("{what} is not what it was{file}"))
     }
 
-    /// Whether places, rounds and strategies fit together, as they do in every problem that was read
+    /// Whether places, rounds, strategies and the roadmaps they read fit together, as they do in every problem that was read
     /// from a file: what decoded bytes must show.
     pub fn schedule_is_sound(&self) -> bool {
         let fits = |schedule: &[u32], sets_per_round: u32| {
@@ -116,7 +116,10 @@ impl Problem {
             let own = earlier.rounds.checked_mul(u64::from(earlier.sets_per_round))?;
             places.checked_add(own).filter(|places| *places < COUNT_MAX)
         });
+        let dofs = self.space().len();
+        let parents = self.strategies.iter().filter_map(|known| known.generator.method().parent());
         fits(&self.schedule, self.sets_per_round)
+            && parents.into_iter().all(|parent| parent.roadmap().dofs() == dofs)
             && places.is_some()
             && self.earlier.iter().all(|e| e.rounds > 0 && fits(&e.schedule, e.sets_per_round))
     }

@@ -12,9 +12,8 @@ pub(super) fn describe(problem: &Problem) -> String {
 
 fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     let space = problem.space();
-    let names: Vec<_> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
     writeln!(out, "problem          {} (seed {})", problem.name, problem.seed)?;
-    writeln!(out, "configuration    {}", names.join(" "))?;
+    writeln!(out, "configuration    {}", space.form())?;
     problem.model.description().describe(out);
     if let Some(query) = &problem.query {
         writeln!(out, "start            {:?}", query.start)?;

@@ -21,6 +21,7 @@ pub use write::Written;
 use crate::context::{Context, Ends};
 use crate::digest::{Digest, SourceFile};
 use crate::evaluate::EvaluatorKind;
+use crate::generator::{NoRuns, Runs};
 use crate::model::{self, ModelKind, SceneOptions};
 use crate::schedule::Adaptive;
 use crate::space::Space;
@@ -81,29 +82,34 @@ impl Problem {
     /// # Errors
     /// The first thing that is wrong, with its place in the file.
     pub fn load(path: &Path) -> Result<Problem, ProblemError> {
-        Problem::load_with(path, &SceneOptions::default())
+        Problem::load_with(path, &SceneOptions::default(), &NoRuns)
     }
 
-    /// [`Problem::load`] with what is to be taken where a scene of another program leaves a choice.
+    /// [`Problem::load`] with what is to be taken where a scene of another program leaves a choice, and with a
+    /// reader of the runs whose roadmaps the problem's generators read.
     ///
     /// # Errors
     /// The first thing that is wrong, with its place in the file.
-    pub fn load_with(path: &Path, options: &SceneOptions) -> Result<Problem, ProblemError> {
+    pub fn load_with(
+        path: &Path,
+        options: &SceneOptions,
+        runs: &dyn Runs,
+    ) -> Result<Problem, ProblemError> {
         if let Some(imported) = model::import(path, options) {
             return imported.and_then(|imported| import::problem_of(path, imported));
         }
         let text = std::fs::read_to_string(path).map_err(|error| {
             ProblemError::file(path, format!("cannot read the problem: {error}"))
         })?;
-        Problem::parse(path, &text)
+        resolve::resolve(path, &text, runs)
     }
 
-    /// Reads and checks a problem's text as if it stood in the file `path`.
+    /// Reads and checks a problem's text, which names no run, as if it stood in the file `path`.
     ///
     /// # Errors
     /// The first thing that is wrong, with its place in the file.
     pub fn parse(path: &Path, text: &str) -> Result<Problem, ProblemError> {
-        resolve::resolve(path, text)
+        resolve::resolve(path, text, &NoRuns)
     }
 
     /// The digest of all that determines the entries of a ledger: two problems with the same

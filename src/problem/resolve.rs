@@ -4,12 +4,15 @@ use super::building::{adaptive_of, evaluators_of, limits_of, strategies_of};
 use super::file::{File, KEYS};
 use super::{DEFAULT_SEED, Problem};
 use crate::context::Ends;
+use crate::generator::Runs;
 use crate::model::ModelKind;
 use crate::source::Step::{Index, Key};
 use crate::source::{ProblemError, Source, fits};
+use crate::space::Space;
+use crate::strategy::Strategy;
 use std::path::Path;
 
-pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> {
+pub(super) fn resolve(path: &Path, text: &str, runs: &dyn Runs) -> Result<Problem, ProblemError> {
     let source = Source::new(path, text)?;
     source.expect_keys(&[ModelKind::tables_in(&source), &KEYS].concat())?;
     let file: File = source.tables()?;
@@ -17,7 +20,8 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
 
     let name = name_of(&source, &file)?;
     let model = ModelKind::read(&source, &mut notes)?;
-    let (strategies, schedule, sets_per_round) = strategies_of(&source, &file)?;
+    let (mut strategies, schedule, sets_per_round) = strategies_of(&source, &file)?;
+    take_in_parents(&source, runs, &model.description().space(), &mut strategies)?;
     let adaptive = adaptive_of(&source, &file)?;
     let limits = limits_of(&source, &file)?;
     let evaluators = evaluators_of(&source, &file)?;
@@ -40,6 +44,23 @@ pub(super) fn resolve(path: &Path, text: &str) -> Result<Problem, ProblemError> 
     };
     let problem = accepted(&source, &file, problem)?;
     Ok(Problem { sources: source.files.into_inner(), ..problem })
+}
+
+/// Takes in the roadmaps of the runs that generators read.
+fn take_in_parents(
+    source: &Source,
+    runs: &dyn Runs,
+    space: &Space,
+    strategies: &mut [Strategy],
+) -> Result<(), ProblemError> {
+    let folder = source.path.parent().unwrap_or(Path::new(""));
+    for (index, strategy) in strategies.iter_mut().enumerate() {
+        if let Some(parent) = strategy.generator.method_mut().parent_mut() {
+            let place = [Key("strategies"), Index(index), Key("generator")];
+            parent.take_in(runs, folder, space).map_err(|message| source.error(&place, message))?;
+        }
+    }
+    Ok(())
 }
 
 fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {

@@ -212,6 +212,19 @@ impl Space {
         Ok(())
     }
 
+    /// Whether configurations of the two spaces are of one form: the same degrees of freedom in the same order.
+    /// The bounds may differ.
+    pub fn has_form_of(&self, other: &Space) -> bool {
+        let kind = |part: &Part| (std::mem::discriminant(&part.kind), part.at);
+        self.dofs == other.dofs && self.parts.iter().map(kind).eq(other.parts.iter().map(kind))
+    }
+
+    /// The names of the degrees of freedom, as people read them.
+    pub fn form(&self) -> String {
+        let names: Vec<_> = self.dofs.iter().map(|dof| dof.name.as_str()).collect();
+        names.join(" ")
+    }
+
     /// Distance of two configurations in the scene's length unit: the square root of the weighted
     /// sum of squares over the parts. Angles count by their shortest turn, rotations by the angle
     /// of the rotation between them (in `[0, π]`). Symmetric to the bit.

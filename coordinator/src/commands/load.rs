@@ -1,5 +1,6 @@
 use crate::cli::{Bounds, Dh, Origin, ProblemArguments, Solid, Unit, Up};
 use crate::exit::Failure;
+use crate::run::Ledgers;
 use roadmill::model::bodies::foreign::{self, SceneOptions, Solidity};
 use roadmill::model::bodies::validity::BoundsMeaning;
 use roadmill::problem::Problem;
@@ -40,5 +41,5 @@ pub(super) fn load(arguments: &ProblemArguments) -> Result<Problem, Failure> {
             Dh::Modified => foreign::DhOrder::Modified,
         }),
     };
-    Problem::load_with(&arguments.file, &options).map_err(Failure::usage)
+    Problem::load_with(&arguments.file, &options, &Ledgers).map_err(Failure::usage)
 }

@@ -3,9 +3,10 @@ use crate::cli::{GrowthArguments, ResumeArguments};
 use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
 use crate::run::ledger::LEDGER;
-use crate::run::{LedgerWriter, RunFolder, RunLock, Scan, SetFiles, Stopped};
+use crate::run::{LedgerWriter, Ledgers, RunFolder, RunLock, Scan, SetFiles, Stopped};
 use crate::signals::Signals;
 use roadmill::BITS_VERSION;
+use roadmill::model::SceneOptions;
 use roadmill::problem::Problem;
 use roadmill_workers::channel::private_umask;
 use std::io::Write;
@@ -17,7 +18,7 @@ pub fn resume(arguments: &ResumeArguments) -> Result<Code, Failure> {
     let cpu = CpuClock::start();
     private_umask();
     let workers = workers(&arguments.growth.crew)?;
-    let with = arguments.with.as_deref().map(Problem::load).transpose().map_err(Failure::usage)?;
+    let with = arguments.with.as_deref().map(load_changed).transpose()?;
     let run = &arguments.run;
     if !run.join(LEDGER).is_file() {
         return Err(Failure::usage(format!("{}: no run here", run.display())));
@@ -26,6 +27,11 @@ pub fn resume(arguments: &ResumeArguments) -> Result<Code, Failure> {
     let lock = RunLock::take(run, || signals.came())?;
     let change = Change::Chapter { with: with.as_ref(), accept_bits: arguments.accept_bits };
     go_on(run, lock, change, &arguments.growth, workers, signals, cpu)
+}
+
+/// Reads the problem by which a build goes on.
+fn load_changed(file: &Path) -> Result<Problem, Failure> {
+    Problem::load_with(file, &SceneOptions::default(), &Ledgers).map_err(Failure::usage)
 }
 
 /// What a build that goes on may change.

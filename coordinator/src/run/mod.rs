@@ -17,7 +17,7 @@ mod sets;
 mod summary;
 
 pub use folder::RunFolder;
-pub use ledger::{Ledger, LedgerWriter, Replay, Scan, Stopped, Told};
+pub use ledger::{Ledger, LedgerWriter, Ledgers, Replay, Scan, Stopped, Told};
 pub use lock::{Holder, RunLock};
 pub use sets::{SetFiles, SetsWriter};
 pub use summary::{CoordinatorCpu, EvaluatorValue, Summary, Times};

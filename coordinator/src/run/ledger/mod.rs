@@ -3,6 +3,7 @@
 
 mod durable;
 pub(in crate::run) mod frame;
+mod parents;
 mod reader;
 mod record;
 mod replay;
@@ -12,6 +13,7 @@ mod writer;
 
 pub use durable::{DURABLE, DurableFile};
 pub use frame::Mark;
+pub use parents::Ledgers;
 pub use reader::LedgerReader;
 pub use record::{Chapter, FullSet, Judged, Record, RoundEnd, SecondChapter, Set};
 pub use replay::{Replay, Told};
@@ -49,7 +51,14 @@ impl Ledger {
     /// # Errors
     /// Exit code 2 if there is no ledger, 4 if it is damaged or of another format.
     pub fn read(folder: &Path) -> Result<Ledger, Failure> {
-        let scan = Scan::read(folder)?;
+        Ledger::of(Scan::read(folder)?)
+    }
+
+    /// Reads what was scanned, as [`Ledger::read`] does.
+    ///
+    /// # Errors
+    /// Exit code 4 if it is damaged.
+    pub fn of(scan: Scan) -> Result<Ledger, Failure> {
         let problem = scan.problem()?;
         let space = problem.space();
         let mut roadmap = Roadmap::new(&space);

@@ -6,6 +6,7 @@ use bincode::enc::Encoder;
 use bincode::error::{DecodeError, EncodeError};
 use bincode::{Decode, Encode};
 use roadmill::evaluate::Verdict;
+use roadmill::generator::{GeneratorKind, Reads};
 use roadmill::img::{Joined, RoundSet};
 use roadmill::problem::{Layout, Problem};
 use roadmill::roadmap::{Digest, Full, Increment};
@@ -165,7 +166,8 @@ pub struct FullSet {
     pub label: String,
     /// Its ordinal within the label.
     pub ordinal: u64,
-    /// Of a set that grew: the digest of the roadmap that it read.
+    /// What the set was made from beside the problem: of one that grew, the digest of the roadmap that it read; of
+    /// one that read a parent run, the hash of that run's ledger.
     pub read: Option<Digest>,
     /// What it adds.
     pub increment: Full<Increment>,
@@ -194,17 +196,27 @@ impl WrittenFullSet<'_> {
         roadmap: Digest,
     ) -> Option<WrittenFullSet<'a>> {
         let strategy = &problem.strategies[set.strategy as usize];
-        let grows = strategy.generator.grows();
+        let read = read_by(&strategy.generator, roadmap);
         let is_plain = set.increment.is_plain() && set.joined.is_plain();
-        (grows || !is_plain).then(|| WrittenFullSet {
+        (read.is_some() || !is_plain).then(|| WrittenFullSet {
             tag: FULL_SET_TAG,
             place: set.place,
             label: &strategy.label,
             ordinal: set.ordinal,
-            read: grows.then_some(roadmap),
+            read,
             increment: Full(&set.increment),
             joined: Full(&set.joined),
         })
+    }
+}
+
+/// The digest by which a ledger names what a generator's sets read; `roadmap` is that of the roadmap at the start
+/// of their round.
+pub fn read_by(generator: &GeneratorKind, roadmap: Digest) -> Option<Digest> {
+    match generator.method().reads() {
+        Reads::Nothing => None,
+        Reads::Roadmap => Some(roadmap),
+        Reads::Parent(ledger) => Some(ledger),
     }
 }
 

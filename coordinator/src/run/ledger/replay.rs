@@ -1,5 +1,5 @@
 use super::reader::LedgerReader;
-use super::record::{FullSet, Judged, Record, Set};
+use super::record::{FullSet, Judged, Record, Set, read_by};
 use super::scan::Scan;
 use crate::exit::Failure;
 use roadmill::img::{Plan, Round, RoundSet};
@@ -125,8 +125,8 @@ impl<'a> Replay<'a> {
             return Err(self.reader.wrong(&format!("{found} found, {expected} expected")));
         }
         let grows = strategy_of.generator.grows();
-        if read != grows.then_some(self.roadmap) {
-            return Err(self.reader.wrong("not the roadmap that the set grew from"));
+        if read != read_by(&strategy_of.generator, self.roadmap) {
+            return Err(self.reader.wrong("not the roadmap that the set was made from"));
         }
         self.nodes += set.increment.configs.len() as u64;
         let joins = &set.joined.edges;

@@ -1,0 +1,154 @@
+use crate::digest::Digest;
+use crate::roadmap::Roadmap;
+use crate::space::Space;
+use bincode::Encode;
+use bincode::de::{Decode, Decoder};
+use bincode::error::DecodeError;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A finished run whose roadmap a generator reads.
+///
+/// A problem file names the run by its folder, from the folder of the file, and may say the hash of its ledger.
+/// Once the problem is read, the nodes and edges of the run's roadmap are part of the problem, as its meshes are:
+/// whoever has the problem's bytes, a worker, a ledger or a file of sets, needs the run no more.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, bincode::Decode)]
+#[serde(deny_unknown_fields)]
+pub struct Parent {
+    /// The run's folder, as the problem file writes it.
+    pub run: String,
+    /// The hash of the run's ledger up to its last complete round. A problem file may leave it out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ledger: Option<Digest>,
+    #[serde(skip)]
+    roadmap: Arc<ParentRoadmap>,
+}
+
+/// What there is of the roadmap of a [`Parent`]: configurations and which of them are joined.
+#[derive(Clone, Default, PartialEq, Encode)]
+pub struct ParentRoadmap {
+    dofs: u32,
+    /// `dofs` values per node.
+    values: Vec<f64>,
+    edges: Vec<[u32; 2]>,
+}
+
+/// A run that was read: what a [`Runs`] gives.
+#[derive(Clone, Debug)]
+pub struct ParentRun {
+    /// The hash of its ledger up to its last complete round.
+    pub ledger: Digest,
+    /// The space of its problem.
+    pub space: Space,
+    /// Its roadmap.
+    pub roadmap: Roadmap,
+}
+
+/// Whoever can read run folders. This library knows no ledgers: a program that keeps them hands in their reader.
+pub trait Runs {
+    /// Reads the run in a folder.
+    ///
+    /// # Errors
+    /// Says why it cannot be read.
+    fn read(&self, folder: &Path) -> Result<ParentRun, String>;
+}
+
+/// No run can be read.
+pub struct NoRuns;
+
+impl Runs for NoRuns {
+    fn read(&self, _folder: &Path) -> Result<ParentRun, String> {
+        Err("a problem without parent runs expected here".to_owned())
+    }
+}
+
+impl Parent {
+    /// Takes in the roadmap of the run, for problems over `space`. `folder` is that of the problem file.
+    ///
+    /// # Errors
+    /// Says what is wrong with the run: it cannot be read, has another ledger than was said, or another space.
+    pub fn take_in(&mut self, runs: &dyn Runs, folder: &Path, space: &Space) -> Result<(), String> {
+        let run = runs.read(&folder.join(&self.run))?;
+        if let Some(expected) = self.ledger.filter(|expected| *expected != run.ledger) {
+            return Err(format!(
+                "the ledger of {} has the hash {}; {expected} expected",
+                self.run, run.ledger
+            ));
+        }
+        if !run.space.has_form_of(space) {
+            return Err(format!(
+                "the configurations of {} are {}; {} expected",
+                self.run,
+                run.space.form(),
+                space.form()
+            ));
+        }
+        if run.roadmap.configs().is_empty() {
+            return Err(format!("the roadmap of {} has no nodes; at least 1 expected", self.run));
+        }
+        self.ledger = Some(run.ledger);
+        self.roadmap = Arc::new(ParentRoadmap {
+            dofs: space.len() as u32,
+            values: run.roadmap.configs().values().collect(),
+            edges: run.roadmap.edges().iter().map(|edge| [edge.low, edge.high]).collect(),
+        });
+        Ok(())
+    }
+
+    /// The roadmap, empty until it is [taken in](Parent::take_in).
+    pub fn roadmap(&self) -> &ParentRoadmap {
+        &self.roadmap
+    }
+}
+
+impl ParentRoadmap {
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.values.len() / (self.dofs as usize).max(1)
+    }
+
+    /// Whether there are no nodes.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// Number of values of a configuration.
+    pub fn dofs(&self) -> usize {
+        self.dofs as usize
+    }
+
+    /// The configuration of a node.
+    pub fn config(&self, node: usize) -> &[f64] {
+        let dofs = self.dofs();
+        &self.values[node * dofs..(node + 1) * dofs]
+    }
+
+    /// The edges in the order of the run, by the numbers of their ends, lower first.
+    pub fn edges(&self) -> &[[u32; 2]] {
+        &self.edges
+    }
+}
+
+/// The numbers of nodes and edges alone: a description of the problem is for people to read.
+impl fmt::Debug for ParentRoadmap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} nodes, {} edges", self.len(), self.edges.len())
+    }
+}
+
+/// Checks what decoded bytes must show: whole finite configurations, and edges between them.
+impl<Context> Decode<Context> for ParentRoadmap {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Self, DecodeError> {
+        let (dofs, values, edges) = Decode::decode(decoder)?;
+        let roadmap = ParentRoadmap { dofs, values, edges };
+        let nodes = roadmap.len();
+        let sound = roadmap.values.len() == nodes * roadmap.dofs()
+            && roadmap.values.iter().all(|value| value.is_finite())
+            && roadmap.edges.iter().all(|[low, high]| low < high && (*high as usize) < nodes);
+        if sound { Ok(roadmap) } else { Err(DecodeError::Other("a roadmap that cannot be")) }
+    }
+}
+
+bincode::impl_borrow_decode!(ParentRoadmap);
