@@ -111,3 +111,6 @@ impl GeneratorKind {
         self.method().reads() == Reads::Roadmap
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -152,4 +152,4 @@ pub struct GaveUp {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -7,7 +7,7 @@ mod mix;
 mod obprm;
 mod pairs;
 mod sequences;
-mod statistics;
+pub(crate) mod statistics;
 mod steps;
 
 use super::SamplerKind;

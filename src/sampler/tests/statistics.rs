@@ -12,7 +12,7 @@ pub(super) fn follows(mut sample: Vec<f64>, law: impl Fn(f64) -> f64) {
 }
 
 /// The chi-square test: counts of cells agree with probabilities, which need not sum to 1.
-pub(super) fn fits(counts: &[usize], probabilities: &[f64]) {
+pub(crate) fn fits(counts: &[usize], probabilities: &[f64]) {
     let n: usize = counts.iter().sum();
     let whole: f64 = probabilities.iter().sum();
     let square: f64 = counts
