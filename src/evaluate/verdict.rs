@@ -17,7 +17,7 @@ pub struct Verdict {
     pub bound: Bound,
     /// Further numbers; [`Evaluator::measures`](super::Evaluator::measures) names them.
     pub measures: Vec<f64>,
-    /// The answer to the query, with the path; of the query evaluator only.
+    /// The answer to the query, with the path; of evaluators that look for a path only.
     pub answer: Option<Answer>,
     /// A minimum cut, the one nearest to the sources; of the max-flow evaluator only.
     pub cut: Option<Vec<CutEdge>>,

@@ -2,8 +2,8 @@
 //!
 //! A layout never changes: a ledger of years ago must stay readable, and its problem's digest what it was. A
 //! problem that the first layout can say, one of bodies whose sets are all sampled, has it; every other
-//! problem has the second. What is new comes as new variants at the end of the enums in the second layout, and
-//! what even that cannot say will be a third.
+//! problem has the second. New models, generators and other methods come as new variants at the end of their enums,
+//! which changes the bytes of no problem without them; what even the second layout cannot say will be a third.
 
 use super::{Earlier, Limits, Problem};
 use crate::BITS_VERSION;

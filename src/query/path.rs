@@ -9,7 +9,7 @@ use bincode::{Decode, Encode};
 pub struct Path {
     /// The configurations, from start to goal.
     pub configs: Configs,
-    /// Length in the space's metric.
+    /// Sum of its edges' costs in the direction of the path: of most models its length in the space's metric.
     pub length: f64,
 }
 

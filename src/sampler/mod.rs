@@ -143,7 +143,7 @@ fn obstructed(cx: &Context, bounds: bool) -> Result<(), String> {
     Err(format!("a sampler near obstacles found, but nothing to collide with; {expected}"))
 }
 
-/// A sampler that could not find a milestone.
+/// A sampler or a generator that could not find a milestone.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, bincode::Encode, bincode::Decode)]
 #[error("no milestone in {attempts} attempts")]
 pub struct GaveUp {

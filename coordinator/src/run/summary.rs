@@ -62,7 +62,7 @@ pub struct EvaluatorValue {
     pub measures: BTreeMap<&'static str, f64>,
     /// Of a query: edges left out because they failed the finer check.
     pub dropped_edges: Option<u64>,
-    /// Of a solved query: the path's length in the space's metric.
+    /// Of a solved query: the sum of the costs of the path's edges, of most models its length in the space's metric.
     pub path_length: Option<f64>,
     /// Of a max-flow: the edges of a least cut.
     pub cut: Option<Vec<CutEdge>>,
