@@ -5,7 +5,7 @@ use crate::digest::Digest;
 use crate::img::{Setup, build};
 use crate::model::Scratch;
 use crate::problem::Problem;
-use crate::roadmap::{Edge, Increment, Roadmap};
+use crate::roadmap::{Edge, Increment, Roadmap, SetForm};
 use crate::sampler::tests::statistics::fits;
 use std::path::Path;
 use std::sync::Arc;
@@ -73,8 +73,9 @@ fn every_set_has_as_many_valid_milestones_as_it_should_and_valid_edges() {
             let scratch = &mut Scratch::new();
             assert!(made.configs.iter().all(|q| cx.model.is_valid(q, scratch)), "{generator}");
             let grows = problem.strategies[0].generator.grows();
+            let form = SetForm::of(problem.model.description());
             let nodes = if grows { frozen.configs().len() as u64 } else { 0 };
-            assert!(made.is_sound(3, 0, nodes), "{generator}");
+            assert!(made.is_sound(form, nodes), "{generator}");
             for (edges, from) in [(&made.edges, &made.configs), (&made.links, frozen.configs())] {
                 for Edge { low, high, .. } in edges {
                     let (a, b) = (from.get(*low as usize), made.configs.get(*high as usize));

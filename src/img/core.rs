@@ -1,10 +1,11 @@
 //! The build as a state machine without input or output: events in, commands out.
 
-use super::{Finished, Job, Joined, Outcome, Plan, Setup};
+use super::{Finished, Job, Outcome, Setup};
 use crate::evaluate::Verdict;
 use crate::problem::Limits;
-use crate::roadmap::{Digest, Edge, Increment};
+use crate::roadmap::{Digest, Increment, Joined, Round, RoundSet, SetForm};
 use crate::sampler::GaveUp;
+use crate::schedule::Plan;
 use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
 use std::sync::Arc;
@@ -49,37 +50,6 @@ pub enum Command {
     Stop(Stop),
 }
 
-/// A complete round.
-#[derive(Clone, Debug)]
-pub struct Round {
-    /// Its number, from 0.
-    pub index: u64,
-    /// Its sets in the order of their places.
-    pub sets: Vec<RoundSet>,
-}
-
-impl Round {
-    /// What its sets add, and the edges that join each: what a fold takes.
-    pub fn parts(&self) -> impl Iterator<Item = (&Increment, &[Edge])> {
-        self.sets.iter().map(|set| (&*set.increment, &set.joined.edges[..]))
-    }
-}
-
-/// A set of a complete round.
-#[derive(Clone, Debug)]
-pub struct RoundSet {
-    /// Its place.
-    pub place: u64,
-    /// Index of its strategy.
-    pub strategy: u32,
-    /// Its ordinal within the strategy.
-    pub ordinal: u64,
-    /// What it adds.
-    pub increment: Arc<Increment>,
-    /// How it is joined to what came before.
-    pub joined: Joined,
-}
-
 /// What the evaluators said of the roadmap after a round.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
@@ -122,7 +92,7 @@ pub enum Stop {
     NodeLimit,
     /// As many sets as asked for.
     SetLimit,
-    /// A sampler found no milestone.
+    /// A generator found no milestone.
     GaveUp {
         /// The strategy.
         strategy: u32,
@@ -184,9 +154,7 @@ impl Past {
 /// The state of a build.
 pub struct Core {
     plan: Plan,
-    dofs: usize,
-    /// How many numbers the model gives every milestone.
-    values: usize,
+    form: SetForm,
     set_nodes: Vec<u64>,
     /// Per strategy: whether its sets grow from the roadmap at the start of their round.
     grows: Vec<bool>,
@@ -231,8 +199,7 @@ impl Core {
         let is_judged = past.verdicts.is_some();
         Core {
             plan: past.plan,
-            dofs: setup.cx.space.len(),
-            values: setup.cx.model.node_values().len(),
+            form: SetForm::of(setup.problem.model.description()),
             set_nodes: strategies.iter().map(|strategy| u64::from(strategy.nodes)).collect(),
             grows: strategies.iter().map(|strategy| strategy.generator.grows()).collect(),
             limits: setup.problem.limits,
@@ -350,8 +317,7 @@ impl Core {
                 let nodes = self.set_nodes[strategy as usize];
                 // What does not grow has no links: it may have been made before the round's start.
                 let before = if self.grows[strategy as usize] { self.folded() } else { 0 };
-                increment.is_sound(self.dofs, self.values, before)
-                    && increment.configs.len() as u64 == nodes
+                increment.is_sound(self.form, before) && increment.configs.len() as u64 == nodes
             }
             (Job::Join { place, .. }, Outcome::Joined(joined)) => {
                 let offset = (place - self.plan.places_of(self.round).start) as usize;
@@ -362,7 +328,7 @@ impl Core {
                 joined.edges.iter().all(|edge| {
                     u64::from(edge.low) < first
                         && (first..first + own).contains(&u64::from(edge.high))
-                        && edge.cost.is_sound()
+                        && self.form.has_cost(edge)
                 })
             }
             (Job::Evaluate { .. }, Outcome::Verdict(_)) => true,

@@ -1,8 +1,8 @@
 use super::Setup;
 use crate::connect::JoinInput;
 use crate::evaluate::Verdict;
-use crate::model::{Asked, Scratch};
-use crate::roadmap::{Digest, Edge, Full, Increment, Roadmap};
+use crate::model::Scratch;
+use crate::roadmap::{Digest, Full, Increment, Joined, Roadmap};
 use crate::sampler::GaveUp;
 use bincode::de::{Decode, Decoder};
 use bincode::enc::{Encode, Encoder};
@@ -49,43 +49,6 @@ pub enum Outcome {
     /// Of [`Job::Evaluate`].
     Verdict(Box<Verdict>),
 }
-
-/// The edges that join a set to what came before it, numbered as in the roadmap after the round.
-#[derive(Clone, Debug, PartialEq, bincode::Encode, bincode::Decode)]
-pub struct Joined {
-    /// The edges in the order in which they were found.
-    pub edges: Vec<Edge>,
-    /// What the join cost.
-    pub asked: Asked,
-}
-
-impl Joined {
-    /// Whether the plain form can say the edges.
-    pub fn is_plain(&self) -> bool {
-        self.edges.iter().all(Edge::is_plain)
-    }
-}
-
-impl Encode for Full<&Joined> {
-    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
-        Full(&self.0.edges).encode(encoder)?;
-        self.0.asked.encode(encoder)
-    }
-}
-
-impl Encode for Full<Joined> {
-    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
-        Full(&self.0).encode(encoder)
-    }
-}
-
-impl<Context> Decode<Context> for Full<Joined> {
-    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Self, DecodeError> {
-        let Full(edges) = Decode::decode(decoder)?;
-        Ok(Full(Joined { edges, asked: Asked::decode(decoder)? }))
-    }
-}
-bincode::impl_borrow_decode!(Full<Joined>);
 
 /// A number that says which outcome follows and in which form, then the outcome.
 impl Encode for Outcome {

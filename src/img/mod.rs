@@ -7,20 +7,19 @@
 
 mod core;
 mod drive;
-mod history;
 mod job;
-mod plan;
 mod replica;
 mod serial;
 mod simulated;
 mod threads;
 
 pub use self::core::{
-    Command, Core, Cut, Event, Judgement, LOSSES_MAX, Loss, Past, Progress, Round, RoundSet, Stop,
+    Command, Core, Cut, Event, Judgement, LOSSES_MAX, Loss, Past, Progress, Stop,
 };
+pub use crate::roadmap::{Joined, Round, RoundSet};
+pub use crate::schedule::Plan;
 pub use drive::{Executor, InProcess, Observer, TICK, drive};
-pub use job::{Finished, Job, Joined, Outcome, Task};
-pub use plan::Plan;
+pub use job::{Finished, Job, Outcome, Task};
 pub use replica::{Front, Replica};
 pub use serial::Serial;
 pub use simulated::{Memo, Simulated};

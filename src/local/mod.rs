@@ -108,7 +108,8 @@ pub fn complaint(planners: &[Planner]) -> Option<Complaint> {
     planners.iter().find_map(|planner| planner.method().complaint())
 }
 
-/// The first of `planners` whose motion from `a` to `b`, both valid, is valid, and what the motion costs. Checks `refinement` times finer than the problem's resolution.
+/// The first of `planners` whose motion from `a` to `b`, both valid, is valid, and what the motion costs. Motions are
+/// checked `refinement` times finer than the problem's resolution.
 pub fn connect(
     cx: &Context,
     planners: &[Planner],

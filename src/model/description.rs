@@ -21,6 +21,12 @@ pub trait Description {
         "length"
     }
 
+    /// Whether motions cost something that depends on the direction, as [`Cost::Directed`](super::Cost) says;
+    /// otherwise all of them cost their lengths.
+    fn has_directed_costs(&self) -> bool {
+        false
+    }
+
     /// Makes the model ready for work.
     fn prepare(&self) -> Box<dyn Model>;
 

@@ -1,7 +1,7 @@
 use super::PATH_REFINEMENT;
 use super::path::{Path, leg};
 use crate::context::Context;
-use crate::model::Scratch;
+use crate::model::{Cost, Scratch};
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed};
 
@@ -12,7 +12,8 @@ const SCALES: u32 = 5;
 /// Shortens a path by shortcuts (R. Geraerts, M. H. Overmars, *Creating high-quality paths for motion
 /// planning*, IJRR 2007, §3.1): `tries` times two places on the path are drawn by length, the first
 /// uniformly, the second uniformly within a window around it, and what lies between them is replaced
-/// by the straight motion where that is shorter and free.
+/// by the straight motion where that is shorter and free. In a model with energies *shorter* means that it costs
+/// less, and the new motions may reach no higher than what they replace.
 ///
 /// The new motions pass the check at a [`PATH_REFINEMENT`]th of the resolution, as do the two halves
 /// of legs that are cut. The result has the same ends, is never longer, and is the same for the same
@@ -63,15 +64,46 @@ fn shortcut(cx: &Context, path: &Path, from: f64, to: f64, scratch: &mut Scratch
     push(&b);
     (last.0 + 1..path.configs.len()).for_each(|i| push(path.configs.get(i)));
     let mut shorter = Path { configs, length: 0.0 };
+    let ends = (path.configs.get(first.0), path.configs.get(last.0 + 1));
+    if cx.model.energy(&a, scratch).is_some() {
+        let valid = cx.model.is_valid(&a, scratch) && cx.model.is_valid(&b, scratch);
+        let replaced = (first.0..=last.0 + 1).map(|i| path.configs.get(i));
+        let (before, highest) = climb(cx, replaced, 1, scratch)?;
+        let (after, reached) =
+            climb(cx, [ends.0, &a, &b, ends.1].into_iter(), PATH_REFINEMENT, scratch)?;
+        shorter.length = path.length - before + after;
+        return (valid && after < before && reached <= highest).then_some(shorter);
+    }
     shorter.length = shorter.lengths(&cx.space).last().copied().unwrap_or(0.0);
     if shorter.length.partial_cmp(&path.length) != Some(std::cmp::Ordering::Less) {
         return None;
     }
 
-    let ends = (path.configs.get(first.0), path.configs.get(last.0 + 1));
     let mut free = |q: &[f64], p: &[f64]| cx.model.motion(q, p, PATH_REFINEMENT, scratch).is_some();
     let motions = free(&a, &b) && free(ends.0, &a) && free(&b, ends.1);
     (motions && cx.model.is_valid(&a, scratch) && cx.model.is_valid(&b, scratch)).then_some(shorter)
+}
+
+/// What the motions along these configurations cost and how high they reach, in a model with energies; `None` if one
+/// of them is not valid.
+fn climb<'a>(
+    cx: &Context,
+    mut along: impl Iterator<Item = &'a [f64]>,
+    refinement: u32,
+    scratch: &mut Scratch,
+) -> Option<(f64, f64)> {
+    let (mut cost, mut highest) = (0.0, f64::NEG_INFINITY);
+    let mut before = along.next()?;
+    for next in along {
+        if next != before {
+            let Cost::Directed(own) = cx.model.motion(before, next, refinement, scratch)? else {
+                return None;
+            };
+            (cost, highest) = (cost + own.forward, own.peak.max(highest));
+        }
+        before = next;
+    }
+    Some((cost, highest))
 }
 
 #[cfg(test)]
@@ -128,6 +160,21 @@ mod tests {
             }
             assert_eq!(shorten(cx, &path, 0, &mut scratch), path);
         }
+    }
+
+    #[test]
+    fn in_a_landscape_shorter_means_less_climbing_and_no_higher_pass() {
+        let text = "[landscape]\nmin = [-1.5, -0.5]\nmax = [1.2, 2]\nenergy = \"muller-brown\"\n\
+            highest = 100\ntolerance = 0.1\n[query]\nstart = [-0.558, 1.442]\ngoal = [0.623, 0.028]\n\
+            [[strategies]]\nlabel = \"u\"\nnodes = 100\nsampler = { uniform = {} }\n";
+        let (setup, path) = solved("landscape.toml", text);
+        let (cx, scratch) = (&setup.cx, &mut Scratch::new());
+        let short = shorten(cx, &path, 300, scratch);
+        let along = |path: &Path| climb(cx, path.configs.iter(), 1, &mut Scratch::new()).unwrap();
+        let ((cost, highest), (short_cost, short_highest)) = (along(&path), along(&short));
+        assert!(short_cost < cost && short_highest <= highest, "{cost} → {short_cost}");
+        assert!((short.length - short_cost).abs() < 1e-6 * cost && short.length < path.length);
+        assert_eq!(short, shorten(cx, &path, 300, scratch));
     }
 
     #[test]

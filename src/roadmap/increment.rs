@@ -1,5 +1,5 @@
 use super::Configs;
-use crate::model::{Asked, Cost, Directed};
+use crate::model::{Asked, Cost, Description, Directed};
 
 /// An edge between two milestones that a local planner found valid from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +82,33 @@ impl Edge {
     }
 }
 
+/// What a model says of all node sets: how many numbers their nodes have, and how their edges cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SetForm {
+    /// Values of a configuration.
+    pub dofs: usize,
+    /// Numbers that the model gives every milestone.
+    pub values: usize,
+    /// Whether edges have directed costs.
+    pub directed: bool,
+}
+
+impl SetForm {
+    /// That of a model's sets.
+    pub fn of(model: &dyn Description) -> SetForm {
+        SetForm {
+            dofs: model.space().len(),
+            values: model.node_values().len(),
+            directed: model.has_directed_costs(),
+        }
+    }
+
+    /// Whether an edge's cost is of the model's kind and one that a search can work with.
+    pub fn has_cost(self, edge: &Edge) -> bool {
+        edge.cost.directed().is_some() == self.directed && edge.cost.is_sound()
+    }
+}
+
 /// What one node set adds: milestones and the edges among them, numbered from 0 (TR05-007
 /// §3.1: a roadmap increment).
 #[derive(Clone, Debug, PartialEq)]
@@ -113,16 +140,16 @@ impl Increment {
     }
 
     /// Whether the increment is one that a strategy could have made: what decoded bytes must be. `before` is
-    /// the number of nodes at the start of the round, `values` how many numbers every milestone has.
-    pub fn is_sound(&self, dofs: usize, values: usize, before: u64) -> bool {
+    /// the number of nodes at the start of the round.
+    pub fn is_sound(&self, form: SetForm, before: u64) -> bool {
         let nodes = self.configs.len() as u64;
         let of_links = |link: &Edge| u64::from(link.low) < before && u64::from(link.high) < nodes;
-        self.configs.is_sound(dofs)
+        self.configs.is_sound(form.dofs)
             && self.edges.iter().all(|edge| {
-                edge.low < edge.high && u64::from(edge.high) < nodes && edge.cost.is_sound()
+                edge.low < edge.high && u64::from(edge.high) < nodes && form.has_cost(edge)
             })
-            && self.links.iter().all(|link| of_links(link) && link.cost.is_sound())
-            && self.values.len() as u64 == nodes * values as u64
+            && self.links.iter().all(|link| of_links(link) && form.has_cost(link))
+            && self.values.len() as u64 == nodes * form.values as u64
             && self.values.iter().all(|value| value.is_finite())
     }
 

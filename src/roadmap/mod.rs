@@ -10,6 +10,7 @@ mod finder;
 mod forest;
 mod increment;
 mod indices;
+mod round;
 mod search;
 mod tally;
 
@@ -20,7 +21,8 @@ pub use components::Components;
 pub use edges::Edges;
 pub use encoding::Full;
 pub(crate) use forest::Forest;
-pub use increment::{Edge, EdgeCost, Increment};
+pub use increment::{Edge, EdgeCost, Increment, SetForm};
+pub use round::{Joined, Round, RoundSet};
 pub use search::{Graph, Route};
 pub use tally::{Outline, Tally};
 

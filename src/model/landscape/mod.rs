@@ -61,6 +61,10 @@ impl Description for Landscape {
         "energy"
     }
 
+    fn has_directed_costs(&self) -> bool {
+        true
+    }
+
     fn prepare(&self) -> Box<dyn Model> {
         let Landscape { highest, tolerance, .. } = *self;
         let terms = self.energy.terms();

@@ -4,7 +4,7 @@ use super::scan::Scan;
 use crate::exit::Failure;
 use roadmill::img::{Plan, Round, RoundSet};
 use roadmill::problem::Problem;
-use roadmill::roadmap::{Digest, Tally};
+use roadmill::roadmap::{Digest, SetForm, Tally};
 use std::sync::Arc;
 
 /// What a ledger tells of a build, in order.
@@ -25,9 +25,7 @@ pub struct Replay<'a> {
     place: u64,
     nodes: u64,
     round: u64,
-    dofs: usize,
-    /// How many numbers the model gives every milestone.
-    values: usize,
+    form: SetForm,
     chapters: usize,
     /// Digest and nodes of the roadmap at the start of the round.
     roadmap: Digest,
@@ -41,8 +39,7 @@ impl<'a> Replay<'a> {
     /// As [`Scan::read`].
     pub fn new(scan: &'a Scan, problem: &'a Problem) -> Result<Replay<'a>, Failure> {
         let reader = LedgerReader::open(scan.folder())?;
-        let (plan, dofs) = (Plan::new(problem), problem.space().len());
-        let values = problem.model.description().node_values().len();
+        let plan = Plan::new(problem);
         let roadmap = Tally::new(&problem.space()).digest();
         Ok(Replay {
             reader,
@@ -52,8 +49,7 @@ impl<'a> Replay<'a> {
             place: 0,
             nodes: 0,
             round: 0,
-            dofs,
-            values,
+            form: SetForm::of(problem.model.description()),
             chapters: 0,
             roadmap,
             folded: 0,
@@ -131,9 +127,11 @@ impl<'a> Replay<'a> {
         self.nodes += set.increment.configs.len() as u64;
         let joins = &set.joined.edges;
         let sound = self.nodes < u64::from(u32::MAX)
-            && set.increment.is_sound(self.dofs, self.values, if grows { self.folded } else { 0 })
+            && set.increment.is_sound(self.form, if grows { self.folded } else { 0 })
             && joins.iter().all(|edge| {
-                edge.low < edge.high && u64::from(edge.high) < self.nodes && edge.cost.is_sound()
+                edge.low < edge.high
+                    && u64::from(edge.high) < self.nodes
+                    && self.form.has_cost(edge)
             });
         if !sound {
             return Err(self.reader.wrong("a set that cannot be"));

@@ -1,6 +1,5 @@
-use super::Round;
-use crate::roadmap::Forest;
-use crate::schedule::Yield;
+use super::Yield;
+use crate::roadmap::{Forest, Round};
 
 /// What the strategies' sets came to in every round, from the rounds alone.
 #[derive(Clone, Debug)]

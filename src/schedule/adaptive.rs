@@ -1,5 +1,3 @@
-//! Schedules that follow what the strategies have come to.
-
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
-use super::Round;
+use super::Adaptive;
 use super::history::History;
 use crate::problem::Problem;
-use crate::schedule::Adaptive;
+use crate::roadmap::Round;
 use std::ops::Range;
 
 /// Which set comes where: sets stand in one sequence of *places*, a schedule over the strategies
