@@ -22,7 +22,7 @@ mod support;
 use roadmill::Context;
 use roadmill::model::Scratch;
 use roadmill::model::bodies::BodyValidity;
-use roadmill::model::bodies::validity::{Edges, TOLERANCE};
+use roadmill::model::bodies::validity::{MotionChecking, TOLERANCE};
 use roadmill::problem::Problem;
 use roadmill::roadmap::Configs;
 use std::path::Path;
@@ -81,8 +81,8 @@ fn check(path: &Path, count: usize) {
         empty(&mut problem);
         Judge::Brute(Box::new(Brute::new(&problem)))
     };
-    let [swept, sampled] =
-        [Edges::Swept, Edges::Sampled].map(|edges| with_edges(problem.clone(), edges).context());
+    let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled]
+        .map(|edges| with_edges(problem.clone(), edges).context());
     let motions = motions(&problem, &swept, count);
     let scratch = &mut Scratch::new();
     let mut decide = |cx: &Context| -> Vec<bool> {

@@ -18,7 +18,7 @@ mod support;
 
 use roadmill::Context;
 use roadmill::model::bodies::BodyValidity;
-use roadmill::model::bodies::validity::{BodyScratch, Edges, Work};
+use roadmill::model::bodies::validity::{BodyScratch, MotionChecking, Work};
 use roadmill::model::{Scratch, Validity};
 use roadmill::problem::Problem;
 use roadmill::roadmap::Configs;
@@ -90,7 +90,7 @@ type Verdict<'a> = dyn Fn(&[f64], &[f64], &mut Scratch) -> bool + 'a;
 
 fn measure(path: &Path, list: List, mode: Mode) {
     let mut problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
-    let [swept, sampled] = [Edges::Swept, Edges::Sampled].map(|edges| {
+    let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled].map(|edges| {
         problem.model.bodies_mut().expect("bodies").edges = edges;
         problem.context()
     });

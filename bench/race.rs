@@ -24,7 +24,7 @@ use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
 use roadmill::model::Scratch;
 use roadmill::model::bodies::BodyValidity;
-use roadmill::model::bodies::validity::Edges;
+use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::problem::Problem;
 use roadmill::seed::Seed;
 use std::collections::BTreeMap;
@@ -129,7 +129,7 @@ struct Track<'a> {
 
 impl Track<'_> {
     fn new<'a>(path: &Path, peer: &'a str) -> Track<'a> {
-        let problem = with_edges(surfaces(path), Edges::Swept);
+        let problem = with_edges(surfaces(path), MotionChecking::Swept);
         let folder = tempfile::tempdir().expect("a temporary folder");
         let track = Track { peer, problem, folder };
         track.write("scene", scene_text(&track.problem));
@@ -150,11 +150,12 @@ impl Track<'_> {
             Steps::Resolution => self.problem.model.bodies().expect("bodies").resolution,
             Steps::Ompl => coarse(&self.problem),
         };
-        let [swept_cx, sampled_cx] = [Edges::Swept, Edges::Sampled].map(|edges| {
-            let mut problem = with_edges(self.problem.clone(), edges);
-            problem.model.bodies_mut().expect("bodies").resolution = resolution;
-            problem.context()
-        });
+        let [swept_cx, sampled_cx] =
+            [MotionChecking::Swept, MotionChecking::Sampled].map(|edges| {
+                let mut problem = with_edges(self.problem.clone(), edges);
+                problem.model.bodies_mut().expect("bodies").resolution = resolution;
+                problem.context()
+            });
         let (configs, pairs) = list.draw(&self.problem, &self.problem.context());
         let ends = || pairs.iter().map(|(a, b)| (configs.get(*a), configs.get(*b)));
         let steps_of = |a: &[f64], b: &[f64]| {

@@ -1,5 +1,5 @@
 use crate::model::{Model, Scratch, Validity};
-use crate::space::{PartKind, Space, stored_form};
+use crate::space::{FactorKind, Space, stored_form};
 use bincode::{Decode, Encode};
 
 /// A problem made ready for work: what everything that samples, joins and evaluates shares.
@@ -29,7 +29,7 @@ impl Context {
         let given = q.to_vec();
         space.canonicalize(q)?;
         // What has stored form to within rounding stays as it is written, here too.
-        for part in space.parts().iter().filter(|part| part.kind == PartKind::Rotation) {
+        for part in space.factors().iter().filter(|part| part.kind == FactorKind::Rotation) {
             let four = part.at..part.at + 4;
             let quaternion = [0, 1, 2, 3].map(|i| given[part.at + i]);
             q[four].copy_from_slice(&stored_form(quaternion).expect("it has a direction"));

@@ -1,7 +1,7 @@
 //! Once a scratch is warm, what decides configurations and motions asks for no memory.
 
 use roadmill::model::Scratch;
-use roadmill::model::bodies::validity::Edges;
+use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::problem::Problem;
 use roadmill::seed::{Purpose, Seed};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -43,7 +43,7 @@ fn nothing_is_allocated_once_the_scratch_is_warm() {
     for name in ["cage", "hook", "walls", "gantry"] {
         let path = Path::new("problems").join(name).with_extension("toml");
         let mut problem = Problem::load(&path).unwrap();
-        for edges in [Edges::Swept, Edges::Sampled] {
+        for edges in [MotionChecking::Swept, MotionChecking::Sampled] {
             problem.model.bodies_mut().expect("bodies").edges = edges;
             let cx = problem.context();
             let scratch = &mut Scratch::new();

@@ -13,7 +13,7 @@ use roadmill::model::bodies::foreign::{
 use roadmill::model::bodies::validity::BoundsMeaning;
 use roadmill::problem::Problem;
 use roadmill::scene::{Pose, Shape};
-use roadmill::space::Motion;
+use roadmill::space::BaseJoint;
 use scenes::{Expected, TABLE, data};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -126,7 +126,7 @@ fn both_dialects_say_the_same() {
 fn planar_scenes_are_planar_and_notes_say_what_was_guessed() {
     let Some(data) = data() else { return };
     let maze = parasol(&data, "Maze/maze.env");
-    assert_eq!(maze.base, Base::Moving(Motion::Translation2d));
+    assert_eq!(maze.base, Base::Moving(BaseJoint::Translation2d));
     assert_eq!(maze.query, Some((vec![0.0, 34.0], vec![0.0, -34.0])));
     assert_eq!((maze.bounds.min, maze.bounds.max), ([-38.5, -35.0, 0.0], [38.8, 35.0, 0.0]));
     assert_eq!(maze.bounds.meaning, BoundsMeaning::Body);

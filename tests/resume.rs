@@ -4,7 +4,7 @@ use roadmill::img::{
     Build, Core, Cut, Executor, Judgement, Memo, Observer, Past, Progress, Round, Serial, Setup,
     Simulated, Stop, build, drive, resume_with,
 };
-use roadmill::model::bodies::validity::Edges;
+use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::problem::Problem;
 use roadmill::roadmap::Tally;
 use roadmill::schedule::Adaptive;
@@ -223,7 +223,7 @@ fn a_chapter_changes_nothing_that_sets_depend_on() {
         refused(|p| p.model.bodies_mut().expect("bodies").resolution *= 2.0).contains("resolution")
     );
     assert!(
-        refused(|p| p.model.bodies_mut().expect("bodies").edges = Edges::Sampled)
+        refused(|p| p.model.bodies_mut().expect("bodies").edges = MotionChecking::Sampled)
             .contains("what is promised of edges")
     );
     assert!(

@@ -1,7 +1,7 @@
 //! The same roadmap, bit for bit, whatever does the work.
 
 use roadmill::img::{Build, Memo, Setup, Simulated, Stop, build, build_in_threads, build_with};
-use roadmill::model::bodies::validity::Edges;
+use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::problem::Problem;
 use std::path::Path;
 use std::sync::Arc;
@@ -54,7 +54,7 @@ fn sampled_edges_have_golden_digests_too() {
             _ => swept,
         };
         let mut sampled = problem(name);
-        sampled.model.bodies_mut().expect("bodies").edges = Edges::Sampled;
+        sampled.model.bodies_mut().expect("bodies").edges = MotionChecking::Sampled;
         let found = build(&Arc::new(Setup::new(sampled))).roadmap.digest().to_string();
         assert_eq!(found, expected, "{name}");
     }

@@ -13,7 +13,7 @@ mod scenes;
 use brute::Brute;
 use roadmill::Context;
 use roadmill::model::bodies::BodyValidity;
-use roadmill::model::bodies::validity::{Edges, TOLERANCE};
+use roadmill::model::bodies::validity::{MotionChecking, TOLERANCE};
 use roadmill::model::{Scratch, Validity};
 use roadmill::problem::Problem;
 use roadmill::seed::{Purpose, Seed};
@@ -44,7 +44,7 @@ fn real_scenes_are_judged_as_step_by_step() {
     let Some(data) = data() else { return };
     for (scene, count) in [("ompl/cubicles.cfg", 1200), ("parasol/SerialWalls/serial.env", 1200)] {
         let mut problem = Problem::load(&data.join("scenes").join(scene)).unwrap();
-        let [swept, sampled] = [Edges::Swept, Edges::Sampled].map(|edges| {
+        let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled].map(|edges| {
             problem.model.bodies_mut().expect("bodies").edges = edges;
             problem.context()
         });
@@ -98,7 +98,7 @@ fn linkages_are_judged_as_by_every_pair_of_bodies() {
     let problems = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
     for name in ["stick2.toml", "stick4.toml", "gantry.toml"] {
         let mut problem = Problem::load(&problems.join(name)).unwrap();
-        let [swept, sampled] = [Edges::Swept, Edges::Sampled].map(|edges| {
+        let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled].map(|edges| {
             problem.model.bodies_mut().expect("bodies").edges = edges;
             problem.context()
         });

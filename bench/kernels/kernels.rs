@@ -5,7 +5,7 @@ use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
 use roadmill::img::{Job, Outcome, Replica, Setup};
 use roadmill::model::Scratch;
-use roadmill::model::bodies::validity::Edges;
+use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::neighbor::{Index, Searched, k_nearest, k_nearest_graph, radius_graph};
 use roadmill::problem::Problem;
 use roadmill::query::{Attachment, solve};
@@ -36,11 +36,11 @@ pub const KERNELS: &[Kernel] = &[
     kernel("state-mesh", "configuration", || states("cage")),
     kernel("state-boxes", "configuration", || states("walls")),
     kernel("state-linkage", "configuration", || states("stick4")),
-    kernel("swept-mesh", "motion", || motions("cage", Edges::Swept)),
-    kernel("swept-boxes", "motion", || motions("walls", Edges::Swept)),
-    kernel("swept-linkage", "motion", || motions("stick4", Edges::Swept)),
-    kernel("swept-plane", "motion", || motions("maze", Edges::Swept)),
-    kernel("sampled-mesh", "motion", || motions("cage", Edges::Sampled)),
+    kernel("swept-mesh", "motion", || motions("cage", MotionChecking::Swept)),
+    kernel("swept-boxes", "motion", || motions("walls", MotionChecking::Swept)),
+    kernel("swept-linkage", "motion", || motions("stick4", MotionChecking::Swept)),
+    kernel("swept-plane", "motion", || motions("maze", MotionChecking::Swept)),
+    kernel("sampled-mesh", "motion", || motions("cage", MotionChecking::Sampled)),
     kernel("clearance-mesh", "configuration", clearances),
     kernel("sample-uniform", "milestone", || samples("uniform = {}")),
     kernel("sample-gaussian", "milestone", || samples("gaussian = { deviation = 0.5 }")),
@@ -77,7 +77,7 @@ fn uniform(cx: &Context, count: usize) -> Configs {
 }
 
 /// The problem with other promises of its edges.
-fn with_edges(mut problem: Problem, edges: Edges) -> Problem {
+fn with_edges(mut problem: Problem, edges: MotionChecking) -> Problem {
     problem.model.bodies_mut().expect("bodies").edges = edges;
     problem
 }
@@ -94,7 +94,7 @@ fn states(name: &str) -> Work {
     })
 }
 
-fn motions(name: &str, edges: Edges) -> Work {
+fn motions(name: &str, edges: MotionChecking) -> Work {
     let cx = with_edges(problem(name), edges).context();
     let configs = sample(&cx, 300, 0);
     let mut pairs = Vec::new();

@@ -1,9 +1,9 @@
 //! The other side of a race: a program that works on scenes of surfaces.
 
-use roadmill::model::bodies::validity::{BoundsMeaning, Edges};
+use roadmill::model::bodies::validity::{BoundsMeaning, MotionChecking};
 use roadmill::problem::Problem;
 use roadmill::scene::{Body, Shape};
-use roadmill::space::Motion;
+use roadmill::space::BaseJoint;
 use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
@@ -18,7 +18,7 @@ pub fn surfaces(path: &Path) -> Problem {
 }
 
 /// The problem with other promises of its edges.
-pub fn with_edges(mut problem: Problem, edges: Edges) -> Problem {
+pub fn with_edges(mut problem: Problem, edges: MotionChecking) -> Problem {
     problem.model.bodies_mut().expect("bodies").edges = edges;
     problem
 }
@@ -40,7 +40,7 @@ pub fn suits(problem: &Problem) -> bool {
         .bodies()
         .chain(&problem.model.bodies().expect("bodies").obstacles);
     problem.model.bodies().expect("bodies").robot.links.len() == 1
-        && problem.model.bodies().expect("bodies").robot.motion == Motion::Rigid3d
+        && problem.model.bodies().expect("bodies").robot.motion == BaseJoint::Rigid3d
         && bodies.all(|body| matches!(body.shape, Shape::Mesh(_)))
 }
 

@@ -9,7 +9,7 @@ use crate::roadmap::{Components, Configs, Edge};
 use std::collections::BTreeSet;
 
 /// The roadmap, or an earlier increment of the round.
-pub(super) struct Part<'a> {
+pub(super) struct NodeBlock<'a> {
     /// What its own node 0 is called after the round.
     pub first: u32,
     pub configs: &'a Configs,
@@ -17,46 +17,47 @@ pub(super) struct Part<'a> {
 }
 
 /// What came before an increment, and the increment.
-pub(super) struct Candidates<'a> {
-    pub old: Vec<Part<'a>>,
-    pub new: Part<'a>,
+pub(super) struct CandidatePairs<'a> {
+    pub old: Vec<NodeBlock<'a>>,
+    pub new: NodeBlock<'a>,
     /// Of an increment that grew from the roadmap: its pairs of a new and an old node that have an edge already.
     linked: BTreeSet<(u32, u32)>,
 }
 
 /// A pair to be tried; ids are those after the round.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Candidate {
+pub(super) struct CandidatePair {
     pub distance: f64,
     pub new: u32,
     pub old: u32,
 }
 
-impl<'a> Candidates<'a> {
+impl<'a> CandidatePairs<'a> {
     /// `None` where there is nothing to join.
-    pub fn new(input: &'a JoinInput) -> Option<Candidates<'a>> {
+    pub fn new(input: &'a JoinInput) -> Option<CandidatePairs<'a>> {
         let roadmap = &input.roadmap;
         let (configs, components) = (roadmap.configs(), roadmap.components());
-        let mut old = vec![Part { first: 0, configs, components }];
+        let mut old = vec![NodeBlock { first: 0, configs, components }];
         let mut first = configs.len() as u32;
         for built in &input.increments {
             let (configs, components) = (&built.increment.configs, &built.components);
-            old.push(Part { first, configs, components });
+            old.push(NodeBlock { first, configs, components });
             first += configs.len() as u32;
         }
         let new = old.pop().filter(|_| !input.increments.is_empty())?;
         let increment = &input.increments[input.increments.len() - 1].increment;
-        let linked = increment.links_from(new.first).map(|link| (link.high, link.low)).collect();
-        Some(Candidates { old, new, linked })
+        let linked =
+            increment.root_edges_from(new.first).map(|link| (link.high, link.low)).collect();
+        Some(CandidatePairs { old, new, linked })
     }
 
     /// Each new node in order with its `neighbors` nearest old ones, nearest first, ties by id.
-    pub fn nearest(&self, cx: &Context, neighbors: u32) -> Vec<Candidate> {
+    pub fn nearest(&self, cx: &Context, neighbors: u32) -> Vec<CandidatePair> {
         self.found(cx, &KNearest { neighbors })
     }
 
     /// Each new node in order with the old ones that a finder gives for it, nearest first, ties by id.
-    pub fn found(&self, cx: &Context, finder: &dyn Finder) -> Vec<Candidate> {
+    pub fn found(&self, cx: &Context, finder: &dyn Finder) -> Vec<CandidatePair> {
         let mut candidates = Vec::new();
         for (index, q) in self.new.configs.iter().enumerate() {
             let mut near = Vec::new();
@@ -69,7 +70,7 @@ impl<'a> Candidates<'a> {
             near.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
             near.truncate(finder.most().unwrap_or(usize::MAX));
             let new = self.new.first + index as u32;
-            candidates.extend(near.iter().map(|neighbor| Candidate {
+            candidates.extend(near.iter().map(|neighbor| CandidatePair {
                 distance: neighbor.distance,
                 new,
                 old: neighbor.id,
@@ -83,7 +84,7 @@ impl<'a> Candidates<'a> {
         &self,
         cx: &Context,
         planners: &[Planner],
-        pair: Candidate,
+        pair: CandidatePair,
         scratch: &mut Scratch,
     ) -> Option<Edge> {
         if self.linked.contains(&(pair.new, pair.old)) {
@@ -110,7 +111,7 @@ impl<'a> Candidates<'a> {
     }
 
     /// Where a node is from.
-    pub fn part(&self, node: u32) -> &Part<'a> {
+    pub fn part(&self, node: u32) -> &NodeBlock<'a> {
         let mut parts = self.old.iter().chain([&self.new]).rev();
         parts.find(|part| part.first <= node).expect("the first part begins at 0")
     }

@@ -1,4 +1,4 @@
-use super::candidates::{Candidate, Candidates, Part};
+use super::candidates::{CandidatePair, CandidatePairs, NodeBlock};
 use super::{Among, JoinInput, default_planners};
 use crate::context::Context;
 use crate::local::{self, Planner};
@@ -50,7 +50,7 @@ impl Default for ComponentPairs {
 
 impl Among for ComponentPairs {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
-        let Some(candidates) = Candidates::new(input) else { return Vec::new() };
+        let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };
         let new = &candidates.new;
         let mut new_components: Vec<&Component> = new.components.iter().collect();
         new_components.sort_by_key(|component| component.name);
@@ -64,7 +64,7 @@ impl Among for ComponentPairs {
                 for pair in
                     old.components.closest_pairs(&cx.space, first, (old.configs, near), count)
                 {
-                    let pair = Candidate {
+                    let pair = CandidatePair {
                         distance: pair.distance,
                         new: new.first + pair.first,
                         old: old.first + pair.second,
@@ -89,7 +89,12 @@ impl Among for ComponentPairs {
 
 impl ComponentPairs {
     /// The names, after the round, of the old components nearest to a new one, nearest first.
-    fn nearest(&self, cx: &Context, old: &[Part], new: &Component) -> impl Iterator<Item = u32> {
+    fn nearest(
+        &self,
+        cx: &Context,
+        old: &[NodeBlock],
+        new: &Component,
+    ) -> impl Iterator<Item = u32> {
         let count = self.components as usize;
         let mut best = Best::new(count);
         for part in old {

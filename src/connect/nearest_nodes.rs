@@ -1,4 +1,4 @@
-use super::candidates::Candidates;
+use super::candidates::CandidatePairs;
 use super::{Among, JoinInput, default_planners};
 use crate::context::Context;
 use crate::local::{self, Planner};
@@ -30,7 +30,7 @@ pub(super) fn default_neighbors() -> u32 {
 
 impl Among for NearestNodes {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
-        let Some(candidates) = Candidates::new(input) else { return Vec::new() };
+        let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };
         let pairs = candidates.nearest(cx, self.neighbors).into_iter();
         pairs.filter_map(|pair| candidates.connect(cx, &self.planners, pair, scratch)).collect()
     }

@@ -1,4 +1,4 @@
-use super::candidates::Candidates;
+use super::candidates::CandidatePairs;
 use super::{Among, JoinInput, Within, default_planners};
 use crate::context::Context;
 use crate::finder::FinderKind;
@@ -60,7 +60,7 @@ impl Within for Neighbors {
 
 impl Among for Neighbors {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
-        let Some(candidates) = Candidates::new(input) else { return Vec::new() };
+        let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };
         let pairs = candidates.found(cx, self.finder.method()).into_iter();
         pairs.filter_map(|pair| candidates.connect(cx, &self.planners, pair, scratch)).collect()
     }

@@ -1,4 +1,4 @@
-use super::candidates::Candidates;
+use super::candidates::CandidatePairs;
 use super::nearest_nodes::{complaint, default_neighbors};
 use super::{Among, JoinInput, default_planners};
 use crate::context::Context;
@@ -30,7 +30,7 @@ pub struct UntilJoined {
 
 impl Among for UntilJoined {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
-        let Some(candidates) = Candidates::new(input) else { return Vec::new() };
+        let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };
         let mut pairs = candidates.nearest(cx, self.neighbors);
         pairs.sort_by(|a, b| {
             a.distance.total_cmp(&b.distance).then((a.new, a.old).cmp(&(b.new, b.old)))

@@ -2,7 +2,7 @@ use super::*;
 use crate::img::{Setup, build};
 use crate::problem::Problem;
 use crate::roadmap::{Configs, Edge, Increment};
-use crate::space::{Motion, Space, rigid_space};
+use crate::space::{BaseJoint, Space, rigid_space};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -33,7 +33,7 @@ sets = 1
 
 /// A plane 30 by 40, and an empty roadmap of it.
 pub(super) fn hand_made() -> (Space, Roadmap) {
-    let space = rigid_space(Motion::Translation2d, [0.0; 3], [30.0, 40.0, 0.0], 0.0);
+    let space = rigid_space(BaseJoint::Translation2d, [0.0; 3], [30.0, 40.0, 0.0], 0.0);
     let roadmap = Roadmap::new(&space);
     (space, roadmap)
 }

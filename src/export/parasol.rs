@@ -12,7 +12,7 @@ use crate::math;
 use crate::problem::Problem;
 use crate::query::Path;
 use crate::roadmap::Roadmap;
-use crate::space::{PartKind, Space};
+use crate::space::{FactorKind, Space};
 use std::f64::consts::PI;
 use std::fmt::Write;
 
@@ -92,17 +92,17 @@ fn put(text: &mut String, more: std::fmt::Arguments) {
 /// A configuration as Parasol's programs write it.
 fn line(space: &Space, q: &[f64]) -> String {
     let mut values = Vec::new();
-    for part in space.parts() {
+    for part in space.factors() {
         match part.kind {
-            PartKind::Rotation => {
+            FactorKind::Rotation => {
                 let [w, x, y, z] = [0, 1, 2, 3].map(|i| q[part.at + i]);
                 values.extend(euler([w, x, y, z]).map(|angle| angle / PI));
             }
-            PartKind::Angle => values.push(q[part.at] / PI),
-            PartKind::Real { .. } if space.dofs()[part.at].unit == "rad" => {
+            FactorKind::Angle => values.push(q[part.at] / PI),
+            FactorKind::Real { .. } if space.dofs()[part.at].unit == "rad" => {
                 values.push(q[part.at] / PI);
             }
-            PartKind::Real { .. } => values.push(q[part.at]),
+            FactorKind::Real { .. } => values.push(q[part.at]),
         }
     }
     values.iter().map(f64::to_string).collect::<Vec<_>>().join(" ")

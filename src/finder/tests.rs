@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::seed::{Purpose, Seed};
-use crate::space::{Motion, rigid_space};
+use crate::space::{BaseJoint, rigid_space};
 use proptest::prelude::*;
 
 /// Every finder once.
@@ -20,7 +20,7 @@ proptest! {
     fn finders_give_what_looking_at_all_milestones_gives(
         ordinal in any::<u64>(), count in 1usize..300, neighbors in 1u32..20,
     ) {
-        let space = rigid_space(Motion::Rigid2d, [0.0; 3], [3.0; 3], 0.5);
+        let space = rigid_space(BaseJoint::Rigid2d, [0.0; 3], [3.0; 3], 0.5);
         let mut stream = Seed::of_set(1, "finders", ordinal).stream(Purpose::Sampling);
         let (mut configs, mut q) = (Configs::new(space.len()), vec![0.0; space.len()]);
         for _ in 0..count {

@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 /// are milestones too. Legs are looked at in steps of `step`, and the last step is halved `halvings` times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
-pub struct Expansion {
+pub struct ExpansionStep {
     /// Length of a step in the space's metric.
     pub step: f64,
     /// The most steps of a leg.
@@ -60,7 +60,7 @@ fn default_attempts() -> u64 {
 
 const HALVINGS_MAX: u32 = 30;
 
-impl Generator for Expansion {
+impl Generator for ExpansionStep {
     fn reads(&self) -> Reads {
         Reads::Roadmap
     }
@@ -133,7 +133,7 @@ impl Weights {
 
 /// The walks of a set.
 struct Walks<'a> {
-    expansion: &'a Expansion,
+    expansion: &'a ExpansionStep,
     cx: &'a Context,
     scratch: &'a mut Scratch,
     choosing: Stream,
@@ -170,7 +170,7 @@ impl Walks<'_> {
             let (planner, high) = (Planner::StraightLine.tag(), self.made.configs.len() as u32);
             self.made.configs.push(&there);
             match start {
-                Start::Old(low) => self.made.links.push(Edge { low, high, planner, cost }),
+                Start::Old(low) => self.made.root_edges.push(Edge { low, high, planner, cost }),
                 Start::New(low) => self.made.edges.push(Edge { low, high, planner, cost }),
             }
             (start, at) = (Start::New(high), there);
@@ -195,7 +195,7 @@ impl Walks<'_> {
     /// the motion. A direction in which the motion is not valid is drawn again.
     fn leg(&mut self, at: &[f64]) -> Result<(Vec<f64>, EdgeCost), GaveUp> {
         let space = &self.cx.space;
-        let Expansion { step, steps, halvings, attempts, .. } = *self.expansion;
+        let ExpansionStep { step, steps, halvings, attempts, .. } = *self.expansion;
         let mut there = vec![0.0; space.len()];
         for _ in 0..attempts {
             let direction = space.direction(&mut self.moving);

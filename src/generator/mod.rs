@@ -13,12 +13,12 @@ methods! {
     /// The generators, as a problem file names them.
     pub enum GeneratorKind: dyn Generator {
         Sample(sample::Sample),
-        Expansion(expansion::Expansion),
+        Expansion(expansion::ExpansionStep),
         Reuse(reuse::Reuse), // new ones at the end, since ledgers know methods by number
     }
 }
 
-pub use expansion::Expansion;
+pub use expansion::ExpansionStep;
 pub use parent::{NoRuns, Parent, ParentRoadmap, ParentRun, Runs};
 pub use reuse::Reuse;
 pub use sample::Sample;

@@ -76,7 +76,9 @@ fn every_set_has_as_many_valid_milestones_as_it_should_and_valid_edges() {
             let form = SetForm::of(problem.model.description());
             let nodes = if grows { frozen.configs().len() as u64 } else { 0 };
             assert!(made.is_sound(form, nodes), "{generator}");
-            for (edges, from) in [(&made.edges, &made.configs), (&made.links, frozen.configs())] {
+            for (edges, from) in
+                [(&made.edges, &made.configs), (&made.root_edges, frozen.configs())]
+            {
                 for Edge { low, high, .. } in edges {
                     let (a, b) = (from.get(*low as usize), made.configs.get(*high as usize));
                     assert!(cx.model.motion(a, b, 1, scratch).is_some(), "{generator}");
@@ -120,7 +122,7 @@ fn expansion_chooses_nodes_by_one_over_one_and_their_degree() {
     let mut chosen = vec![0; degrees.len()];
     for ordinal in 0..200 {
         make(&problem, ordinal, &frozen)
-            .links
+            .root_edges
             .iter()
             .for_each(|link| chosen[link.low as usize] += 1);
     }

@@ -18,10 +18,10 @@ pub const LOSSES_MAX: u32 = 3;
 pub enum Loss {
     /// The worker died of itself while it held the job: by a signal, a panic or an exit. The job may be
     /// what killed it.
-    Worker,
+    Death,
     /// The worker was lost, or was ended, whatever its jobs: its connection broke, it fell silent, or it
     /// sent something that is no message. The job is not to blame.
-    Member,
+    Departure,
 }
 
 /// What happened.
@@ -177,7 +177,7 @@ pub struct Core {
     waiting: VecDeque<u64>,
     /// Nodes of the roadmap after the round of the last place to be generated.
     nodes_ahead: u64,
-    /// Jobs at work, and how many workers died at each ([`Loss::Worker`]).
+    /// Jobs at work, and how many workers died at each ([`Loss::Death`]).
     at_work: BTreeMap<Job, u32>,
     done: BTreeMap<Job, Digest>,
     progress: Progress,
@@ -270,7 +270,7 @@ impl Core {
     /// Hands a lost job out again, unless too many workers died at it.
     fn lost(&mut self, job: Job, loss: Loss, commands: &mut Vec<Command>) {
         if let Some(deaths) = self.at_work.get_mut(&job) {
-            *deaths += u32::from(loss == Loss::Worker);
+            *deaths += u32::from(loss == Loss::Death);
             if *deaths >= LOSSES_MAX {
                 self.stop(Stop::Deadly(job), commands);
             } else {

@@ -130,9 +130,9 @@ impl Executor for Simulated<'_> {
                 let deaths = self.deaths.entry(job).or_default();
                 let loss = if is_death && *deaths + 1 < super::core::LOSSES_MAX {
                     *deaths += 1;
-                    Loss::Worker
+                    Loss::Death
                 } else {
-                    Loss::Member
+                    Loss::Departure
                 };
                 // Half of the workers given up for dead answer all the same, some time later.
                 if self.chance(0.5) {

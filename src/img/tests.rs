@@ -135,17 +135,18 @@ fn a_job_at_which_three_workers_die_ends_the_build_and_is_named() {
     core.start();
     let job = generate(1);
     // Members that leave, before and in between, are not held against the job.
-    for loss in [[Loss::Member; 5].as_slice(), &[Loss::Worker, Loss::Member, Loss::Worker]].concat()
+    for loss in
+        [[Loss::Departure; 5].as_slice(), &[Loss::Death, Loss::Departure, Loss::Death]].concat()
     {
         assert_eq!(jobs(&core.on_event(Event::Lost(job, loss))), [job]);
     }
     for _ in 0..20 {
-        assert_eq!(jobs(&core.on_event(Event::Lost(job, Loss::Member))), [job]);
+        assert_eq!(jobs(&core.on_event(Event::Lost(job, Loss::Departure))), [job]);
     }
-    let other = core.on_event(Event::Lost(generate(0), Loss::Worker));
+    let other = core.on_event(Event::Lost(generate(0), Loss::Death));
     assert_eq!(jobs(&other), [generate(0)], "deaths are counted job by job");
-    assert_eq!(stop(&core.on_event(Event::Lost(job, Loss::Worker))), Some(&Stop::Deadly(job)));
-    assert!(core.on_event(Event::Lost(job, Loss::Worker)).is_empty());
+    assert_eq!(stop(&core.on_event(Event::Lost(job, Loss::Death))), Some(&Stop::Deadly(job)));
+    assert!(core.on_event(Event::Lost(job, Loss::Death)).is_empty());
 }
 
 /// Whether a sampler's failure counts must not depend on how early it is known.

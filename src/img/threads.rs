@@ -53,7 +53,7 @@ impl Threads {
                 let run = || SCRATCH.with_borrow_mut(|scratch| task.run(&setup, scratch));
                 let event = match catch_unwind(AssertUnwindSafe(run)) {
                     Ok(outcome) => Event::Done(job, Finished::new(outcome)),
-                    Err(_) => Event::Lost(job, Loss::Worker),
+                    Err(_) => Event::Lost(job, Loss::Death),
                 };
                 // Free the inputs first, so that the fold that follows finds the roadmap unshared.
                 drop(task);

@@ -1,7 +1,7 @@
 use super::LocalPlanner;
 use crate::context::Context;
 use crate::roadmap::Configs;
-use crate::space::PartKind;
+use crate::space::FactorKind;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -17,8 +17,8 @@ const TAG: u8 = 102;
 
 impl LocalPlanner for Manhattan {
     fn turns(&self, cx: &Context, a: &[f64], b: &[f64], out: &mut Configs) {
-        let changes = cx.space.parts().iter().map(|part| {
-            let values = if part.kind == PartKind::Rotation { 4 } else { 1 };
+        let changes = cx.space.factors().iter().map(|part| {
+            let values = if part.kind == FactorKind::Rotation { 4 } else { 1 };
             part.at..part.at + values
         });
         let mut there = a.to_vec();

@@ -73,11 +73,11 @@ pub fn closest_pairs(
 pub(super) mod tests {
     use super::*;
     use crate::seed::{Purpose, Seed};
-    use crate::space::{Motion, rigid_space};
+    use crate::space::{BaseJoint, rigid_space};
     use proptest::prelude::*;
 
     /// Random configurations, half of them on a coarse grid so that ties occur.
-    pub(in crate::neighbor) fn configs(motion: Motion, ordinal: u64) -> (Space, Configs) {
+    pub(in crate::neighbor) fn configs(motion: BaseJoint, ordinal: u64) -> (Space, Configs) {
         let space = rigid_space(motion, [0.0; 3], [3.0; 3], 0.5);
         let mut stream = Seed::of_set(1, "neighbours", ordinal).stream(Purpose::Sampling);
         let mut configs = Configs::new(space.len());
@@ -98,7 +98,7 @@ pub(super) mod tests {
     proptest! {
         #[test]
         fn neighbours_are_the_head_of_the_sorted_list(ordinal in any::<u64>(), k in 0usize..20) {
-            for motion in [Motion::Translation2d, Motion::Rigid2d, Motion::Rigid3d] {
+            for motion in [BaseJoint::Translation2d, BaseJoint::Rigid2d, BaseJoint::Rigid3d] {
                 let (space, configs) = configs(motion, ordinal);
                 let q = configs.get(7);
                 let mut all: Vec<_> = (0..80u32)
@@ -116,7 +116,7 @@ pub(super) mod tests {
         fn what_is_in_a_radius_is_the_near_part_of_the_sorted_list(
             ordinal in any::<u64>(), other in 0usize..80, most in 0usize..80,
         ) {
-            for motion in [Motion::Translation2d, Motion::Rigid2d, Motion::Rigid3d] {
+            for motion in [BaseJoint::Translation2d, BaseJoint::Rigid2d, BaseJoint::Rigid3d] {
                 let (space, configs) = configs(motion, ordinal);
                 let q = configs.get(7);
                 let mut all: Vec<_> = (0..80u32)
@@ -141,7 +141,7 @@ pub(super) mod tests {
 
         #[test]
         fn pairs_are_the_head_of_the_sorted_list(ordinal in any::<u64>(), count in 0usize..30) {
-            let (space, configs) = configs(Motion::Rigid3d, ordinal);
+            let (space, configs) = configs(BaseJoint::Rigid3d, ordinal);
             let (first, second): (Vec<u32>, Vec<u32>) = (0..80).partition(|id| id % 3 == 0);
             let mut all = Vec::new();
             for a in &first {

@@ -5,7 +5,7 @@
 
 use crate::lanes::Lanes;
 use crate::math;
-use crate::space::{PartKind, Space};
+use crate::space::{FactorKind, Space};
 use smallvec::SmallVec;
 
 /// Fan-out of the tree and bucket size of its leaves. So many boxes or points are measured together; along
@@ -140,17 +140,17 @@ impl Embedding {
             product_error: 0.0,
             lanes: Lanes::widest(),
         };
-        for part in space.parts().iter().filter(|part| part.weight > 0.0) {
+        for part in space.factors().iter().filter(|part| part.weight > 0.0) {
             let (at, weight) = (part.at, part.weight);
             match part.kind {
-                PartKind::Real { min, max } => {
+                FactorKind::Real { min, max } => {
                     embedding.reals.push(Real { at, weight, middle: min + (max - min) / 2.0 });
                 }
-                PartKind::Angle => {
+                FactorKind::Angle => {
                     let turn = (math::TURN * weight) as f32;
                     embedding.angles.push(Angle { at, weight, turn });
                 }
-                PartKind::Rotation => {
+                FactorKind::Rotation => {
                     let scale = 2.0 * weight;
                     let square = 2.0 * scale * scale;
                     let right_angle = square as f32;

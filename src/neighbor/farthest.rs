@@ -1,4 +1,4 @@
-use crate::space::{Configs, PartKind, Space};
+use crate::space::{Configs, FactorKind, Space};
 use std::f64::consts::PI;
 
 /// Rounding margin of the bounds on distances: relative to the bound, and in addition per unit of a rotation's
@@ -91,16 +91,16 @@ fn corners(space: &Space, configs: &Configs, ids: &[u32]) -> Vec<(f64, f64)> {
         let values = ids.iter().map(|id| configs.get(*id as usize)[at]);
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
     };
-    space.parts().iter().map(|part| ends(part.at)).collect()
+    space.factors().iter().map(|part| ends(part.at)).collect()
 }
 
 /// An upper bound on the distance from `q` to any configuration in the bounding box.
 fn reach(space: &Space, q: &[f64], corners: &[(f64, f64)]) -> f64 {
-    let parts = space.parts().iter().zip(corners);
+    let parts = space.factors().iter().zip(corners);
     let square = parts.map(|(part, (least, largest))| {
         let farthest = match part.kind {
-            PartKind::Real { .. } => (q[part.at] - least).max(largest - q[part.at]),
-            PartKind::Angle | PartKind::Rotation => PI,
+            FactorKind::Real { .. } => (q[part.at] - least).max(largest - q[part.at]),
+            FactorKind::Angle | FactorKind::Rotation => PI,
         } * part.weight;
         farthest * farthest
     });
@@ -109,7 +109,7 @@ fn reach(space: &Space, q: &[f64], corners: &[(f64, f64)]) -> f64 {
 
 /// The part of the rounding margin that rotations need.
 fn rotation_margin(space: &Space) -> f64 {
-    let rotations = space.parts().iter().filter(|part| part.kind == PartKind::Rotation);
+    let rotations = space.factors().iter().filter(|part| part.kind == FactorKind::Rotation);
     rotations.map(|part| part.weight * ROTATION_MARGIN).sum()
 }
 
@@ -117,7 +117,7 @@ fn rotation_margin(space: &Space) -> f64 {
 mod tests {
     use super::*;
     use crate::neighbor::brute::tests::configs;
-    use crate::space::Motion;
+    use crate::space::BaseJoint;
     use proptest::prelude::*;
 
     fn brute(space: &Space, configs: &Configs, ids: &[u32]) -> Option<FarPair> {
@@ -148,7 +148,7 @@ mod tests {
             ordinal in any::<u64>(), share in 1u32..9, pivot in 0usize..80,
         ) {
             let motions =
-                [Motion::Translation2d, Motion::Translation3d, Motion::Rigid2d, Motion::Rigid3d];
+                [BaseJoint::Translation2d, BaseJoint::Translation3d, BaseJoint::Rigid2d, BaseJoint::Rigid3d];
             for motion in motions {
                 let (space, configs) = configs(motion, ordinal);
                 // The order of the ids must not matter.
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn corners_of_a_square_tie_and_the_lowest_ids_win() {
-        let (space, _) = configs(Motion::Translation2d, 0);
+        let (space, _) = configs(BaseJoint::Translation2d, 0);
         let mut square = Configs::new(2);
         for q in [[1.0, 1.0], [0.0, 3.0], [3.0, 0.0], [3.0, 3.0], [0.0, 0.0]] {
             square.push(&q);
@@ -180,7 +180,7 @@ mod tests {
     /// What the bounds are for: of some ten thousand pairs hardly any is looked at.
     #[test]
     fn two_far_ends_rule_everything_else_out() {
-        let (space, inner) = configs(Motion::Translation3d, 1);
+        let (space, inner) = configs(BaseJoint::Translation3d, 1);
         let mut all = inner.clone();
         all.push(&[-50.0; 3]);
         all.push(&[50.0; 3]);

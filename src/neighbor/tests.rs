@@ -4,7 +4,7 @@ use crate::lanes::Lanes;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::shelf::tests::Flaky;
 use crate::shelf::{BlockName, Shelf};
-use crate::space::{Configs, Dof, Motion, Part, PartKind, Space, rigid_space};
+use crate::space::{BaseJoint, Configs, Dof, Factor, FactorKind, Space, rigid_space};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -12,28 +12,32 @@ use std::sync::Arc;
 /// Every kind of motion, and a linkage: a free base with sliding, limited and turning joints.
 fn spaces() -> Vec<Space> {
     let mut spaces = [
-        Motion::Fixed,
-        Motion::Translation2d,
-        Motion::Rigid2d,
-        Motion::Translation3d,
-        Motion::Rigid3d,
+        BaseJoint::Fixed,
+        BaseJoint::Translation2d,
+        BaseJoint::Rigid2d,
+        BaseJoint::Translation3d,
+        BaseJoint::Rigid3d,
     ]
     .map(|motion| rigid_space(motion, [-1.0, -2.0, 995.0], [1.0, 2.0, 1000.0], 0.7))
     .to_vec();
-    let mut kinds = vec![PartKind::Real { min: -1.0, max: 3.0 }, PartKind::Rotation];
-    kinds.extend([PartKind::Angle; 7]);
-    kinds.extend([PartKind::Rotation, PartKind::Real { min: 0.0, max: 1e-3 }, PartKind::Angle]);
+    let mut kinds = vec![FactorKind::Real { min: -1.0, max: 3.0 }, FactorKind::Rotation];
+    kinds.extend([FactorKind::Angle; 7]);
+    kinds.extend([
+        FactorKind::Rotation,
+        FactorKind::Real { min: 0.0, max: 1e-3 },
+        FactorKind::Angle,
+    ]);
     spaces.push(product(&kinds, |index| if index == 4 { 0.0 } else { 2.0 / (1 + index) as f64 }));
-    spaces.push(product(&[PartKind::Angle; 12], |index| 6.0 - index as f64 / 2.0));
-    spaces.push(product(&[PartKind::Angle, PartKind::Rotation], |_| 0.0));
+    spaces.push(product(&[FactorKind::Angle; 12], |index| 6.0 - index as f64 / 2.0));
+    spaces.push(product(&[FactorKind::Angle, FactorKind::Rotation], |_| 0.0));
     spaces
 }
 
-fn product(kinds: &[PartKind], weight_of: impl Fn(usize) -> f64) -> Space {
+fn product(kinds: &[FactorKind], weight_of: impl Fn(usize) -> f64) -> Space {
     let (mut parts, mut at) = (Vec::new(), 0);
     for (index, kind) in kinds.iter().enumerate() {
-        parts.push(Part { kind: *kind, at, weight: weight_of(index) });
-        at += if *kind == PartKind::Rotation { 4 } else { 1 };
+        parts.push(Factor { kind: *kind, at, weight: weight_of(index) });
+        at += if *kind == FactorKind::Rotation { 4 } else { 1 };
     }
     let dofs = (0..at).map(|index| Dof { name: index.to_string(), unit: "1" }).collect();
     Space::new(parts, dofs, 0)
@@ -64,13 +68,13 @@ fn draw(space: &Space, stream: &mut Stream, known: &Configs) -> Vec<f64> {
         4 => {
             // At half a turn the stored side of a quaternion changes.
             let mut near = other.clone();
-            for part in space.parts().iter().filter(|part| part.kind == PartKind::Rotation) {
+            for part in space.factors().iter().filter(|part| part.kind == FactorKind::Rotation) {
                 near[part.at] = (stream.unit() - 0.5) * 1e-8;
             }
             stored(near, &q)
         }
         _ => {
-            for part in space.parts().iter().filter(|part| part.kind == PartKind::Angle) {
+            for part in space.factors().iter().filter(|part| part.kind == FactorKind::Angle) {
                 let side = if stream.unit() < 0.5 { 1.0 } else { -1.0 };
                 q[part.at] = side * (std::f64::consts::PI - 1e-7 * stream.unit());
             }
@@ -181,7 +185,7 @@ proptest! {
         often in 0.0f64..0.5,
     ) {
         let mut stream = Seed::of_set(1, "shelf", ordinal).stream(Purpose::Sampling);
-        let space = rigid_space(Motion::Rigid2d, [0.0; 3], [3.0; 3], 0.5);
+        let space = rigid_space(BaseJoint::Rigid2d, [0.0; 3], [3.0; 3], 0.5);
         let configs = configs(&space, &mut stream, 600);
         let states = history(&mut stream, configs.len());
         let shelf: Arc<dyn Shelf> = Arc::new(Flaky::new(often, ordinal));
@@ -409,7 +413,7 @@ fn equals_are_told_apart_by_their_ids() {
 /// What was united by the time of its maker keeps no label apart for who is not as far.
 #[test]
 fn labels_of_a_later_state_are_not_believed() {
-    let space = rigid_space(Motion::Rigid2d, [0.0; 3], [3.0; 3], 0.5);
+    let space = rigid_space(BaseJoint::Rigid2d, [0.0; 3], [3.0; 3], 0.5);
     let mut stream = Seed::of_set(1, "labels", 0).stream(Purpose::Sampling);
     let configs = configs(&space, &mut stream, 96);
     let shelf = Arc::new(Flaky::new(0.0, 0));
@@ -430,7 +434,7 @@ fn labels_of_a_later_state_are_not_believed() {
 
 #[test]
 fn what_one_index_has_built_others_find_and_what_is_superseded_goes() {
-    let space = rigid_space(Motion::Rigid3d, [0.0; 3], [3.0; 3], 0.5);
+    let space = rigid_space(BaseJoint::Rigid3d, [0.0; 3], [3.0; 3], 0.5);
     let mut stream = Seed::of_set(1, "shelf", 0).stream(Purpose::Sampling);
     let configs = configs(&space, &mut stream, 1000);
     let shelf = Arc::new(Flaky::new(0.0, 0));
@@ -454,7 +458,7 @@ fn what_one_index_has_built_others_find_and_what_is_superseded_goes() {
 #[test]
 fn lengths_of_any_size_keep_their_neighbours() {
     for scale in [1e-30, 1e-20, 1e-3, 1e6, 1e18, 1e30, 1e60, 1e150] {
-        let space = rigid_space(Motion::Translation3d, [0.0; 3], [scale; 3], 1.0);
+        let space = rigid_space(BaseJoint::Translation3d, [0.0; 3], [scale; 3], 1.0);
         let mut stream = Seed::of_set(1, "lengths", 0).stream(Purpose::Sampling);
         let configs = configs(&space, &mut stream, 300);
         let mut index = Index::new(&space);
@@ -474,7 +478,7 @@ fn lengths_of_any_size_keep_their_neighbours() {
 
 #[test]
 fn segments_are_few_and_configurations_rarely_built_in_anew() {
-    let space = rigid_space(Motion::Translation2d, [0.0; 3], [1.0; 3], 1.0);
+    let space = rigid_space(BaseJoint::Translation2d, [0.0; 3], [1.0; 3], 1.0);
     let mut stream = Seed::of_set(1, "segments", 0).stream(Purpose::Sampling);
     let configs = configs(&space, &mut stream, 20_000);
     let (mut index, mut built) = (Index::new(&space), 0);

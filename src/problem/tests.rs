@@ -1,6 +1,6 @@
 use super::*;
 use crate::model::bodies::Bodies;
-use crate::model::bodies::validity::Edges;
+use crate::model::bodies::validity::MotionChecking;
 
 const WALLS: &str = include_str!("../../problems/walls.toml");
 
@@ -106,7 +106,7 @@ fn the_digest_covers_what_determines_entries_and_nothing_else() {
         (Problem { evaluators: Vec::new(), ..problem.clone() }, true),
         (Problem { seed: 2, ..problem.clone() }, false),
         (changed(|bodies| bodies.resolution = 0.01), false),
-        (changed(|bodies| bodies.edges = Edges::Sampled), false),
+        (changed(|bodies| bodies.edges = MotionChecking::Sampled), false),
         (Problem { sets_per_round: 6, ..problem.clone() }, false),
         (changed(|bodies| bodies.obstacles.clear()), false),
     ] {

@@ -5,7 +5,7 @@
 //! principal eigenvector of Σ q qᵀ (Markley et al., *Averaging quaternions*, 2007).
 
 use crate::math;
-use crate::space::{PartKind, Space, canonical};
+use crate::space::{FactorKind, Space, canonical};
 use nalgebra::Matrix4;
 
 /// A mean angle or rotation is defined only where the directions do not cancel out: where the mean vector, or the gap
@@ -23,11 +23,11 @@ pub(super) struct CentreSum {
 impl CentreSum {
     pub(super) fn of(space: &Space, q: &[f64]) -> CentreSum {
         let mut sums = Vec::new();
-        for part in space.parts() {
+        for part in space.factors() {
             match part.kind {
-                PartKind::Real { .. } => sums.push(q[part.at]),
-                PartKind::Angle => sums.extend([math::cos(q[part.at]), math::sin(q[part.at])]),
-                PartKind::Rotation => {
+                FactorKind::Real { .. } => sums.push(q[part.at]),
+                FactorKind::Angle => sums.extend([math::cos(q[part.at]), math::sin(q[part.at])]),
+                FactorKind::Rotation => {
                     for i in 0..4 {
                         for j in i..4 {
                             sums.push(q[part.at + i] * q[part.at + j]);
@@ -51,20 +51,20 @@ impl CentreSum {
         let mut centre = fallback.to_vec();
         let count = self.count as f64;
         let mut at = 0;
-        for part in space.parts() {
+        for part in space.factors() {
             match part.kind {
-                PartKind::Real { .. } => {
+                FactorKind::Real { .. } => {
                     centre[part.at] = self.sums[at] / count;
                     at += 1;
                 }
-                PartKind::Angle => {
+                FactorKind::Angle => {
                     let (cosine, sine) = (self.sums[at], self.sums[at + 1]);
                     if (cosine * cosine + sine * sine).sqrt() > DEGENERATE * count {
                         centre[part.at] = math::wrap_angle(math::atan2(sine, cosine));
                     }
                     at += 2;
                 }
-                PartKind::Rotation => {
+                FactorKind::Rotation => {
                     if let Some(mean) = principal(&self.sums[at..at + 10], count) {
                         centre[part.at..part.at + 4].copy_from_slice(&mean);
                     }
@@ -102,12 +102,12 @@ fn principal(upper: &[f64], count: f64) -> Option<[f64; 4]> {
 mod tests {
     use super::*;
     use crate::seed::{Purpose, Seed};
-    use crate::space::{Motion, rigid_space};
+    use crate::space::{BaseJoint, rigid_space};
 
     #[test]
     fn the_centre_of_one_configuration_is_itself_and_of_two_their_middle() {
         let mut stream = Seed::of_set(1, "centre", 0).stream(Purpose::Sampling);
-        for motion in [Motion::Translation3d, Motion::Rigid2d, Motion::Rigid3d] {
+        for motion in [BaseJoint::Translation3d, BaseJoint::Rigid2d, BaseJoint::Rigid3d] {
             let space = rigid_space(motion, [-1.0; 3], [1.0; 3], 0.5);
             let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);
             let mut middle = a.clone();
@@ -125,12 +125,12 @@ mod tests {
 
     #[test]
     fn directions_without_a_mean_fall_back() {
-        let space = rigid_space(Motion::Rigid2d, [-1.0; 3], [1.0; 3], 1.0);
+        let space = rigid_space(BaseJoint::Rigid2d, [-1.0; 3], [1.0; 3], 1.0);
         let mut sum = CentreSum::of(&space, &[0.0, 0.0, 1.0]);
         sum.add(&CentreSum::of(&space, &[1.0, 0.0, 1.0 - std::f64::consts::PI]));
         assert_eq!(sum.centre(&space, &[9.0, 9.0, 0.25]), [0.5, 0.0, 0.25]);
 
-        let space = rigid_space(Motion::Rigid3d, [-1.0; 3], [1.0; 3], 1.0);
+        let space = rigid_space(BaseJoint::Rigid3d, [-1.0; 3], [1.0; 3], 1.0);
         let axis = |i: usize| {
             let mut q = vec![0.0; 7];
             q[3 + i] = 1.0;

@@ -171,7 +171,7 @@ impl Components {
 mod tests {
     use super::*;
     use crate::roadmap::Edge;
-    use crate::space::{Motion, rigid_space};
+    use crate::space::{BaseJoint, rigid_space};
     use proptest::prelude::*;
 
     proptest! {
@@ -179,7 +179,7 @@ mod tests {
         fn components_agree_with_reachability(
             edges in proptest::collection::vec((0u32..30, 0u32..30), 0..40),
         ) {
-            let space = rigid_space(Motion::Translation2d, [0.0; 3], [30.0; 3], 0.0);
+            let space = rigid_space(BaseJoint::Translation2d, [0.0; 3], [30.0; 3], 0.0);
             let mut configs = Configs::new(2);
             for i in 0..30 {
                 configs.push(&[f64::from(i), 0.0]);

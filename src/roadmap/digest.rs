@@ -73,9 +73,9 @@ fn push_rest(bytes: &mut Vec<u8>, first: u32, increment: &Increment, joins: &[Ed
     bytes.extend(u64::MAX.to_le_bytes());
     bytes.extend((increment.values.len() as u64).to_le_bytes());
     bytes.extend(increment.values.iter().flat_map(|value| number(*value)));
-    bytes.extend((increment.links.len() as u64).to_le_bytes());
-    increment.links_from(first).for_each(|link| push_edge(bytes, &link));
-    for edge in increment.edges.iter().chain(joins).chain(&increment.links) {
+    bytes.extend((increment.root_edges.len() as u64).to_le_bytes());
+    increment.root_edges_from(first).for_each(|link| push_edge(bytes, &link));
+    for edge in increment.edges.iter().chain(joins).chain(&increment.root_edges) {
         match edge.cost {
             EdgeCost::Metric(_) => bytes.push(0),
             EdgeCost::Directed(Directed { backward, peak, .. }) => {

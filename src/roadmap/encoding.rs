@@ -25,7 +25,9 @@ impl Edge {
 impl Increment {
     /// Whether the plain form can say the increment.
     pub fn is_plain(&self) -> bool {
-        self.values.is_empty() && self.links.is_empty() && self.edges.iter().all(Edge::is_plain)
+        self.values.is_empty()
+            && self.root_edges.is_empty()
+            && self.edges.iter().all(Edge::is_plain)
     }
 }
 
@@ -97,7 +99,7 @@ bincode::impl_borrow_decode!(Full<Vec<Edge>>);
 /// In the plain form, which must be able to say the increment.
 impl Encode for Increment {
     fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
-        if !(self.values.is_empty() && self.links.is_empty()) {
+        if !(self.values.is_empty() && self.root_edges.is_empty()) {
             return Err(EncodeError::Other("an increment that the plain form cannot say"));
         }
         self.configs.encode(encoder)?;
@@ -111,19 +113,19 @@ impl<Context> Decode<Context> for Increment {
         let configs = Configs::decode(decoder)?;
         let edges = Decode::decode(decoder)?;
         let asked = Asked::decode(decoder)?;
-        Ok(Increment { configs, edges, asked, values: Vec::new(), links: Vec::new() })
+        Ok(Increment { configs, edges, asked, values: Vec::new(), root_edges: Vec::new() })
     }
 }
 bincode::impl_borrow_decode!(Increment);
 
 impl Encode for Full<&Increment> {
     fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
-        let Increment { configs, edges, asked, values, links } = self.0;
+        let Increment { configs, edges, asked, values, root_edges } = self.0;
         configs.encode(encoder)?;
         Full(edges).encode(encoder)?;
         asked.encode(encoder)?;
         values.encode(encoder)?;
-        Full(links).encode(encoder)
+        Full(root_edges).encode(encoder)
     }
 }
 
@@ -139,8 +141,8 @@ impl<Context> Decode<Context> for Full<Increment> {
         let Full(edges) = Decode::decode(decoder)?;
         let asked = Asked::decode(decoder)?;
         let values = Vec::decode(decoder)?;
-        let Full(links) = Decode::decode(decoder)?;
-        Ok(Full(Increment { configs, edges, asked, values, links }))
+        let Full(root_edges) = Decode::decode(decoder)?;
+        Ok(Full(Increment { configs, edges, asked, values, root_edges }))
     }
 }
 bincode::impl_borrow_decode!(Full<Increment>);

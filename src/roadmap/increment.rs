@@ -124,7 +124,7 @@ pub struct Increment {
     pub values: Vec<f64>,
     /// Of a set that grew from the roadmap: edges from a node that was there at the start of the round, the
     /// lower id, to one of the milestones, which the higher id numbers from 0.
-    pub links: Vec<Edge>,
+    pub root_edges: Vec<Edge>,
 }
 
 impl Increment {
@@ -135,7 +135,7 @@ impl Increment {
             edges: Vec::new(),
             asked: Asked::default(),
             values: Vec::new(),
-            links: Vec::new(),
+            root_edges: Vec::new(),
         }
     }
 
@@ -148,13 +148,13 @@ impl Increment {
             && self.edges.iter().all(|edge| {
                 edge.low < edge.high && u64::from(edge.high) < nodes && form.has_cost(edge)
             })
-            && self.links.iter().all(|link| of_links(link) && form.has_cost(link))
+            && self.root_edges.iter().all(|link| of_links(link) && form.has_cost(link))
             && self.values.len() as u64 == nodes * form.values as u64
             && self.values.iter().all(|value| value.is_finite())
     }
 
     /// The links as edges of a roadmap in which the first milestone is called `first`.
-    pub fn links_from(&self, first: u32) -> impl Iterator<Item = Edge> {
-        self.links.iter().map(move |link| Edge { high: link.high + first, ..*link })
+    pub fn root_edges_from(&self, first: u32) -> impl Iterator<Item = Edge> {
+        self.root_edges.iter().map(move |link| Edge { high: link.high + first, ..*link })
     }
 }

@@ -114,10 +114,10 @@ impl Roadmap {
             self.configs.extend(&increment.configs);
             if self.keeps_edges {
                 self.edges.extend(increment.edges.iter().map(|edge| edge.shifted(first)));
-                self.edges.extend(increment.links_from(first));
+                self.edges.extend(increment.root_edges_from(first));
             }
             self.values.extend_from_slice(&increment.values);
-            for link in increment.links_from(first) {
+            for link in increment.root_edges_from(first) {
                 self.components.unite(link.low, link.high);
             }
             joins.push(edges);

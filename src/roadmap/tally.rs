@@ -34,7 +34,7 @@ impl Tally {
         }
         self.sets += 1;
         self.nodes += increment.configs.len();
-        self.edges += increment.edges.len() + increment.links.len() + joins.len();
+        self.edges += increment.edges.len() + increment.root_edges.len() + joins.len();
     }
 
     /// Sets the number of components, at the end of a fold.
@@ -97,7 +97,7 @@ impl Outline {
             self.forest.grow(increment.configs.len() as u32);
             components += increment.configs.len();
             let inner = increment.edges.iter().map(|edge| edge.shifted(first));
-            let links = increment.links_from(first);
+            let links = increment.root_edges_from(first);
             for edge in inner.chain(links).chain(joins.iter().copied()) {
                 let [low, high] = self.forest.unite(edge.low, edge.high);
                 components -= usize::from(low != high);

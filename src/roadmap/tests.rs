@@ -5,7 +5,7 @@ use crate::problem::Problem;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::shelf::tests::Flaky;
 use crate::shelf::{BlockName, Shelf};
-use crate::space::{Motion, rigid_space};
+use crate::space::{BaseJoint, rigid_space};
 use crate::wire;
 use proptest::prelude::*;
 use std::path::Path;
@@ -26,11 +26,11 @@ struct Growth {
 }
 
 impl Growth {
-    fn new(motion: Motion, ordinal: u64) -> Growth {
+    fn new(motion: BaseJoint, ordinal: u64) -> Growth {
         Growth::with_shelf(motion, ordinal, Arc::new(Flaky::new(0.2, ordinal)))
     }
 
-    fn with_shelf(motion: Motion, ordinal: u64, shelf: Arc<dyn Shelf>) -> Growth {
+    fn with_shelf(motion: BaseJoint, ordinal: u64, shelf: Arc<dyn Shelf>) -> Growth {
         let space = rigid_space(motion, [0.0; 3], [9.0, 9.0, 2.0], 0.5);
         let stream = Seed::of_set(1, "growth", ordinal).stream(Purpose::Sampling);
         let (roadmap, outline) = (Roadmap::new(&space), Outline::new(&space));
@@ -145,7 +145,7 @@ proptest! {
         ordinal in any::<u64>(),
         asked_from in 0usize..20,
     ) {
-        for motion in [Motion::Rigid2d, Motion::Rigid3d] {
+        for motion in [BaseJoint::Rigid2d, BaseJoint::Rigid3d] {
             let mut growth = Growth::new(motion, ordinal);
             for round in 0..25 {
                 let (sets, nodes) = (1 + growth.below(3), 1 + growth.below(80));
@@ -163,7 +163,7 @@ proptest! {
 
 #[test]
 fn folding_round_by_round_and_finding_the_components_of_the_whole_agree() {
-    let mut growth = Growth::new(Motion::Rigid3d, 0);
+    let mut growth = Growth::new(BaseJoint::Rigid3d, 0);
     (0..9).for_each(|_| growth.fold_round(2, 40));
     let whole = &growth.roadmap;
     let edges: Vec<Edge> = whole.edges().iter().collect();
@@ -180,7 +180,7 @@ fn folding_round_by_round_and_finding_the_components_of_the_whole_agree() {
 #[test]
 fn those_who_keep_less_come_to_the_same() {
     let numbers = |tally: &Tally| (tally.sets(), tally.nodes(), tally.edges(), tally.components());
-    let mut growth = Growth::new(Motion::Rigid2d, 1);
+    let mut growth = Growth::new(BaseJoint::Rigid2d, 1);
     for round in 1..9 {
         growth.fold_round(2, 40);
         let whole = growth.roadmap.tally();
@@ -206,7 +206,7 @@ fn those_who_keep_less_come_to_the_same() {
 #[test]
 fn what_is_whole_is_made_by_one_worker_and_found_by_the_other() {
     let shelf = Arc::new(Flaky::new(0.0, 0));
-    let mut growth = Growth::with_shelf(Motion::Rigid3d, 2, shelf.clone());
+    let mut growth = Growth::with_shelf(BaseJoint::Rigid3d, 2, shelf.clone());
     (0..9).for_each(|_| growth.fold_round(2, 40));
     // Only who searches often builds an index.
     (0..2).for_each(|_| growth.check());

@@ -4,7 +4,7 @@ use crate::methods::Complaint;
 use crate::model::{Clearance, Scratch, Validity};
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed, Stream};
-use crate::space::{Direction, PartKind};
+use crate::space::{Direction, FactorKind};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -234,7 +234,7 @@ impl Pusher<'_> {
     /// How far the base can be translated along an axis (`side` gives the sign) before the robot is out of bounds. Since
     /// the bounds are convex, that can be bisected.
     fn room(&mut self, q: &[f64], axis: usize, side: f64) -> f64 {
-        let PartKind::Real { min, max } = self.cx.space.parts()[axis].kind else { return 0.0 };
+        let FactorKind::Real { min, max } = self.cx.space.factors()[axis].kind else { return 0.0 };
         let most = if side < 0.0 { q[axis] - min } else { max - q[axis] };
         let mut away = [0.0; 3];
         away[axis] = side;
@@ -274,10 +274,10 @@ impl Pusher<'_> {
     /// How far the base can be translated in a direction within its intervals.
     fn exit(&self, q: &[f64], away: &[f64; 3]) -> f64 {
         let base = self.cx.space.translations();
-        let axes = self.cx.space.parts()[..base].iter().zip(q).zip(away);
+        let axes = self.cx.space.factors()[..base].iter().zip(q).zip(away);
         axes.fold(f64::INFINITY, |exit, ((part, value), share)| match part.kind {
-            PartKind::Real { max, .. } if *share > 0.0 => exit.min((max - value) / share),
-            PartKind::Real { min, .. } if *share < 0.0 => exit.min((min - value) / share),
+            FactorKind::Real { max, .. } if *share > 0.0 => exit.min((max - value) / share),
+            FactorKind::Real { min, .. } if *share < 0.0 => exit.min((min - value) / share),
             _ => exit,
         })
     }

@@ -24,7 +24,7 @@ impl History {
                 let edge = edge.shifted(first);
                 self.forest.unite(edge.low, edge.high);
             }
-            for link in set.increment.links_from(first) {
+            for link in set.increment.root_edges_from(first) {
                 self.forest.unite(link.low, link.high);
             }
         }

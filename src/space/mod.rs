@@ -1,7 +1,7 @@
 //! Configuration spaces: what the numbers of a configuration mean, how far apart two
 //! configurations are and what lies between them.
 //!
-//! Every robot's space is a product of three kinds of [`Part`]: real intervals, wrapped angles
+//! Every robot's space is a product of three kinds of [`Factor`]: real intervals, wrapped angles
 //! and rotations in 3D (unit quaternions). A configuration is a flat slice of `f64`, one value
 //! per degree of freedom in the order of [`Space::dofs`]; a quaternion takes four values,
 //! `w x y z`.
@@ -12,7 +12,7 @@ mod rigid;
 
 pub use configs::Configs;
 pub use quaternion::{canonical, slerp, stored_form};
-pub use rigid::{Motion, rigid_parts, rigid_space};
+pub use rigid::{BaseJoint, rigid_factors, rigid_space};
 
 use quaternion::Slerp;
 
@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 
 /// One factor of the product.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PartKind {
+pub enum FactorKind {
     /// A real number in an interval, in the scene's length unit.
     Real {
         /// Least value.
@@ -38,12 +38,12 @@ pub enum PartKind {
 
 /// A factor of the product with its place and its weight in the metric.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
+pub struct Factor {
     /// What the values are.
-    pub kind: PartKind,
+    pub kind: FactorKind,
     /// Index of the first value in a configuration.
     pub at: usize,
-    /// Metric length per unit of the part: 1 for lengths, length per radian for rotations.
+    /// Metric length per unit of the factor: 1 for lengths, length per radian for rotations.
     pub weight: f64,
 }
 
@@ -59,7 +59,7 @@ pub struct Dof {
 /// A configuration space.
 #[derive(Clone, Debug)]
 pub struct Space {
-    parts: Vec<Part>,
+    factors: Vec<Factor>,
     dofs: Vec<Dof>,
     translations: usize,
 }
@@ -67,8 +67,8 @@ pub struct Space {
 /// A direction in which a configuration can move: a vector tangent to the space, of any length.
 #[derive(Clone, Debug)]
 pub struct Direction {
-    /// Per part of the space its components in the metric: three of a rotation, one of any other part.
-    parts: Vec<[f64; 3]>,
+    /// Per factor of the space its components in the metric: three of a rotation, one of any other factor.
+    factors: Vec<[f64; 3]>,
     /// The vector's length.
     size: f64,
 }
@@ -77,19 +77,19 @@ pub struct Direction {
 const PRUNING_MARGIN: f64 = 1e-12;
 
 impl Space {
-    /// The product of `parts`, described by `dofs`, of which the first `translations` are the position of the robot's
+    /// The product of `factors`, described by `dofs`, of which the first `translations` are the position of the robot's
     /// base.
     ///
     /// # Panics
-    /// If the parts do not cover the degrees of freedom in order.
-    pub fn new(parts: Vec<Part>, dofs: Vec<Dof>, translations: usize) -> Space {
+    /// If the factors do not cover the degrees of freedom in order.
+    pub fn new(factors: Vec<Factor>, dofs: Vec<Dof>, translations: usize) -> Space {
         let mut next = 0;
-        for part in &parts {
-            assert_eq!(part.at, next, "parts follow one another");
-            next += if part.kind == PartKind::Rotation { 4 } else { 1 };
+        for factor in &factors {
+            assert_eq!(factor.at, next, "factors follow one another");
+            next += if factor.kind == FactorKind::Rotation { 4 } else { 1 };
         }
         assert_eq!(next, dofs.len(), "every value has a name");
-        Space { parts, dofs, translations }
+        Space { factors, dofs, translations }
     }
 
     /// The degrees of freedom, one per value of a configuration.
@@ -103,8 +103,8 @@ impl Space {
     }
 
     /// The factors of the product.
-    pub fn parts(&self) -> &[Part] {
-        &self.parts
+    pub fn factors(&self) -> &[Factor] {
+        &self.factors
     }
 
     /// Number of values of a configuration.
@@ -126,7 +126,10 @@ impl Space {
     /// The dimension of the unit cube that [`Space::of_cube`] maps to the space: one per real value and angle, three
     /// per rotation.
     pub fn cube_dimensions(&self) -> usize {
-        self.parts.iter().map(|part| if part.kind == PartKind::Rotation { 3 } else { 1 }).sum()
+        self.factors
+            .iter()
+            .map(|factor| if factor.kind == FactorKind::Rotation { 3 } else { 1 })
+            .sum()
     }
 
     /// Maps a point of the unit cube of [`Space::cube_dimensions`] to a configuration in stored form. The map preserves
@@ -143,16 +146,16 @@ impl Space {
     }
 
     /// Writes the configuration, in stored form, that numbers in `[0, 1]` stand for: one per real and angle, three per
-    /// rotation. `unit` gives them in the order of the parts.
+    /// rotation. `unit` gives them in the order of the factors.
     fn fill_from_unit_numbers(&self, mut unit: impl FnMut() -> f64, out: &mut [f64]) {
         let between =
             |share: f64, low: f64, high: f64| (low + share * (high - low)).clamp(low, high);
-        for part in &self.parts {
-            let at = part.at;
-            match part.kind {
-                PartKind::Real { min, max } => out[at] = between(unit(), min, max),
-                PartKind::Angle => out[at] = math::wrap_angle(between(unit(), -PI, PI)),
-                PartKind::Rotation => {
+        for factor in &self.factors {
+            let at = factor.at;
+            match factor.kind {
+                FactorKind::Real { min, max } => out[at] = between(unit(), min, max),
+                FactorKind::Angle => out[at] = math::wrap_angle(between(unit(), -PI, PI)),
+                FactorKind::Rotation => {
                     let rotation = quaternion::rotation_of([unit(), unit(), unit()]);
                     out[at..at + 4].copy_from_slice(&rotation);
                 }
@@ -163,12 +166,12 @@ impl Space {
     /// The same space with every real interval longer by `length`, in the metric, at either end.
     pub(crate) fn widened(&self, length: f64) -> Space {
         let mut wide = self.clone();
-        for part in &mut wide.parts {
-            if let PartKind::Real { min, max } = &mut part.kind
-                && part.weight > 0.0
+        for factor in &mut wide.factors {
+            if let FactorKind::Real { min, max } = &mut factor.kind
+                && factor.weight > 0.0
             {
-                *min -= length / part.weight;
-                *max += length / part.weight;
+                *min -= length / factor.weight;
+                *max += length / factor.weight;
             }
         }
         wide
@@ -176,9 +179,9 @@ impl Space {
 
     /// Whether every real value lies in its interval.
     pub fn within_bounds(&self, q: &[f64]) -> bool {
-        self.parts.iter().all(|part| match part.kind {
-            PartKind::Real { min, max } => (min..=max).contains(&q[part.at]),
-            PartKind::Angle | PartKind::Rotation => true,
+        self.factors.iter().all(|factor| match factor.kind {
+            FactorKind::Real { min, max } => (min..=max).contains(&q[factor.at]),
+            FactorKind::Angle | FactorKind::Rotation => true,
         })
     }
 
@@ -193,16 +196,17 @@ impl Space {
                 return Err(format!("the value of {} is {value}, not a finite number", dof.name));
             }
         }
-        for part in &self.parts {
-            match part.kind {
-                PartKind::Real { .. } => {}
-                PartKind::Angle => q[part.at] = math::wrap_angle(q[part.at]),
-                PartKind::Rotation => {
-                    let quaternion = [q[part.at], q[part.at + 1], q[part.at + 2], q[part.at + 3]];
+        for factor in &self.factors {
+            match factor.kind {
+                FactorKind::Real { .. } => {}
+                FactorKind::Angle => q[factor.at] = math::wrap_angle(q[factor.at]),
+                FactorKind::Rotation => {
+                    let quaternion =
+                        [q[factor.at], q[factor.at + 1], q[factor.at + 2], q[factor.at + 3]];
                     let quaternion = canonical(quaternion).ok_or_else(|| {
                         format!("the quaternion (w x y z) = {quaternion:?} has no direction")
                     })?;
-                    q[part.at..part.at + 4].copy_from_slice(&quaternion);
+                    q[factor.at..factor.at + 4].copy_from_slice(&quaternion);
                 }
             }
         }
@@ -215,8 +219,8 @@ impl Space {
     /// Whether configurations of the two spaces are of one form: the same degrees of freedom in the same order.
     /// The bounds may differ.
     pub fn has_form_of(&self, other: &Space) -> bool {
-        let kind = |part: &Part| (std::mem::discriminant(&part.kind), part.at);
-        self.dofs == other.dofs && self.parts.iter().map(kind).eq(other.parts.iter().map(kind))
+        let kind = |factor: &Factor| (std::mem::discriminant(&factor.kind), factor.at);
+        self.dofs == other.dofs && self.factors.iter().map(kind).eq(other.factors.iter().map(kind))
     }
 
     /// The names of the degrees of freedom, as people read them.
@@ -226,16 +230,16 @@ impl Space {
     }
 
     /// Distance of two configurations in the scene's length unit: the square root of the weighted
-    /// sum of squares over the parts. Angles count by their shortest turn, rotations by the angle
+    /// sum of squares over the factors. Angles count by their shortest turn, rotations by the angle
     /// of the rotation between them (in `[0, π]`). Symmetric to the bit.
     pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
         let mut sum = 0.0;
-        for part in &self.parts {
-            let difference = match part.kind {
-                PartKind::Real { .. } => a[part.at] - b[part.at],
-                PartKind::Angle => math::angle_between(a[part.at], b[part.at]),
-                PartKind::Rotation => 2.0 * math::acos(dot(a, b, part.at).abs()),
-            } * part.weight;
+        for factor in &self.factors {
+            let difference = match factor.kind {
+                FactorKind::Real { .. } => a[factor.at] - b[factor.at],
+                FactorKind::Angle => math::angle_between(a[factor.at], b[factor.at]),
+                FactorKind::Rotation => 2.0 * math::acos(dot(a, b, factor.at).abs()),
+            } * factor.weight;
             sum += difference * difference;
         }
         sum.sqrt()
@@ -245,20 +249,21 @@ impl Space {
     /// given, may exceed the bound too.
     pub fn distance_unless_above(&self, a: &[f64], b: &[f64], bound: f64) -> Option<f64> {
         let mut below = 0.0;
-        for part in &self.parts {
-            below += match part.kind {
-                PartKind::Real { .. } => {
-                    let difference = (a[part.at] - b[part.at]) * part.weight;
+        for factor in &self.factors {
+            below += match factor.kind {
+                FactorKind::Real { .. } => {
+                    let difference = (a[factor.at] - b[factor.at]) * factor.weight;
                     difference * difference
                 }
-                PartKind::Angle => {
-                    let difference = math::angle_between(a[part.at], b[part.at]) * part.weight;
+                FactorKind::Angle => {
+                    let difference =
+                        math::angle_between(a[factor.at], b[factor.at]) * factor.weight;
                     difference * difference
                 }
                 // The bound angle² ≥ 8 (1 − cos(angle / 2)) needs no arc cosine.
-                PartKind::Rotation => {
-                    let chord = (1.0 - dot(a, b, part.at).abs()).max(0.0);
-                    8.0 * chord * part.weight * part.weight
+                FactorKind::Rotation => {
+                    let chord = (1.0 - dot(a, b, factor.at).abs()).max(0.0);
+                    8.0 * chord * factor.weight * factor.weight
                 }
             };
         }
@@ -272,13 +277,13 @@ impl Space {
     /// when given, may be less too.
     pub fn distance_unless_below(&self, a: &[f64], b: &[f64], bound: f64) -> Option<f64> {
         let mut above = 0.0;
-        for part in &self.parts {
-            let difference = match part.kind {
-                PartKind::Real { .. } => a[part.at] - b[part.at],
-                PartKind::Angle => math::angle_between(a[part.at], b[part.at]),
+        for factor in &self.factors {
+            let difference = match factor.kind {
+                FactorKind::Real { .. } => a[factor.at] - b[factor.at],
+                FactorKind::Angle => math::angle_between(a[factor.at], b[factor.at]),
                 // The bound angle ≤ π √(1 − cos(angle / 2)) needs no arc cosine.
-                PartKind::Rotation => PI * (1.0 - dot(a, b, part.at).abs()).max(0.0).sqrt(),
-            } * part.weight;
+                FactorKind::Rotation => PI * (1.0 - dot(a, b, factor.at).abs()).max(0.0).sqrt(),
+            } * factor.weight;
             above += difference * difference;
         }
         if bound > 0.0 && above * (1.0 + PRUNING_MARGIN) < bound * bound {
@@ -289,11 +294,11 @@ impl Space {
 
     /// The largest distance that two configurations can have.
     pub fn diameter(&self) -> f64 {
-        let extent = |part: &Part| match part.kind {
-            PartKind::Real { min, max } => part.weight * (max - min),
-            PartKind::Angle | PartKind::Rotation => part.weight * PI,
+        let extent = |factor: &Factor| match factor.kind {
+            FactorKind::Real { min, max } => factor.weight * (max - min),
+            FactorKind::Angle | FactorKind::Rotation => factor.weight * PI,
         };
-        self.parts.iter().map(|part| extent(part) * extent(part)).sum::<f64>().sqrt()
+        self.factors.iter().map(|factor| extent(factor) * extent(factor)).sum::<f64>().sqrt()
     }
 
     /// The configuration at distance `length` from `q` in a direction drawn uniformly:
@@ -302,40 +307,40 @@ impl Space {
         self.along(q, &self.direction(stream), length, out);
     }
 
-    /// A direction drawn uniformly from the unit sphere of the metric's tangent space. Parts without
+    /// A direction drawn uniformly from the unit sphere of the metric's tangent space. Factors without
     /// weight do not move.
     pub fn direction(&self, stream: &mut Stream) -> Direction {
-        let mut parts: Vec<[f64; 3]> = Vec::with_capacity(self.parts.len());
+        let mut factors: Vec<[f64; 3]> = Vec::with_capacity(self.factors.len());
         let mut square = 0.0;
-        for part in &self.parts {
-            let numbers = match (part.weight > 0.0, part.kind) {
+        for factor in &self.factors {
+            let numbers = match (factor.weight > 0.0, factor.kind) {
                 (false, _) => 0,
-                (true, PartKind::Rotation) => 3,
-                (true, PartKind::Real { .. } | PartKind::Angle) => 1,
+                (true, FactorKind::Rotation) => 3,
+                (true, FactorKind::Real { .. } | FactorKind::Angle) => 1,
             };
             let mut components = [0.0; 3];
             for component in components.iter_mut().take(numbers) {
                 *component = stream.normal();
                 square += *component * *component;
             }
-            parts.push(components);
+            factors.push(components);
         }
-        Direction { parts, size: square.sqrt() }
+        Direction { factors, size: square.sqrt() }
     }
 
     /// The configuration at distance `length` from `q` on the geodesic that leaves it in a direction.
-    /// Angles and rotations wrap, so the distance is less where a part turns by more than half a turn.
+    /// Angles and rotations wrap, so the distance is less where a factor turns by more than half a turn.
     /// `out` is in stored form but may lie out of bounds.
     pub fn along(&self, q: &[f64], direction: &Direction, length: f64, out: &mut [f64]) {
         let scale = if direction.size > 0.0 { length / direction.size } else { 0.0 };
-        for (part, components) in self.parts.iter().zip(&direction.parts) {
-            let at = part.at;
-            let by =
-                components.map(|component| component * scale / part.weight.max(f64::MIN_POSITIVE));
-            match part.kind {
-                PartKind::Real { .. } => out[at] = q[at] + by[0] + 0.0,
-                PartKind::Angle => out[at] = math::wrap_angle(q[at] + by[0]),
-                PartKind::Rotation => {
+        for (factor, components) in self.factors.iter().zip(&direction.factors) {
+            let at = factor.at;
+            let by = components
+                .map(|component| component * scale / factor.weight.max(f64::MIN_POSITIVE));
+            match factor.kind {
+                FactorKind::Real { .. } => out[at] = q[at] + by[0] + 0.0,
+                FactorKind::Angle => out[at] = math::wrap_angle(q[at] + by[0]),
+                FactorKind::Rotation => {
                     let from = [q[at], q[at + 1], q[at + 2], q[at + 3]];
                     out[at..at + 4].copy_from_slice(&quaternion::turned(from, by));
                 }
@@ -344,7 +349,7 @@ impl Space {
     }
 
     /// The configuration at fraction `t` of the shortest motion from `a` to `b`, at constant
-    /// speed in every part. `out` is in stored form, except that a quaternion may be its negative or have a length
+    /// speed in every factor. `out` is in stored form, except that a quaternion may be its negative or have a length
     /// off by rounding.
     pub fn interpolate(&self, a: &[f64], b: &[f64], t: f64, out: &mut [f64]) {
         self.way(a, b).at(t, out);
@@ -353,16 +358,16 @@ impl Space {
     /// [`Space::interpolate`] prepared for many values of `t`.
     pub(crate) fn way<'a>(&'a self, a: &'a [f64], b: &'a [f64]) -> Way<'a> {
         let four = |q: &[f64], at: usize| [q[at], q[at + 1], q[at + 2], q[at + 3]];
-        let rotations = self.parts.iter().filter(|part| part.kind == PartKind::Rotation);
-        let mut turns = rotations.map(|part| Slerp::new(four(a, part.at), four(b, part.at)));
-        Way { parts: &self.parts, a, b, turn: turns.next(), more: turns.collect() }
+        let rotations = self.factors.iter().filter(|factor| factor.kind == FactorKind::Rotation);
+        let mut turns = rotations.map(|factor| Slerp::new(four(a, factor.at), four(b, factor.at)));
+        Way { factors: &self.factors, a, b, turn: turns.next(), more: turns.collect() }
     }
 }
 
 /// The shortest motion between two configurations, prepared for evaluation at many times.
 #[derive(Clone, Debug)]
 pub(crate) struct Way<'a> {
-    parts: &'a [Part],
+    factors: &'a [Factor],
     a: &'a [f64],
     b: &'a [f64],
     /// The interpolation of the first rotation, kept here so that most spaces need no allocation.
@@ -376,14 +381,14 @@ impl Way<'_> {
     pub(crate) fn at(&self, t: f64, out: &mut [f64]) {
         let Way { a, b, .. } = *self;
         let mut turns = self.turn.iter().chain(&self.more);
-        for part in self.parts {
-            let at = part.at;
-            match part.kind {
-                PartKind::Real { .. } => out[at] = a[at] + (b[at] - a[at]) * t,
-                PartKind::Angle => {
+        for factor in self.factors {
+            let at = factor.at;
+            match factor.kind {
+                FactorKind::Real { .. } => out[at] = a[at] + (b[at] - a[at]) * t,
+                FactorKind::Angle => {
                     out[at] = math::wrap_angle(a[at] + math::wrap_angle(b[at] - a[at]) * t);
                 }
-                PartKind::Rotation => {
+                FactorKind::Rotation => {
                     let turn = turns.next().expect("one for every rotation");
                     out[at..at + 4].copy_from_slice(&turn.at(t));
                 }

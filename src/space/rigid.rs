@@ -1,13 +1,13 @@
 //! How the base of a robot moves, and the values that say where it is.
 
-use super::{Dof, Part, PartKind, Space};
+use super::{Dof, Factor, FactorKind, Space};
 use crate::math;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
 /// How a rigid body, or the base of a linkage, may move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
-pub enum Motion {
+pub enum BaseJoint {
     /// Not at all: the base of a linkage that stands still.
     #[serde(rename = "fixed")]
     Fixed,
@@ -25,40 +25,40 @@ pub enum Motion {
     Rigid3d,
 }
 
-impl Motion {
+impl BaseJoint {
     /// Number of translational degrees of freedom: 0, 2 or 3.
     pub fn translations(self) -> usize {
         match self {
-            Motion::Fixed => 0,
-            Motion::Translation2d | Motion::Rigid2d => 2,
-            Motion::Translation3d | Motion::Rigid3d => 3,
+            BaseJoint::Fixed => 0,
+            BaseJoint::Translation2d | BaseJoint::Rigid2d => 2,
+            BaseJoint::Translation3d | BaseJoint::Rigid3d => 3,
         }
     }
 
     /// Along how many of the world's axes the robot is bounded: x and y only, if it is planar.
     pub fn bounded_axes(self) -> usize {
         match self {
-            Motion::Translation2d | Motion::Rigid2d => 2,
-            Motion::Fixed | Motion::Translation3d | Motion::Rigid3d => 3,
+            BaseJoint::Translation2d | BaseJoint::Rigid2d => 2,
+            BaseJoint::Fixed | BaseJoint::Translation3d | BaseJoint::Rigid3d => 3,
         }
     }
 
     /// Number of values of a configuration.
     pub fn values(self) -> usize {
         match self {
-            Motion::Fixed => 0,
-            Motion::Translation2d => 2,
-            Motion::Rigid2d | Motion::Translation3d => 3,
-            Motion::Rigid3d => 7,
+            BaseJoint::Fixed => 0,
+            BaseJoint::Translation2d => 2,
+            BaseJoint::Rigid2d | BaseJoint::Translation3d => 3,
+            BaseJoint::Rigid3d => 7,
         }
     }
 
     /// The angle by which the base turns on the shortest way from `a` to `b`, in radians.
     pub fn angle_between(self, a: &[f64], b: &[f64]) -> f64 {
         match self {
-            Motion::Fixed | Motion::Translation2d | Motion::Translation3d => 0.0,
-            Motion::Rigid2d => math::angle_between(a[2], b[2]),
-            Motion::Rigid3d => {
+            BaseJoint::Fixed | BaseJoint::Translation2d | BaseJoint::Translation3d => 0.0,
+            BaseJoint::Rigid2d => math::angle_between(a[2], b[2]),
+            BaseJoint::Rigid3d => {
                 let dot: f64 = (3..7).map(|i| a[i] * b[i]).sum();
                 2.0 * math::acos(dot.abs())
             }
@@ -67,24 +67,24 @@ impl Motion {
 
     /// Whether the body also turns.
     pub fn rotates(self) -> bool {
-        matches!(self, Motion::Rigid2d | Motion::Rigid3d)
+        matches!(self, BaseJoint::Rigid2d | BaseJoint::Rigid3d)
     }
 }
 
 /// The factors and values of a base whose reference point lies in the box `min`..`max` (of a planar
 /// base: in its first two intervals). One radian of rotation counts as `rotation_length`.
-pub fn rigid_parts(
-    motion: Motion,
+pub fn rigid_factors(
+    motion: BaseJoint,
     min: [f64; 3],
     max: [f64; 3],
     rotation_length: f64,
-) -> (Vec<Part>, Vec<Dof>) {
+) -> (Vec<Factor>, Vec<Dof>) {
     let length = |name: &str| Dof { name: name.to_owned(), unit: "length" };
-    let mut parts = Vec::new();
+    let mut factors = Vec::new();
     let mut dofs = Vec::new();
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate().take(motion.translations()) {
-        parts.push(Part {
-            kind: PartKind::Real { min: min[axis], max: max[axis] },
+        factors.push(Factor {
+            kind: FactorKind::Real { min: min[axis], max: max[axis] },
             at: axis,
             weight: 1.0,
         });
@@ -93,23 +93,23 @@ pub fn rigid_parts(
     let at = dofs.len();
     let weight = rotation_length;
     match motion {
-        Motion::Fixed | Motion::Translation2d | Motion::Translation3d => {}
-        Motion::Rigid2d => {
-            parts.push(Part { kind: PartKind::Angle, at, weight });
+        BaseJoint::Fixed | BaseJoint::Translation2d | BaseJoint::Translation3d => {}
+        BaseJoint::Rigid2d => {
+            factors.push(Factor { kind: FactorKind::Angle, at, weight });
             dofs.push(Dof { name: "theta".to_owned(), unit: "rad" });
         }
-        Motion::Rigid3d => {
-            parts.push(Part { kind: PartKind::Rotation, at, weight });
+        BaseJoint::Rigid3d => {
+            factors.push(Factor { kind: FactorKind::Rotation, at, weight });
             for name in ["qw", "qx", "qy", "qz"] {
                 dofs.push(Dof { name: name.to_owned(), unit: "1" });
             }
         }
     }
-    (parts, dofs)
+    (factors, dofs)
 }
 
-/// The space of a rigid body: see [`rigid_parts`].
-pub fn rigid_space(motion: Motion, min: [f64; 3], max: [f64; 3], rotation_length: f64) -> Space {
-    let (parts, dofs) = rigid_parts(motion, min, max, rotation_length);
-    Space::new(parts, dofs, motion.translations())
+/// The space of a rigid body: see [`rigid_factors`].
+pub fn rigid_space(motion: BaseJoint, min: [f64; 3], max: [f64; 3], rotation_length: f64) -> Space {
+    let (factors, dofs) = rigid_factors(motion, min, max, rotation_length);
+    Space::new(factors, dofs, motion.translations())
 }

@@ -3,7 +3,7 @@ use crate::seed::{Purpose, Seed};
 use proptest::prelude::*;
 
 fn spaces() -> Vec<Space> {
-    [Motion::Translation2d, Motion::Rigid2d, Motion::Translation3d, Motion::Rigid3d]
+    [BaseJoint::Translation2d, BaseJoint::Rigid2d, BaseJoint::Translation3d, BaseJoint::Rigid3d]
         .map(|motion| rigid_space(motion, [-1.0, -2.0, -3.0], [1.0, 2.0, 5.0], 0.7))
         .to_vec()
 }
@@ -75,7 +75,7 @@ fn uniform_rotations_follow_the_haar_measure() {
     let count = 20_000;
     let mut stream = Seed::of_set(1, "haar", 0).stream(Purpose::Sampling);
     let (mut angles, mut components) = (Vec::new(), Vec::new());
-    let space = rigid_space(Motion::Rigid3d, [0.0; 3], [1.0; 3], 1.0);
+    let space = rigid_space(BaseJoint::Rigid3d, [0.0; 3], [1.0; 3], 1.0);
     let mut q = [0.0; 7];
     for _ in 0..count {
         space.sample_uniform(&mut stream, &mut q);
@@ -96,7 +96,7 @@ fn uniform_rotations_follow_the_haar_measure() {
 
 #[test]
 fn bad_configurations_are_named() {
-    let space = rigid_space(Motion::Rigid3d, [0.0; 3], [1.0; 3], 1.0);
+    let space = rigid_space(BaseJoint::Rigid3d, [0.0; 3], [1.0; 3], 1.0);
     let error = space.canonicalize(&mut [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).unwrap_err();
     assert!(error.contains("quaternion"), "{error}");
     let error = space.canonicalize(&mut [0.0, f64::NAN, 0.0, 1.0, 0.0, 0.0, 0.0]).unwrap_err();

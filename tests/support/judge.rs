@@ -4,7 +4,7 @@ use roadmill::math;
 use roadmill::model::bodies::validity::BoundsMeaning;
 use roadmill::problem::Problem;
 use roadmill::scene::Shape;
-use roadmill::space::Motion;
+use roadmill::space::BaseJoint;
 
 type Point = [f64; 3];
 type Matrix = [[f64; 3]; 3];
@@ -100,9 +100,9 @@ impl<'a> Judge<'a> {
 
     fn translations(&self) -> usize {
         match self.problem.model.bodies().expect("bodies").robot.motion {
-            Motion::Fixed => unreachable!("only rigid bodies are judged"),
-            Motion::Translation2d | Motion::Rigid2d => 2,
-            Motion::Translation3d | Motion::Rigid3d => 3,
+            BaseJoint::Fixed => unreachable!("only rigid bodies are judged"),
+            BaseJoint::Translation2d | BaseJoint::Rigid2d => 2,
+            BaseJoint::Translation3d | BaseJoint::Rigid3d => 3,
         }
     }
 
@@ -111,11 +111,11 @@ impl<'a> Judge<'a> {
         let axes = self.translations();
         let shift = (0..axes).map(|i| (b[i] - a[i]) * (b[i] - a[i])).sum::<f64>().sqrt();
         let angle = match self.problem.model.bodies().expect("bodies").robot.motion {
-            Motion::Fixed => unreachable!("only rigid bodies are judged"),
-            Motion::Translation2d | Motion::Translation3d => 0.0,
-            Motion::Rigid2d => shortest_turn(a[2], b[2]).abs(),
+            BaseJoint::Fixed => unreachable!("only rigid bodies are judged"),
+            BaseJoint::Translation2d | BaseJoint::Translation3d => 0.0,
+            BaseJoint::Rigid2d => shortest_turn(a[2], b[2]).abs(),
             // From the chord rather than the arc cosine: |a − b| = 2 sin(angle / 4).
-            Motion::Rigid3d => {
+            BaseJoint::Rigid3d => {
                 let (plus, minus) =
                     (chord(&a[3..7], &b[3..7], 1.0), chord(&a[3..7], &b[3..7], -1.0));
                 let sine = (plus.min(minus) / 2.0).min(1.0);
@@ -129,10 +129,10 @@ impl<'a> Judge<'a> {
         let axes = self.translations();
         let mut q: Vec<f64> = (0..axes).map(|i| (1.0 - t) * a[i] + t * b[i]).collect();
         match self.problem.model.bodies().expect("bodies").robot.motion {
-            Motion::Fixed => unreachable!("only rigid bodies are judged"),
-            Motion::Translation2d | Motion::Translation3d => {}
-            Motion::Rigid2d => q.push(a[2] + shortest_turn(a[2], b[2]) * t),
-            Motion::Rigid3d => q.extend(slerp(&a[3..7], &b[3..7], t)),
+            BaseJoint::Fixed => unreachable!("only rigid bodies are judged"),
+            BaseJoint::Translation2d | BaseJoint::Translation3d => {}
+            BaseJoint::Rigid2d => q.push(a[2] + shortest_turn(a[2], b[2]) * t),
+            BaseJoint::Rigid3d => q.extend(slerp(&a[3..7], &b[3..7], t)),
         }
         q
     }
@@ -141,15 +141,15 @@ impl<'a> Judge<'a> {
     fn placed(&self, q: &[f64]) -> Vec<Vec<Point>> {
         let (rotation, translation) =
             match self.problem.model.bodies().expect("bodies").robot.motion {
-                Motion::Fixed => unreachable!("only rigid bodies are judged"),
-                Motion::Translation2d => (matrix([1.0, 0.0, 0.0, 0.0]), [q[0], q[1], 0.0]),
-                Motion::Translation3d => (matrix([1.0, 0.0, 0.0, 0.0]), [q[0], q[1], q[2]]),
-                Motion::Rigid2d => {
+                BaseJoint::Fixed => unreachable!("only rigid bodies are judged"),
+                BaseJoint::Translation2d => (matrix([1.0, 0.0, 0.0, 0.0]), [q[0], q[1], 0.0]),
+                BaseJoint::Translation3d => (matrix([1.0, 0.0, 0.0, 0.0]), [q[0], q[1], q[2]]),
+                BaseJoint::Rigid2d => {
                     let (sine, cosine) = (math::sin(q[2]), math::cos(q[2]));
                     let turn = [[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]];
                     (turn, [q[0], q[1], 0.0])
                 }
-                Motion::Rigid3d => (matrix([q[3], q[4], q[5], q[6]]), [q[0], q[1], q[2]]),
+                BaseJoint::Rigid3d => (matrix([q[3], q[4], q[5], q[6]]), [q[0], q[1], q[2]]),
             };
         let place = |v: &Point| add(apply(&rotation, *v), translation);
         self.robot.iter().map(|part| part.vertices.iter().map(place).collect()).collect()

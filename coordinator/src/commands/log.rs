@@ -56,7 +56,7 @@ pub fn log(arguments: &LogArguments) -> Result<Code, Failure> {
                 ordinal: set.ordinal,
                 seed: Seed::of_set(problem.seed, label, set.ordinal).to_string(),
                 nodes: increment.configs.len(),
-                edges: increment.edges.len() + increment.links.len(),
+                edges: increment.edges.len() + increment.root_edges.len(),
                 joining_edges: joined.edges.len(),
                 configurations_checked: increment.asked.configurations
                     + joined.asked.configurations,

@@ -249,7 +249,7 @@ impl Check<'_> {
             }
             Some(Event::Lost(job, loss)) => {
                 if let Some((_, deaths)) = self.at_work.get_mut(&job) {
-                    *deaths += u32::from(loss == Loss::Worker);
+                    *deaths += u32::from(loss == Loss::Death);
                     if *deaths >= LOSSES_MAX {
                         let name = job_name(job, &self.setup.problem);
                         let message = format!("{name} killed its workers");

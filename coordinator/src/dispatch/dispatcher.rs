@@ -216,8 +216,8 @@ impl<C: Crew> Dispatcher<C> {
         loop {
             match self.crew.next() {
                 Ok(Some(News::Message { member, message })) => self.take(member, &message),
-                Ok(Some(News::Died { member, why })) => self.replace(member, Loss::Worker, &why),
-                Ok(Some(News::Lost { member, why })) => self.replace(member, Loss::Member, &why),
+                Ok(Some(News::Died { member, why })) => self.replace(member, Loss::Death, &why),
+                Ok(Some(News::Lost { member, why })) => self.replace(member, Loss::Departure, &why),
                 Ok(None) => return,
                 Err(error) => return self.fail(format!("the crew failed: {error}")),
             }
@@ -232,7 +232,7 @@ impl<C: Crew> Dispatcher<C> {
         let decoded = match wire::decode_borrowed(message) {
             Ok(decoded) => decoded,
             Err(error) => {
-                return self.replace(id, Loss::Member, &format!("it sent {error}"));
+                return self.replace(id, Loss::Departure, &format!("it sent {error}"));
             }
         };
         match (worker.phase, decoded) {
@@ -265,10 +265,10 @@ impl<C: Crew> Dispatcher<C> {
             (WorkerPhase::Ready, FromWorker::Done(done)) => {
                 self.asking.insert(id);
                 if let Err(why) = self.take_outcomes(id, message, &done) {
-                    self.replace(id, Loss::Member, &why);
+                    self.replace(id, Loss::Departure, &why);
                 }
             }
-            _ => self.replace(id, Loss::Member, "it sent a message out of turn"),
+            _ => self.replace(id, Loss::Departure, "it sent a message out of turn"),
         }
     }
 

@@ -15,7 +15,7 @@ const NEWEST: f64 = 0.25;
 ///
 /// A job at which a worker died is a suspect: it may be what killed the worker. Suspects are handed out alone,
 /// so that a job that kills again takes no other job with it and no other job is blamed. Jobs that were lost
-/// for reasons of the worker ([`Loss::Member`]) are handed out like all others.
+/// for reasons of the worker ([`Loss::Departure`]) are handed out like all others.
 #[derive(Debug, Default)]
 pub struct Roster {
     /// The jobs that wait, by urgency.
@@ -137,7 +137,7 @@ impl Roster {
     pub fn dismiss(&mut self, worker: WorkerId, loss: Loss) -> BTreeSet<Job> {
         let lost = self.held.remove(&worker).unwrap_or_default();
         lost.iter().for_each(|job| self.open[urgency(job)] -= 1);
-        if loss == Loss::Worker {
+        if loss == Loss::Death {
             self.suspects.extend(&lost);
         }
         lost
@@ -252,8 +252,8 @@ mod tests {
             lost.into_iter().for_each(|job| roster.submit(job));
             roster.give(WorkerId(1), |_| true).len()
         };
-        assert_eq!(given_after(Loss::Member), 4);
-        assert_eq!(given_after(Loss::Worker), 1, "suspects are handed out alone");
+        assert_eq!(given_after(Loss::Departure), 4);
+        assert_eq!(given_after(Loss::Death), 1, "suspects are handed out alone");
     }
 
     /// One of several jobs kills: only that one is lost again, whoever gets it.
@@ -275,7 +275,7 @@ mod tests {
                         assert!(roster.done(worker, job, 1e-4) && done.insert(job));
                         continue;
                     }
-                    for lost in roster.dismiss(worker, Loss::Worker) {
+                    for lost in roster.dismiss(worker, Loss::Death) {
                         *losses.entry(lost).or_insert(0) += 1;
                         roster.submit(lost);
                     }

@@ -2,21 +2,21 @@
 
 use super::Bodies;
 use super::robot::{JointKind, Limits};
-use super::validity::{BoundsMeaning, Edges, TOLERANCE};
+use super::validity::{BoundsMeaning, MotionChecking, TOLERANCE};
 use crate::scene::{Body, Shape};
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use std::fmt::Write;
 
 pub(super) fn describe(bodies: &Bodies, out: &mut String) -> std::fmt::Result {
     let bounds = &bodies.bounds;
     let base = match bodies.robot.motion {
-        Motion::Fixed => "the base stands still",
-        Motion::Translation2d => "x y: the base's place in the plane z = 0",
-        Motion::Rigid2d => {
+        BaseJoint::Fixed => "the base stands still",
+        BaseJoint::Translation2d => "x y: the base's place in the plane z = 0",
+        BaseJoint::Rigid2d => {
             "x y theta: the base's pose in the plane; theta in radians, in [-pi, pi)"
         }
-        Motion::Translation3d => "x y z: the base's place",
-        Motion::Rigid3d => "x y z qw qx qy qz: the base's pose; a unit quaternion, w first",
+        BaseJoint::Translation3d => "x y z: the base's place",
+        BaseJoint::Rigid3d => "x y z qw qx qy qz: the base's pose; a unit quaternion, w first",
     };
     writeln!(out, "                 {base}, its frame in the world's")?;
     for joint in bodies.robot.links.iter().filter_map(|link| link.joint.as_ref()) {
@@ -55,8 +55,8 @@ pub(super) fn describe(bodies: &Bodies, out: &mut String) -> std::fmt::Result {
         &bounds.max[..axes]
     )?;
     let promise = match bodies.edges {
-        Edges::Swept => format!("motions are free at all times, to a {TOLERANCE}th of it"),
-        Edges::Sampled => "no robot point moves farther between two checks".to_owned(),
+        MotionChecking::Swept => format!("motions are free at all times, to a {TOLERANCE}th of it"),
+        MotionChecking::Sampled => "no robot point moves farther between two checks".to_owned(),
     };
     writeln!(out, "resolution       {}: {promise}", bodies.resolution)?;
     if bodies.robot.motion.rotates() {

@@ -4,7 +4,7 @@ use super::Bodies;
 use super::validity::BoundsMeaning;
 use crate::model::{Figure, Placement};
 use crate::scene::Body;
-use crate::space::Motion;
+use crate::space::BaseJoint;
 
 impl Figure for Bodies {
     fn is_planar(&self) -> bool {
@@ -37,7 +37,7 @@ impl Figure for Bodies {
         let mut poses = Vec::new();
         self.robot.place(q, &mut poses);
         // Of a linkage that stands, the last link is what the marker shows.
-        let stands = self.robot.motion == Motion::Fixed;
+        let stands = self.robot.motion == BaseJoint::Fixed;
         Placement { poses, marked: stands.then(|| self.robot.links.len() - 1) }
     }
 }

@@ -8,12 +8,12 @@ use super::foreign::{
 use super::linkage::{fitting_names, moves};
 use super::read::{default_resolution, default_rotation_length, diagonal_of, too_far};
 use super::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, Robot};
-use super::validity::{Bounds, BoundsMeaning, Edges};
+use super::validity::{Bounds, BoundsMeaning, MotionChecking};
 use crate::digest::SourceFile;
 use crate::model::{Imported, ModelKind};
 use crate::scene::{Body, LENGTH_MAX, Pose};
 use crate::source::{ProblemError, fitting_name};
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use std::path::Path;
 
 /// Reads a scene of OMPL.app or Parasol, or a robot in URDF, told apart by the extension; `None` for any
@@ -45,7 +45,7 @@ fn from_urdf(path: &Path) -> Result<Imported, ProblemError> {
     let UrdfRobot { links, mut notes, sources } =
         read_urdf(path).map_err(|error| ProblemError::foreign(error.to_string()))?;
     let links = fitting_names(links);
-    let motion = if links.iter().any(moves) { Motion::Fixed } else { Motion::Rigid3d };
+    let motion = if links.iter().any(moves) { BaseJoint::Fixed } else { BaseJoint::Rigid3d };
     let robot = Robot { motion, base: Pose::IDENTITY, links, may_touch: Vec::new() };
     let reach = robot.reach();
     if reach > LENGTH_MAX {
@@ -54,7 +54,7 @@ fn from_urdf(path: &Path) -> Result<Imported, ProblemError> {
     }
     notes.push("a robot without a scene: no obstacles, no query".to_owned());
     notes.push(match motion {
-        Motion::Fixed => "the base stands still at the origin".to_owned(),
+        BaseJoint::Fixed => "the base stands still at the origin".to_owned(),
         _ => "no joint moves, so the robot does".to_owned(),
     });
     notes.push(format!("the bounds reach as far as the robot, {reach}"));
@@ -105,7 +105,7 @@ fn finished(path: &Path, parts: Parts) -> Result<Imported, ProblemError> {
     }
     let resolution = default_resolution(diagonal, &robot, &mut notes);
     let rotation_length = default_rotation_length(&robot, &mut notes);
-    let edges = Edges::default();
+    let edges = MotionChecking::default();
     let bodies = Bodies { bounds, resolution, edges, rotation_length, robot, obstacles };
     let query = query.map(|(start, goal)| [start, goal]);
     Ok(Imported { name, model: ModelKind::Bodies(bodies), query, notes, sources })
@@ -113,7 +113,7 @@ fn finished(path: &Path, parts: Parts) -> Result<Imported, ProblemError> {
 
 fn robot_of(scene: &ForeignScene) -> Robot {
     let (motion, base) = match scene.base {
-        Base::Fixed(pose) => (Motion::Fixed, pose),
+        Base::Fixed(pose) => (BaseJoint::Fixed, pose),
         Base::Moving(motion) => (motion, Pose::IDENTITY),
     };
     let links = fitting_names(scene.links.iter().map(link_of).collect());

@@ -8,7 +8,7 @@ use crate::scene::{LENGTH_MAX, Pose};
 use crate::source;
 use crate::source::Step::{self, Index, Key};
 use crate::source::{ProblemError, Source, fits};
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -20,7 +20,7 @@ const NAME_EXPECTED: &str = "a name of its own of letters, digits, `-`, `_` and 
 pub(super) fn robot_of(
     source: &Source,
     table: &RobotTable,
-    motion: Motion,
+    motion: BaseJoint,
     notes: &mut Vec<String>,
 ) -> Result<Robot, ProblemError> {
     let mut robot = Robot::rigid(motion, Vec::new());
@@ -37,7 +37,7 @@ pub(super) fn robot_of(
         return Err(source.error(&[Key("robot"), Key("name")], message));
     }
     if let Some(base) = &table.base {
-        if motion != Motion::Fixed {
+        if motion != BaseJoint::Fixed {
             let message = "given, but the base moves; motion = \"fixed\" expected beside it";
             return Err(source.error(&[Key("robot"), Key("base")], message.to_owned()));
         }
@@ -57,7 +57,7 @@ pub(super) fn robot_of(
         index_of.insert(link.name.clone(), robot.links.len());
         robot.links.push(link);
     }
-    if motion == Motion::Fixed && robot.links.iter().all(|link| !moves(link)) {
+    if motion == BaseJoint::Fixed && robot.links.iter().all(|link| !moves(link)) {
         let message = "nothing moves: a moving base or a moving joint expected".to_owned();
         return Err(source.error(&[Key("robot")], message));
     }

@@ -24,7 +24,7 @@ use crate::source::{ProblemError, Source};
 use crate::space::Space;
 use bincode::{Decode, Encode};
 use robot::Robot;
-use validity::{Bounds, Edges};
+use validity::{Bounds, MotionChecking};
 
 /// A robot of rigid links among rigid obstacles: plain data, complete in itself (meshes included).
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
@@ -34,7 +34,7 @@ pub struct Bodies {
     /// The farthest that any robot point moves between two checks of a motion; a length.
     pub resolution: f64,
     /// What is promised of the motions along edges.
-    pub edges: Edges,
+    pub edges: MotionChecking,
     /// Length that one radian of rotation counts for in the metric.
     pub rotation_length: f64,
     /// The robot.

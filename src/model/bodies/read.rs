@@ -9,7 +9,7 @@ use super::validity::Bounds;
 use crate::scene::{Body, LENGTH_MAX};
 use crate::source::Step::Key;
 use crate::source::{ProblemError, Source};
-use crate::space::Motion;
+use crate::space::BaseJoint;
 
 /// The finest resolution, as a fraction of the diagonal of the bounds.
 const FINEST: f64 = 1e-7;
@@ -105,7 +105,7 @@ pub(super) fn default_resolution(diagonal: f64, robot: &Robot, notes: &mut Vec<S
 }
 
 /// Length of the diagonal of the bounds.
-pub(super) fn diagonal_of(bounds: &Bounds, motion: Motion) -> f64 {
+pub(super) fn diagonal_of(bounds: &Bounds, motion: BaseJoint) -> f64 {
     let square = |axis: usize| {
         let edge = bounds.max[axis] - bounds.min[axis];
         edge * edge

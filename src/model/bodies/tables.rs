@@ -1,8 +1,8 @@
 //! The tables of a problem file that describe rigid robots and obstacles, as they are written, before anything is
 //! checked.
 
-use super::validity::{BoundsMeaning, Edges};
-use crate::space::Motion;
+use super::validity::{BoundsMeaning, MotionChecking};
+use crate::space::BaseJoint;
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -18,13 +18,13 @@ pub(super) struct Tables {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SpaceTable {
-    pub motion: Motion,
+    pub motion: BaseJoint,
     pub min: Vec<f64>,
     pub max: Vec<f64>,
     pub bounds: BoundsMeaning,
     pub resolution: Option<f64>,
     #[serde(default)]
-    pub edges: Edges,
+    pub edges: MotionChecking,
     pub rotation_length: Option<f64>,
 }
 

@@ -6,7 +6,7 @@ use crate::digest::Digest;
 use crate::model::Documents;
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::source::value;
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -36,7 +36,7 @@ impl Writer<'_> {
         writeln!(out, "rotation_length = {:?}", bodies.rotation_length)?;
 
         writeln!(out, "\n[robot]\nname = {}", value(&robot.links[0].name))?;
-        if robot.motion == Motion::Fixed {
+        if robot.motion == BaseJoint::Fixed {
             writeln!(out, "base = {}", frame(&robot.base))?;
         }
         self.link_bodies(&robot.links[0], out)?;

@@ -14,7 +14,7 @@ use super::{
     ReadTables, Scratch, Validity,
 };
 use crate::source::{ProblemError, Source, value};
-use crate::space::{Dof, Part, PartKind, Space};
+use crate::space::{Dof, Factor, FactorKind, Space};
 use bincode::{Decode, Encode};
 use std::fmt::Write;
 
@@ -46,8 +46,8 @@ impl ReadTables for Landscape {
 impl Description for Landscape {
     fn space(&self) -> Space {
         let part = |at: usize| {
-            let kind = PartKind::Real { min: self.min[at], max: self.max[at] };
-            Part { kind, at, weight: 1.0 }
+            let kind = FactorKind::Real { min: self.min[at], max: self.max[at] };
+            Factor { kind, at, weight: 1.0 }
         };
         let dof = |name: &str| Dof { name: name.to_owned(), unit: "length" };
         Space::new(vec![part(0), part(1)], vec![dof("x"), dof("y")], 2)

@@ -3,7 +3,7 @@
 use super::statistics::follows;
 use super::{SCENE, context};
 use crate::seed::{Purpose, Seed};
-use crate::space::{Motion, rigid_space};
+use crate::space::{BaseJoint, rigid_space};
 
 #[test]
 fn steps_have_the_length_asked_for() {
@@ -27,7 +27,7 @@ fn steps_have_the_length_asked_for() {
 /// in the metric.
 #[test]
 fn directions_are_uniform_in_the_metric() {
-    let space = rigid_space(Motion::Rigid2d, [0.0; 3], [1.0; 3], 0.4);
+    let space = rigid_space(BaseJoint::Rigid2d, [0.0; 3], [1.0; 3], 0.4);
     let mut stream = Seed::of_set(3, "directions", 0).stream(Purpose::Sampling);
     let mut coordinates = [(); 3].map(|()| Vec::new());
     for _ in 0..4000 {

@@ -22,7 +22,7 @@ pub use urdf::{UrdfRobot, read_urdf};
 use crate::digest::SourceFile;
 use crate::model::bodies::validity::Bounds;
 use crate::scene::{Body, Pose};
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use std::path::PathBuf;
 
 /// A scene: a robot, what stands in its way, where it may be, and where it is to go.
@@ -55,7 +55,7 @@ pub enum Base {
     /// Not at all: the link's frame in the world's.
     Fixed(Pose),
     /// As a rigid body.
-    Moving(Motion),
+    Moving(BaseJoint),
 }
 
 /// A mesh at its place, and the file it comes from.

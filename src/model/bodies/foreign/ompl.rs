@@ -13,7 +13,7 @@ use super::{
 use crate::digest::SourceFile;
 use crate::model::bodies::validity::{Bounds, BoundsMeaning};
 use crate::scene::{Centre, LENGTH_MAX, MeshOptions, Pose, Up, UpAxis};
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -68,7 +68,7 @@ pub fn read_ompl(path: &Path, options: &SceneOptions) -> Result<ForeignScene, Fo
     });
     Ok(ForeignScene {
         name,
-        base: Base::Moving(Motion::Rigid3d),
+        base: Base::Moving(BaseJoint::Rigid3d),
         bounds: Bounds { min, max, meaning },
         obstacles: vec![world],
         links: vec![ForeignLink { name: "robot".to_owned(), bodies: vec![robot], joint: None }],

@@ -1,6 +1,6 @@
 //! Robots: links, the joints between them, and where they stand at a configuration.
 //!
-//! A robot is a tree of links. The base moves as [`Motion`] says; every other link is moved by a joint
+//! A robot is a tree of links. The base moves as [`BaseJoint`] says; every other link is moved by a joint
 //! of an earlier one. A rigid body is a robot of one link. A configuration holds the base's values, then
 //! those of the joints in the order of their links.
 
@@ -14,7 +14,7 @@ pub use space::Speeds;
 
 use crate::math;
 use crate::scene::{Body, Pose};
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use bincode::{Decode, Encode};
 
 /// The most links that a robot may have. A robot of so many has half a million pairs of links, each of which is
@@ -25,8 +25,8 @@ pub const LINKS_MAX: usize = 1000;
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Robot {
     /// How the base, link 0, moves.
-    pub motion: Motion,
-    /// Where the base stands when its motion is [`Motion::Fixed`]: its frame in the world's.
+    pub motion: BaseJoint,
+    /// Where the base stands when its motion is [`BaseJoint::Fixed`]: its frame in the world's.
     pub base: Pose,
     /// The links. The base comes first, every other link after its parent.
     pub links: Vec<Link>,
@@ -48,7 +48,7 @@ pub struct Link {
 
 impl Robot {
     /// A rigid body.
-    pub fn rigid(motion: Motion, bodies: Vec<Body>) -> Robot {
+    pub fn rigid(motion: BaseJoint, bodies: Vec<Body>) -> Robot {
         let base = Link { name: "body".to_owned(), bodies, joint: None };
         Robot { motion, base: Pose::IDENTITY, links: vec![base], may_touch: Vec::new() }
     }
@@ -85,14 +85,14 @@ impl Robot {
 
     fn base_pose(&self, q: &[f64]) -> Pose {
         match self.motion {
-            Motion::Fixed => self.base,
-            Motion::Translation2d => Pose { translation: [q[0], q[1], 0.0], ..Pose::IDENTITY },
-            Motion::Rigid2d => {
+            BaseJoint::Fixed => self.base,
+            BaseJoint::Translation2d => Pose { translation: [q[0], q[1], 0.0], ..Pose::IDENTITY },
+            BaseJoint::Rigid2d => {
                 let (sine, cosine) = (math::sin(q[2] / 2.0), math::cos(q[2] / 2.0));
                 Pose { translation: [q[0], q[1], 0.0], rotation: [cosine, 0.0, 0.0, sine] }
             }
-            Motion::Translation3d => Pose { translation: [q[0], q[1], q[2]], ..Pose::IDENTITY },
-            Motion::Rigid3d => {
+            BaseJoint::Translation3d => Pose { translation: [q[0], q[1], q[2]], ..Pose::IDENTITY },
+            BaseJoint::Rigid3d => {
                 Pose { translation: [q[0], q[1], q[2]], rotation: [q[3], q[4], q[5], q[6]] }
             }
         }
@@ -113,7 +113,7 @@ impl Robot {
     pub fn marker(&self, q: &[f64]) -> [f64; 3] {
         let mut poses = Vec::new();
         self.place(q, &mut poses);
-        let moving = if self.motion == Motion::Fixed { poses.last() } else { poses.first() };
+        let moving = if self.motion == BaseJoint::Fixed { poses.last() } else { poses.first() };
         moving.map_or([0.0; 3], |pose| pose.translation)
     }
 

@@ -7,7 +7,7 @@
 use super::{JointKind, Robot};
 use crate::math;
 use crate::scene::Pose;
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use parry3d_f64::math::{Rotation, Vector};
 
 /// Bounds on the motion of one frame as seen from another.
@@ -44,7 +44,7 @@ pub(crate) struct Steady {
 /// between any two links follow by walking along the tree.
 #[derive(Clone, Debug)]
 pub(crate) struct Hops {
-    motion: Motion,
+    motion: BaseJoint,
     /// The joint of link `i` stands at `i - 1`, since the base has none.
     of_links: Vec<Hop>,
 }
@@ -221,16 +221,18 @@ pub(super) fn turn_between(from: Rotation, to: Rotation) -> (Vector, f64) {
     (axis, 2.0 * math::atan2(sine, between.w.abs()))
 }
 
-pub(super) fn of_base(motion: Motion, a: &[f64], b: &[f64]) -> Rates {
+pub(super) fn of_base(motion: BaseJoint, a: &[f64], b: &[f64]) -> Rates {
     let mut velocity = [0.0; 3];
     for axis in 0..motion.translations() {
         velocity[axis] = b[axis] - a[axis];
     }
     let velocity = Vector::from_array(velocity);
     let (axis, turning) = match motion {
-        Motion::Fixed | Motion::Translation2d | Motion::Translation3d => (Vector::Z, Vector::ZERO),
-        Motion::Rigid2d => (Vector::Z, Vector::Z * math::wrap_angle(b[2] - a[2])),
-        Motion::Rigid3d => {
+        BaseJoint::Fixed | BaseJoint::Translation2d | BaseJoint::Translation3d => {
+            (Vector::Z, Vector::ZERO)
+        }
+        BaseJoint::Rigid2d => (Vector::Z, Vector::Z * math::wrap_angle(b[2] - a[2])),
+        BaseJoint::Rigid3d => {
             let (from, to) = (rotation_at(a, 3), rotation_at(b, 3));
             let (axis, angle) = turn_between(from, to);
             (axis, from * axis * angle)

@@ -14,7 +14,11 @@ pub(crate) fn drawn_pose(stream: &mut Stream, size: f64) -> Pose {
 
 /// A tree of links with joints of every kind, askew in every way. The parent of each is one of the `near` links
 /// before it: with 1 the tree is a serial chain.
-pub(crate) fn drawn_robot(stream: &mut Stream, motion: Motion, (links, near): (u32, u32)) -> Robot {
+pub(crate) fn drawn_robot(
+    stream: &mut Stream,
+    motion: BaseJoint,
+    (links, near): (u32, u32),
+) -> Robot {
     let mut robot = Robot::rigid(motion, Vec::new());
     for index in 1..links {
         let axis = Vector::new(stream.normal(), stream.normal(), stream.normal()).normalize();
@@ -39,8 +43,13 @@ pub(crate) fn drawn_robot(stream: &mut Stream, motion: Motion, (links, near): (u
     robot
 }
 
-pub(super) const MOTIONS: [Motion; 5] =
-    [Motion::Fixed, Motion::Translation2d, Motion::Rigid2d, Motion::Translation3d, Motion::Rigid3d];
+pub(super) const MOTIONS: [BaseJoint; 5] = [
+    BaseJoint::Fixed,
+    BaseJoint::Translation2d,
+    BaseJoint::Rigid2d,
+    BaseJoint::Translation3d,
+    BaseJoint::Rigid3d,
+];
 
 /// A link's frame as seen from another or from the world.
 fn seen(
@@ -95,7 +104,7 @@ proptest! {
 #[test]
 fn the_bounds_are_no_larger_than_they_must_be() {
     let turning = JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits: None };
-    let mut robot = Robot::rigid(Motion::Rigid2d, Vec::new());
+    let mut robot = Robot::rigid(BaseJoint::Rigid2d, Vec::new());
     let before = Pose { translation: [1.0, 0.0, 0.0], ..Pose::IDENTITY };
     let name = "elbow".to_owned();
     let joint = Joint { name, parent: 0, kind: turning, before, after: Pose::IDENTITY };

@@ -3,7 +3,7 @@
 use super::{JointKind, Link, Robot};
 use crate::math;
 use crate::scene::Pose;
-use crate::space::{Dof, Part, PartKind, Space, rigid_parts};
+use crate::space::{Dof, Factor, FactorKind, Space, rigid_factors};
 
 impl Robot {
     /// The configuration space. The base's reference point lies in the box `min`..`max`, and a radian
@@ -11,31 +11,31 @@ impl Robot {
     /// distance that the farthest point beyond it can have from its origin; a sliding joint counts by
     /// its length.
     pub fn space(&self, min: [f64; 3], max: [f64; 3], rotation_length: f64) -> Space {
-        let (mut parts, mut dofs) = rigid_parts(self.motion, min, max, rotation_length);
+        let (mut parts, mut dofs) = rigid_factors(self.motion, min, max, rotation_length);
         for (link, reach) in self.links.iter().zip(self.reaches()) {
             let Some(joint) = &link.joint else { continue };
             let (kind, weight, unit) = match joint.kind {
                 JointKind::Fixed => continue,
                 JointKind::Spherical => {
                     let weight = reach.of_joint;
-                    parts.push(Part { kind: PartKind::Rotation, at: dofs.len(), weight });
+                    parts.push(Factor { kind: FactorKind::Rotation, at: dofs.len(), weight });
                     for value in ["qw", "qx", "qy", "qz"] {
                         dofs.push(Dof { name: format!("{}-{value}", joint.name), unit: "1" });
                     }
                     continue;
                 }
                 JointKind::Revolute { limits: None, .. } => {
-                    (PartKind::Angle, reach.of_joint, "rad")
+                    (FactorKind::Angle, reach.of_joint, "rad")
                 }
                 JointKind::Revolute { limits: Some(limits), .. } => {
-                    let kind = PartKind::Real { min: limits.min, max: limits.max };
+                    let kind = FactorKind::Real { min: limits.min, max: limits.max };
                     (kind, reach.of_joint, "rad")
                 }
                 JointKind::Prismatic { limits, .. } => {
-                    (PartKind::Real { min: limits.min, max: limits.max }, 1.0, "length")
+                    (FactorKind::Real { min: limits.min, max: limits.max }, 1.0, "length")
                 }
             };
-            parts.push(Part { kind, at: dofs.len(), weight });
+            parts.push(Factor { kind, at: dofs.len(), weight });
             dofs.push(Dof { name: joint.name.clone(), unit });
         }
         Space::new(parts, dofs, self.motion.translations())

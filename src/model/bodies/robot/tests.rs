@@ -2,7 +2,7 @@ use super::rates_tests::drawn_robot;
 use super::*;
 use crate::scene::Shape;
 use crate::seed::{Purpose, Seed, Stream};
-use crate::space::PartKind;
+use crate::space::FactorKind;
 use proptest::prelude::*;
 
 fn pose(translation: [f64; 3]) -> Pose {
@@ -16,7 +16,7 @@ fn joint(parent: u32, kind: JointKind, before: [f64; 3]) -> Option<Joint> {
 
 /// A base with an arm that turns about z, a hand that slides along the arm's x, a fixed tool on the
 /// hand, and a second arm on the base that turns on and on about x.
-fn robot(motion: Motion) -> Robot {
+fn robot(motion: BaseJoint) -> Robot {
     let mut robot = Robot::rigid(motion, Vec::new());
     let limits = Limits { min: -1.0, max: 2.0 };
     let turning = JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits: Some(limits) };
@@ -39,7 +39,7 @@ fn close(a: [f64; 3], b: [f64; 3]) -> bool {
 
 #[test]
 fn links_stand_where_their_joints_put_them() {
-    let robot = robot(Motion::Rigid2d);
+    let robot = robot(BaseJoint::Rigid2d);
     let mut poses = Vec::new();
     let quarter = std::f64::consts::FRAC_PI_2;
     // The base at (10, 20), turned by 90°: its x is the world's y.
@@ -57,20 +57,20 @@ fn links_stand_where_their_joints_put_them() {
 
 #[test]
 fn the_space_has_the_bases_values_and_then_the_joints() {
-    let robot = robot(Motion::Rigid3d);
+    let robot = robot(BaseJoint::Rigid3d);
     let space = robot.space([-1.0; 3], [1.0; 3], 0.5);
     let names: Vec<_> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
     assert_eq!(names, ["x", "y", "z", "qw", "qx", "qy", "qz", "on 0", "on 1", "on 0"]);
-    let parts: Vec<_> = space.parts()[4..].iter().map(|part| (part.kind, part.weight)).collect();
-    let limited = PartKind::Real { min: -1.0, max: 2.0 };
+    let parts: Vec<_> = space.factors()[4..].iter().map(|part| (part.kind, part.weight)).collect();
+    let limited = FactorKind::Real { min: -1.0, max: 2.0 };
     // Beyond the arm's joint: 2 to the hand's, up to 2 along it, 0.5 to the tool.
-    assert_eq!(parts, [(limited, 4.5), (limited, 1.0), (PartKind::Angle, 0.0)]);
+    assert_eq!(parts, [(limited, 4.5), (limited, 1.0), (FactorKind::Angle, 0.0)]);
     assert_eq!(robot.reach(), 5.5);
 }
 
 #[test]
 fn neighbours_fixed_links_and_links_across_an_empty_one_may_touch() {
-    let mut robot = robot(Motion::Fixed);
+    let mut robot = robot(BaseJoint::Fixed);
     let body = crate::scene::Body {
         shape: crate::scene::Shape::Sphere { radius: 0.1 },
         pose: Pose::IDENTITY,
@@ -89,7 +89,7 @@ fn neighbours_fixed_links_and_links_across_an_empty_one_may_touch() {
 
 /// A tree of links of which most have a ball somewhere.
 fn with_balls(stream: &mut Stream, links: u32, near: u32) -> Robot {
-    let mut robot = drawn_robot(stream, Motion::Rigid3d, (links, near));
+    let mut robot = drawn_robot(stream, BaseJoint::Rigid3d, (links, near));
     for link in &mut robot.links {
         if stream.unit() < 0.7 {
             let translation = [0; 3].map(|_| stream.normal());
@@ -142,8 +142,8 @@ proptest! {
             Some(if slides { 1.0 } else { reach_of_joint(&robot, index, joint) })
         });
         let expected: Vec<u64> = joints.map(f64::to_bits).collect();
-        let base = space.parts().len() - expected.len();
-        let found = space.parts()[base..].iter().map(|part| part.weight.to_bits());
+        let base = space.factors().len() - expected.len();
+        let found = space.factors()[base..].iter().map(|part| part.weight.to_bits());
         prop_assert_eq!(found.collect::<Vec<_>>(), expected);
     }
 

@@ -10,7 +10,7 @@ use crate::lanes::Lanes;
 use crate::model::bodies::robot::{Hops, Rates, Robot, Speeds};
 use crate::model::{Clearance, Clearances, Cost, Model, Scratch, Validity};
 use crate::scene::Body;
-use crate::space::{Motion, Space};
+use crate::space::{BaseJoint, Space};
 use bincode::{Decode, Encode};
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::{Pose as ParryPose, Vector};
@@ -41,7 +41,7 @@ pub struct Bounds {
 /// What is promised of a motion that is found valid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
 #[serde(rename_all = "kebab-case")]
-pub enum Edges {
+pub enum MotionChecking {
     /// It is free at every time, with a small share of the resolution as tolerance.
     #[default]
     Swept,
@@ -52,7 +52,7 @@ pub enum Edges {
 /// Validity of a robot among obstacles that stand still.
 ///
 /// Bodies collide when their surfaces meet or when one lies wholly inside another that is solid.
-/// Links that are neighbours, or that [`Robot::may_touch`] names, may touch. [`Edges`] says what is promised of
+/// Links that are neighbours, or that [`Robot::may_touch`] names, may touch. [`MotionChecking`] says what is promised of
 /// motions; `docs/validity.md` describes the methods.
 pub struct BodyValidity {
     pub(super) space: Space,
@@ -62,7 +62,7 @@ pub struct BodyValidity {
     pub(super) hops: Hops,
     pub(super) bounds: Bounds,
     pub(super) resolution: f64,
-    pub(super) edges: Edges,
+    pub(super) edges: MotionChecking,
     /// A bound on the distance of the robot's points from the base's origin.
     pub(super) reach: f64,
     pub(super) links: Vec<Moving>,
@@ -100,7 +100,7 @@ impl BodyValidity {
         space: Space,
         robot: &Robot,
         bounds: Bounds,
-        (edges, resolution): (Edges, f64),
+        (edges, resolution): (MotionChecking, f64),
         obstacles: &[Body],
     ) -> BodyValidity {
         let links = robot.links.iter().enumerate().filter_map(|(link, bodies)| {
@@ -182,7 +182,7 @@ impl BodyValidity {
     /// suffices for most configurations.
     pub(super) fn ball_inside(&self, q: &[f64]) -> bool {
         let Bounds { min, max, .. } = &self.bounds;
-        let fixed = self.robot.motion == Motion::Fixed;
+        let fixed = self.robot.motion == BaseJoint::Fixed;
         let centre = if fixed { &self.robot.base.translation } else { q };
         (0..self.robot.motion.bounded_axes())
             .all(|i| centre[i] - self.reach >= min[i] && centre[i] + self.reach <= max[i])
@@ -194,7 +194,7 @@ impl BodyValidity {
     }
 
     /// Whether the robot is within the bounds however it is turned, so that no closer test of the bounds is needed.
-    pub(super) fn settled_by_ball(&self, q: &[f64]) -> bool {
+    pub(super) fn decided_by_ball(&self, q: &[f64]) -> bool {
         self.bounds.meaning == BoundsMeaning::Reference || self.ball_inside(q)
     }
 
@@ -202,7 +202,7 @@ impl BodyValidity {
         if !self.space.within_bounds(q) {
             return Validity::OutOfBounds;
         }
-        let bounded = self.settled_by_ball(q);
+        let bounded = self.decided_by_ball(q);
         if bounded && self.keeps_away(q, q, 0.0) {
             return Validity::Valid;
         }

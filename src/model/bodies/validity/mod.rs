@@ -18,7 +18,7 @@ mod tree;
 mod triangles;
 mod work;
 
-pub use bodies::{BodyValidity, Bounds, BoundsMeaning, Edges};
+pub use bodies::{BodyValidity, Bounds, BoundsMeaning, MotionChecking};
 pub use motion::TOLERANCE;
 pub use scratch::BodyScratch;
 pub use work::Work;

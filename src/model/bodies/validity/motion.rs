@@ -1,15 +1,15 @@
 //! Whether motions of a robot of rigid links are valid.
 
 use super::BodyScratch;
-use super::bodies::{BodyValidity, Edges};
+use super::bodies::{BodyValidity, MotionChecking};
 use super::swept::{Asks, Clock, Finds, find, stays_inside};
 use crate::model::Validity;
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use parry3d_f64::math::Vector;
 
-/// A motion that [`Edges::Swept`] refuses comes, at some time, nearer to something than the resolution divided by this.
+/// A motion that [`MotionChecking::Swept`] refuses comes, at some time, nearer to something than the resolution divided by this.
 pub const TOLERANCE: u64 = 2 * FINENESS;
-/// For [`Edges::Swept`] motions are cut into steps this many times finer than the resolution, and half a step is
+/// For [`MotionChecking::Swept`] motions are cut into steps this many times finer than the resolution, and half a step is
 /// the tolerance. A milestone nearer than the tolerance to an obstacle gets no edges and stays a component by itself,
 /// and such components crowd out those that could be joined: with 64, one milestone in 2500 among thin walls was such.
 /// The cost of finer steps grows with the logarithm of their number.
@@ -28,9 +28,9 @@ impl BodyValidity {
     ) -> bool {
         // The base's origin goes straight and the bounds are convex: where the ball around it is inside at both
         // ends, it is inside all along.
-        let bounded = self.settled_by_ball(a) && self.settled_by_ball(b);
+        let bounded = self.decided_by_ball(a) && self.decided_by_ball(b);
         let within = self.space.within_bounds(a) && self.space.within_bounds(b);
-        if self.edges == Edges::Swept && !within {
+        if self.edges == MotionChecking::Swept && !within {
             return false;
         }
         if within && bounded && self.keeps_away(a, b, self.resolution / f64::from(refinement)) {
@@ -38,14 +38,14 @@ impl BodyValidity {
         }
         let steps = self.steps(a, b, refinement);
         match self.edges {
-            Edges::Swept => {
+            MotionChecking::Swept => {
                 let samples = steps.saturating_mul(FINENESS).min(SAMPLES_MAX);
                 self.sweep((a, b), samples, bounded, Asks::AllTimes, scratch) == Some(Finds::Free)
             }
             // Where no body has an inside, it is enough that no surfaces meet at the steps. Else a body could be
             // enclosed at a step, which is excluded if the surfaces meet at no time at all; where that cannot be
             // proved, the steps are checked one by one.
-            Edges::Sampled => {
+            MotionChecking::Sampled => {
                 let asks = if self.solid { Asks::AllTimes } else { Asks::Samples };
                 let exact = within && steps <= SAMPLES_MAX;
                 match exact.then(|| self.sweep((a, b), steps, bounded, asks, scratch)).flatten() {
@@ -61,7 +61,7 @@ impl BodyValidity {
     /// farther than `room` from the box around all obstacles, and no two links could collide. In open space it
     /// settles most questions.
     pub(super) fn keeps_away(&self, a: &[f64], b: &[f64], room: f64) -> bool {
-        if !self.self_pairs.is_empty() || self.robot.motion == Motion::Fixed {
+        if !self.self_pairs.is_empty() || self.robot.motion == BaseJoint::Fixed {
             return false;
         }
         let Some(obstacles) = &self.obstacles else { return true };

@@ -3,7 +3,7 @@ use crate::model::bodies::robot::{Joint, JointKind, Limits, Link, Robot};
 use crate::model::{Asked, Model, Scratch};
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::seed::{Purpose, Seed};
-use crate::space::{Motion, Space, rigid_space};
+use crate::space::{BaseJoint, Space, rigid_space};
 use proptest::prelude::*;
 
 pub(super) fn solid(shape: Shape, translation: [f64; 3]) -> Body {
@@ -30,7 +30,7 @@ pub(super) fn cuboid_mesh(size: [f64; 3], translation: [f64; 3], solid: bool) ->
 }
 
 fn validity(
-    motion: Motion,
+    motion: BaseJoint,
     meaning: BoundsMeaning,
     robot: &[Body],
     obstacles: &[Body],
@@ -41,7 +41,7 @@ fn validity(
         space.clone(),
         &Robot::rigid(motion, robot.to_vec()),
         bounds,
-        (Edges::Swept, 0.05),
+        (MotionChecking::Swept, 0.05),
         obstacles,
     );
     (space, validity)
@@ -68,7 +68,7 @@ proptest! {
         for robot in [cuboid(robot_size, [0.0; 3]), cuboid_mesh(robot_size, [0.0; 3], true)] {
             for obstacle in [cuboid(obstacle_size, [0.0; 3]), cuboid_mesh(obstacle_size, [0.0; 3], true)] {
                 let (_, validity) = validity(
-                    Motion::Translation3d, BoundsMeaning::Reference, std::slice::from_ref(&robot), &[obstacle],
+                    BaseJoint::Translation3d, BoundsMeaning::Reference, std::slice::from_ref(&robot), &[obstacle],
                 );
                 prop_assert_eq!(valid(&validity, &[x, y, z]), gap > 0.0);
             }
@@ -85,7 +85,7 @@ proptest! {
             cuboid_mesh([1.0, 1.0, 4.0], [0.0, 2.0, 0.0], true),
             solid(Shape::Cylinder { radius: 0.7, height: 3.0 }, [0.0, -2.0, 0.0]),
         ];
-        let (space, validity) = validity(Motion::Rigid3d, BoundsMeaning::Body, &robot, &obstacles);
+        let (space, validity) = validity(BaseJoint::Rigid3d, BoundsMeaning::Body, &robot, &obstacles);
         let mut stream = Seed::of_set(5, "verdicts", ordinal).stream(Purpose::Sampling);
         let (mut warm, mut poisoned) = (Scratch::new(), Scratch::new());
         let (mut a, mut b) = (vec![0.0; 7], vec![0.0; 7]);
@@ -107,8 +107,8 @@ proptest! {
     #[test]
     fn body_bounds_hold_every_vertex(ordinal in any::<u64>()) {
         let bodies = [cuboid([3.0, 1.0, 0.5], [0.7, 0.0, 0.0]), cuboid_mesh([3.0, 1.0, 0.5], [0.7, 0.0, 0.0], true)];
-        let (space, boxed) = validity(Motion::Rigid3d, BoundsMeaning::Body, &bodies[..1], &[]);
-        let (_, meshed) = validity(Motion::Rigid3d, BoundsMeaning::Body, &bodies[1..], &[]);
+        let (space, boxed) = validity(BaseJoint::Rigid3d, BoundsMeaning::Body, &bodies[..1], &[]);
+        let (_, meshed) = validity(BaseJoint::Rigid3d, BoundsMeaning::Body, &bodies[1..], &[]);
         let mut stream = Seed::of_set(5, "bounds", ordinal).stream(Purpose::Sampling);
         let mut q = vec![0.0; 7];
         for _ in 0..40 {
@@ -141,7 +141,7 @@ fn every_primitive_stands_along_its_axis() {
     ] {
         let obstacle = [solid(shape.clone(), [0.0; 3])];
         let (_, validity) =
-            validity(Motion::Translation3d, BoundsMeaning::Reference, &probe, &obstacle);
+            validity(BaseJoint::Translation3d, BoundsMeaning::Reference, &probe, &obstacle);
         assert!(!valid(&validity, &inside), "{shape:?}");
         assert!(valid(&validity, &outside), "{shape:?}");
         assert!(shape.extent([0.0, 0.0, 1.0]) >= inside[2]);
@@ -155,7 +155,7 @@ fn the_inside_of_a_surface_is_free_and_that_of_a_solid_is_not() {
         let robot = [solid(shape, [0.0; 3])];
         let obstacle = [cuboid_mesh([2.0; 3], [0.0; 3], is_solid)];
         let (_, validity) =
-            validity(Motion::Translation3d, BoundsMeaning::Reference, &robot, &obstacle);
+            validity(BaseJoint::Translation3d, BoundsMeaning::Reference, &robot, &obstacle);
         assert_eq!(valid(&validity, &[0.0, 0.1, 0.0]), !is_solid);
         assert!(valid(&validity, &[0.0, 2.1, 0.0]));
     }
@@ -165,7 +165,7 @@ fn the_inside_of_a_surface_is_free_and_that_of_a_solid_is_not() {
 fn a_motion_through_a_thin_wall_is_seen_at_the_resolution() {
     let robot = [cuboid([0.2; 3], [0.0; 3])];
     let wall = [cuboid([0.01, 20.0, 20.0], [0.0; 3])];
-    let (_, validity) = validity(Motion::Rigid2d, BoundsMeaning::Reference, &robot, &wall);
+    let (_, validity) = validity(BaseJoint::Rigid2d, BoundsMeaning::Reference, &robot, &wall);
     let mut scratch = Scratch::new();
     let (left, right) = ([-2.0, 0.0, 0.0], [2.0, 1.0, 3.0]);
     assert!(!validity.motion(&left, &right, 1, &mut scratch).is_some());
@@ -177,7 +177,7 @@ fn a_motion_through_a_thin_wall_is_seen_at_the_resolution() {
 fn steps_keep_the_promise_of_the_resolution() {
     // A long robot that turns: between two checks its far end moves no farther than 0.05.
     let robot = [cuboid([4.0, 0.1, 0.1], [0.0; 3])];
-    let (space, validity) = validity(Motion::Rigid3d, BoundsMeaning::Reference, &robot, &[]);
+    let (space, validity) = validity(BaseJoint::Rigid3d, BoundsMeaning::Reference, &robot, &[]);
     let mut stream = Seed::of_set(5, "steps", 0).stream(Purpose::Sampling);
     let (mut a, mut b, mut q) = (vec![0.0; 7], vec![0.0; 7], vec![0.0; 7]);
     for _ in 0..50 {
@@ -199,7 +199,7 @@ fn steps_keep_the_promise_of_the_resolution() {
 }
 
 /// A chain in the plane: links of length 1 along x, each turning about z at its near end.
-pub(super) fn chain(links: usize, motion: Motion) -> Robot {
+pub(super) fn chain(links: usize, motion: BaseJoint) -> Robot {
     let rod = || cuboid([0.9, 0.1, 0.1], [0.5, 0.0, 0.0]);
     let mut robot = Robot::rigid(motion, vec![rod()]);
     for i in 1..links {
@@ -222,19 +222,20 @@ pub(super) fn chain(links: usize, motion: Motion) -> Robot {
 #[test]
 fn links_that_are_not_neighbours_must_not_touch_unless_they_may() {
     let bounds = Bounds { min: [-9.0; 3], max: [9.0; 3], meaning: BoundsMeaning::Body };
-    let mut robot = chain(4, Motion::Fixed);
+    let mut robot = chain(4, BaseJoint::Fixed);
     assert_eq!(robot.self_pairs().collect::<Vec<_>>(), [(0, 2), (0, 3), (1, 3)]);
     // Turns of 2π/3 close a triangle: the fourth link comes to lie on the first.
     let turn = 2.0 * std::f64::consts::FRAC_PI_3;
     let straight = [0.0, 0.0, 0.0];
     let closed = [turn, turn, turn];
     let space = robot.space(bounds.min, bounds.max, 1.0);
-    let validity = BodyValidity::new(space.clone(), &robot, bounds, (Edges::Swept, 0.05), &[]);
+    let validity =
+        BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.05), &[]);
     assert!(valid(&validity, &straight));
     assert!(!valid(&validity, &closed));
     assert!(!validity.motion(&straight, &[2.9, 2.9, 2.9], 1, &mut Scratch::new()).is_some());
     robot.may_touch = vec![(0, 2), (0, 3), (1, 3)];
-    let validity = BodyValidity::new(space, &robot, bounds, (Edges::Swept, 0.05), &[]);
+    let validity = BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.05), &[]);
     assert!(valid(&validity, &closed));
 }
 
@@ -242,11 +243,11 @@ fn links_that_are_not_neighbours_must_not_touch_unless_they_may() {
 #[test]
 fn a_long_chain_stores_one_entry_per_joint_and_two_numbers_per_pair() {
     let links = 1000;
-    let robot = chain(links, Motion::Fixed);
+    let robot = chain(links, BaseJoint::Fixed);
     let far = 2.0 * links as f64;
     let bounds = Bounds { min: [-far; 3], max: [far; 3], meaning: BoundsMeaning::Body };
     let space = robot.space(bounds.min, bounds.max, 1.0);
-    let validity = BodyValidity::new(space, &robot, bounds, (Edges::Swept, 0.05), &[]);
+    let validity = BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.05), &[]);
     assert_eq!(validity.hops.len(), links - 1);
     assert_eq!(validity.links.len(), links);
     assert_eq!(validity.self_pairs.len(), (links - 1) * (links - 2) / 2);
@@ -260,11 +261,12 @@ fn a_long_chain_stores_one_entry_per_joint_and_two_numbers_per_pair() {
 
 #[test]
 fn a_linkage_collides_with_obstacles_and_leaves_the_bounds_by_any_link() {
-    let robot = chain(3, Motion::Fixed);
+    let robot = chain(3, BaseJoint::Fixed);
     let bounds = Bounds { min: [-4.0, -1.5, -1.0], max: [4.0; 3], meaning: BoundsMeaning::Body };
     let space = robot.space(bounds.min, bounds.max, 1.0);
     let obstacle = [cuboid([0.5; 3], [2.5, 0.0, 0.0])];
-    let validity = BodyValidity::new(space, &robot, bounds, (Edges::Swept, 0.05), &obstacle);
+    let validity =
+        BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.05), &obstacle);
     assert!(!valid(&validity, &[0.0, 0.0]), "the last link lies in the obstacle");
     assert!(valid(&validity, &[0.0, 1.5]));
     assert!(valid(&validity, &[1.0, 0.0]));
@@ -277,11 +279,11 @@ proptest! {
     /// resolution between two checks.
     #[test]
     fn steps_of_linkages_keep_the_promise_of_the_resolution(ordinal in any::<u64>()) {
-        for motion in [Motion::Fixed, Motion::Rigid2d, Motion::Rigid3d] {
+        for motion in [BaseJoint::Fixed, BaseJoint::Rigid2d, BaseJoint::Rigid3d] {
             let robot = chain(4, motion);
             let bounds = Bounds { min: [-9.0; 3], max: [9.0; 3], meaning: BoundsMeaning::Reference };
             let space = robot.space(bounds.min, bounds.max, 1.0);
-            let validity = BodyValidity::new(space.clone(), &robot, bounds, (Edges::Swept, 0.3), &[]);
+            let validity = BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.3), &[]);
             let mut stream = Seed::of_set(5, "linkage steps", ordinal).stream(Purpose::Sampling);
             let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);
             let mut q = a.clone();

@@ -5,14 +5,14 @@ use super::frame::{Frame, Stance};
 use super::light::grain;
 use super::meet::{Group, Meeting};
 use super::tests::{cuboid, cuboid_mesh, solid};
-use super::{BodyValidity, Bounds, BoundsMeaning, Edges};
+use super::{BodyValidity, Bounds, BoundsMeaning, MotionChecking};
 use crate::lanes::Lanes;
 use crate::model::bodies::robot::rates_tests::drawn_pose;
 use crate::model::bodies::robot::{Link, Robot};
 use crate::model::{Clearances, Scratch};
 use crate::scene::{Body, Mesh, Shape};
 use crate::seed::{Purpose, Seed, Stream};
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use proptest::prelude::*;
 
 /// Triangles of all sizes, some of them in one plane, some the same.
@@ -111,11 +111,11 @@ proptest! {
             cuboid_mesh([0.8, 0.1, 0.1], [0.0; 3], true),
             solid(Shape::Capsule { radius: 0.1, height: 0.5 }, [0.3, 0.0, 0.0]),
         ];
-        let robot = Robot::rigid(Motion::Rigid3d, robot.to_vec());
+        let robot = Robot::rigid(BaseJoint::Rigid3d, robot.to_vec());
         let bounds = Bounds { min: [-5.0; 3], max: [5.0; 3], meaning: BoundsMeaning::Reference };
         let space = robot.space(bounds.min, bounds.max, 1.0);
         let validity =
-            BodyValidity::new(space.clone(), &robot, bounds, (Edges::Swept, 0.1), &obstacles);
+            BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.1), &obstacles);
         let still = Group::new(obstacles.iter()).unwrap();
         let mover = Group::new(robot.bodies()).unwrap();
         let meeting =
@@ -158,11 +158,11 @@ fn distances_are_what_they_are() {
         bodies: vec![solid(Shape::Sphere { radius: 0.25 }, [0.0; 3])],
         joint: None,
     };
-    let robot = Robot::rigid(Motion::Translation3d, ball.bodies);
+    let robot = Robot::rigid(BaseJoint::Translation3d, ball.bodies);
     let bounds = Bounds { min: [-5.0; 3], max: [5.0; 3], meaning: BoundsMeaning::Reference };
     let space = robot.space(bounds.min, bounds.max, 1.0);
     let validity =
-        BodyValidity::new(space.clone(), &robot, bounds, (Edges::Swept, 0.1), &obstacles);
+        BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.1), &obstacles);
     let clearance = |q: [f64; 3]| validity.clearance(&q, &mut Scratch::new()).unwrap();
     let beside = clearance([0.0, 1.0, 0.2]);
     assert_eq!((beside.distance, beside.obstacle), (0.25, 0));
@@ -171,6 +171,6 @@ fn distances_are_what_they_are() {
     let above = clearance([3.3, 0.0, 1.0]);
     assert!((above.distance - 0.25).abs() < 1e-9 && above.obstacle == 1, "{above:?}");
     assert_eq!(clearance([3.0, 0.4, 0.0]).distance, 0.0);
-    let validity = BodyValidity::new(space, &robot, bounds, (Edges::Swept, 0.1), &[]);
+    let validity = BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.1), &[]);
     assert_eq!(validity.clearance(&[0.0; 3], &mut Scratch::new()), None);
 }

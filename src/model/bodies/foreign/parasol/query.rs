@@ -6,7 +6,7 @@ use super::words::number;
 use crate::math;
 use crate::model::bodies::foreign::frames::euler;
 use crate::model::bodies::foreign::{Base, ForeignError};
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -72,8 +72,8 @@ fn configuration(words: &[&str], robot: &Robot) -> Result<Vec<f64>, String> {
     let (own, joints) = values.split_at(base);
     let mut q = own.to_vec();
     match motion {
-        Some(Motion::Rigid2d) => q[2] = math::wrap_angle(own[2] * PI),
-        Some(Motion::Rigid3d) => {
+        Some(BaseJoint::Rigid2d) => q[2] = math::wrap_angle(own[2] * PI),
+        Some(BaseJoint::Rigid3d) => {
             q.truncate(3);
             q.extend(euler([own[3], own[4], own[5]]));
         }

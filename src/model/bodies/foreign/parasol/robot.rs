@@ -12,7 +12,7 @@ use crate::model::bodies::foreign::{
 };
 use crate::model::bodies::robot::{LINKS_MAX, TURN_MAX};
 use crate::scene::Pose;
-use crate::space::Motion;
+use crate::space::BaseJoint;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
@@ -120,10 +120,10 @@ fn body(
             let movement = words.next("`Rotational` or `Translational`")?;
             let planar = kind == "planar";
             Some(Base::Moving(match movement.to_ascii_lowercase().as_str() {
-                "translational" if planar => Motion::Translation2d,
-                "translational" => Motion::Translation3d,
-                "rotational" if planar => Motion::Rigid2d,
-                "rotational" => Motion::Rigid3d,
+                "translational" if planar => BaseJoint::Translation2d,
+                "translational" => BaseJoint::Translation3d,
+                "rotational" if planar => BaseJoint::Rigid2d,
+                "rotational" => BaseJoint::Rigid3d,
                 _ => {
                     let expected = "`Rotational` or `Translational` expected";
                     return Err(words.error(format!("`{movement}` found; {expected}")));

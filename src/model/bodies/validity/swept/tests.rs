@@ -2,14 +2,14 @@
 
 use super::super::meet::Group;
 use super::super::tests::{chain, cuboid, cuboid_mesh, solid};
-use super::super::{BodyScratch, BodyValidity, Bounds, BoundsMeaning, Edges, TOLERANCE};
+use super::super::{BodyScratch, BodyValidity, Bounds, BoundsMeaning, MotionChecking, TOLERANCE};
 use super::{Clock, Walls};
 use crate::lanes::Lanes;
 use crate::model::bodies::robot::{Joint, JointKind, Limits, Link, Rates, Robot};
 use crate::model::{Clearances, Model, Scratch};
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::seed::{Purpose, Seed, Stream};
-use crate::space::{Motion, Space};
+use crate::space::{BaseJoint, Space};
 use proptest::prelude::*;
 
 struct Scene {
@@ -28,7 +28,7 @@ const FINER: u64 = 16;
 fn scene(name: &'static str, robot: &Robot, obstacles: &[Body], meaning: BoundsMeaning) -> Scene {
     let bounds = Bounds { min: [-3.0; 3], max: [3.0; 3], meaning };
     let space = robot.space(bounds.min, bounds.max, 1.0);
-    let [swept, sampled] = [Edges::Swept, Edges::Sampled].map(|edges| {
+    let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled].map(|edges| {
         BodyValidity::new(space.clone(), robot, bounds, (edges, RESOLUTION), obstacles)
     });
     let reversed: Vec<Body> = obstacles
@@ -43,7 +43,7 @@ fn scene(name: &'static str, robot: &Robot, obstacles: &[Body], meaning: BoundsM
             _ => body.clone(),
         })
         .collect();
-    let promise = (Edges::Swept, RESOLUTION);
+    let promise = (MotionChecking::Swept, RESOLUTION);
     let reversed = BodyValidity::new(space.clone(), robot, bounds, promise, &reversed);
     Scene { name, space, swept, sampled, reversed }
 }
@@ -54,7 +54,7 @@ fn turned(body: Body, rotation: [f64; 4]) -> Body {
 }
 
 /// An arm with a slide and a tool, on a base that moves as told.
-fn arm(motion: Motion) -> Robot {
+fn arm(motion: BaseJoint) -> Robot {
     let mut robot = chain(3, motion);
     let limits = Limits { min: 0.0, max: 0.8 };
     robot.links.push(Link {
@@ -106,15 +106,20 @@ fn scenes() -> Vec<Scene> {
     let dot = [solid(Shape::Point, [0.0; 3])];
     use BoundsMeaning::{Body as All, Reference};
     vec![
-        scene("rigid-3d", &Robot::rigid(Motion::Rigid3d, ell.to_vec()), &mixed, All),
-        scene("rigid-2d", &Robot::rigid(Motion::Rigid2d, ell.to_vec()), &mixed, All),
-        scene("meshes", &Robot::rigid(Motion::Rigid3d, ell[..1].to_vec()), &mixed[2..3], Reference),
-        scene("ball", &Robot::rigid(Motion::Translation3d, ball.to_vec()), &mixed, All),
-        scene("point", &Robot::rigid(Motion::Translation2d, dot.to_vec()), &mixed, Reference),
-        scene("fixed chain", &chain(4, Motion::Fixed), &mixed[..3], All),
-        scene("fixed arm", &arm(Motion::Fixed), &mixed, All),
-        scene("flying arm", &arm(Motion::Rigid3d), &mixed[1..], Reference),
-        scene("planar arm", &arm(Motion::Rigid2d), &mixed[3..], Reference),
+        scene("rigid-3d", &Robot::rigid(BaseJoint::Rigid3d, ell.to_vec()), &mixed, All),
+        scene("rigid-2d", &Robot::rigid(BaseJoint::Rigid2d, ell.to_vec()), &mixed, All),
+        scene(
+            "meshes",
+            &Robot::rigid(BaseJoint::Rigid3d, ell[..1].to_vec()),
+            &mixed[2..3],
+            Reference,
+        ),
+        scene("ball", &Robot::rigid(BaseJoint::Translation3d, ball.to_vec()), &mixed, All),
+        scene("point", &Robot::rigid(BaseJoint::Translation2d, dot.to_vec()), &mixed, Reference),
+        scene("fixed chain", &chain(4, BaseJoint::Fixed), &mixed[..3], All),
+        scene("fixed arm", &arm(BaseJoint::Fixed), &mixed, All),
+        scene("flying arm", &arm(BaseJoint::Rigid3d), &mixed[1..], Reference),
+        scene("planar arm", &arm(BaseJoint::Rigid2d), &mixed[3..], Reference),
     ]
 }
 
@@ -273,7 +278,7 @@ proptest! {
 /// A wall thinner than anything, and a robot that jumps over it from one step to the next.
 #[test]
 fn nothing_slips_between_two_steps() {
-    let robot = Robot::rigid(Motion::Rigid3d, vec![cuboid([0.01, 0.02, 0.01], [0.0; 3])]);
+    let robot = Robot::rigid(BaseJoint::Rigid3d, vec![cuboid([0.01, 0.02, 0.01], [0.0; 3])]);
     let wall = [cuboid_mesh([0.001, 7.0, 7.0], [0.0; 3], true)];
     let scene = scene("thin", &robot, &wall, BoundsMeaning::Body);
     let scratch = &mut Scratch::new();
