@@ -1,6 +1,7 @@
 //! Formats that other programs read, and pictures of roadmaps.
 
 mod animation;
+mod contours;
 mod csv;
 mod drawing;
 mod format;
