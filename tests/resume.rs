@@ -12,7 +12,8 @@ use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
 
-const PROBLEMS: [&str; 6] = ["judged", "settled", "meshes", "slide", "adaptive", "axis"];
+const PROBLEMS: [&str; 8] =
+    ["judged", "settled", "meshes", "slide", "adaptive", "axis", "landscape", "expansion"];
 
 fn load(name: &str) -> Problem {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems");

@@ -273,6 +273,11 @@ fn the_same_ledger_for_evaluators_and_a_schedule_that_adapts() {
         .for_each(|name| any_crew_builds_what_threads_build(name));
 }
 
+#[test]
+fn the_same_ledger_for_energies_and_sets_that_grow() {
+    ["landscape", "expansion"].iter().for_each(|name| any_crew_builds_what_threads_build(name));
+}
+
 fn endless() -> Problem {
     Problem::parse(Path::new("endless.toml"), ENDLESS).unwrap_or_else(|error| panic!("{error}"))
 }

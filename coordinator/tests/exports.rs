@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 use support::{ENDLESS, Scratch};
 
-const FORMATS: [&str; 5] = ["graphml", "csv", "npz", "map", "svg"];
+const FORMATS: [&str; 6] = ["graphml", "csv", "npz", "map", "svg", "vtk"];
 
 /// A file of the repository.
 fn repository(name: &str) -> String {
@@ -146,7 +146,7 @@ fn formats_that_are_not_there_are_refused() {
     let scratch = Scratch::new();
     let done = scratch.run(&["export", "run", "--format", "hologram", "--out", "out"]);
     done.assert_code(2);
-    done.assert_stderr(&["hologram", "graphml, csv, npz, map, svg"]);
+    done.assert_stderr(&["hologram", "graphml, csv, npz, map, svg, vtk"]);
     assert!(!scratch.path("out").exists());
 }
 

@@ -229,6 +229,16 @@ fn same_bits_for_every_sampler() {
 }
 
 #[test]
+fn same_bits_for_a_point_in_an_energy() {
+    processes_build_what_threads_build("landscape");
+}
+
+#[test]
+fn same_bits_for_sets_that_grow_from_the_roadmap() {
+    processes_build_what_threads_build("expansion");
+}
+
+#[test]
 fn same_bits_for_a_turning_body_and_a_mesh() {
     same_bits_however_built(&RIGID_3D);
 }

@@ -184,9 +184,20 @@ fn wrong_settings_are_named() {
             "samples.listed[1]: [6.1, 1.0] found",
         ),
         ("{ coverage = { sample = { random = 5 } } }", "unknown field `sample`"),
+        ("{ lowest-barrier = { energy = 5 } }", "a model with energies expected"),
+        ("{ lowest-barrier = { energy = inf } }", "energy = inf found"),
     ] {
         let text = format!("evaluators = [{evaluator}]\n{ROOMS}");
         let error = Problem::parse(Path::new("rooms.toml"), &text).unwrap_err().to_string();
         assert!(error.starts_with("rooms.toml:1: ") && error.contains(expected), "{error}");
     }
+}
+
+#[test]
+fn problems_of_models_with_energies_may_ask_for_a_lowest_barrier() {
+    let text = "evaluators = [{ all = [{ lowest-barrier = { energy = -40.6 } }] }]\n\
+                [landscape]\nmin = [-1.5, -0.5]\nmax = [1.2, 2.0]\nenergy = { muller-brown = {} }\n\
+                [query]\nstart = [-0.558, 1.442]\ngoal = [0.623, 0.028]\n";
+    let problem = Problem::parse(Path::new("p.toml"), text);
+    assert!(matches!(problem.map(|problem| problem.evaluators.len()), Ok(1)));
 }

@@ -1,6 +1,7 @@
 //! Formats that other programs read, and pictures of roadmaps.
 
 mod animation;
+mod contours;
 mod csv;
 mod drawing;
 mod format;
@@ -17,6 +18,7 @@ mod tessellate;
 mod union;
 mod vector;
 mod view;
+mod vtk;
 
 pub use animation::animation;
 pub use csv::{edges_csv, nodes_csv};
@@ -31,7 +33,7 @@ use crate::local::Planner;
 
 /// The formats of roadmaps.
 pub const FORMATS: &[&dyn RoadmapFormat] =
-    &[&graphml::Graphml, &csv::Csv, &npz::Npz, &parasol::Map, &svg::Svg];
+    &[&graphml::Graphml, &csv::Csv, &npz::Npz, &parasol::Map, &svg::Svg, &vtk::Vtk];
 
 /// The name of the local planner that a tag stands for.
 fn planner_name(tag: u8) -> String {

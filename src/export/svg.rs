@@ -8,7 +8,6 @@ use crate::query;
 use crate::roadmap::Roadmap;
 use crate::scene::Pose;
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
 /// See [`svg`].
 pub(super) struct Svg;
@@ -33,7 +32,7 @@ impl RoadmapFormat for Svg {
 
 /// Height of the line of text below the scene, in pixels.
 const CAPTION_PX: f64 = 30.0;
-const FONT: &str = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
+pub(super) const FONT: &str = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
 /// The most nodes and edges that are drawn.
 const NODES_MAX: usize = 2500;
 const EDGES_MAX: usize = 6000;
@@ -51,7 +50,7 @@ const OTHERS: [&str; 8] =
 /// first and then the earliest, and of the edges between them the first 6000; the caption counts
 /// all. Along the path the robot is drawn at 18 poses, evenly by length in the metric, and in 3D
 /// what is nearer to the eye covers what it hides. Meshes of more than 4000 triangles are drawn as
-/// their convex outline.
+/// their convex outline. An energy over the plane is shown by contour lines.
 ///
 /// `None` where the problem's model cannot be drawn.
 pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> Option<String> {
@@ -61,6 +60,7 @@ pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> 
     let mut drawing = Drawing { problem, figure, view, planar, out: String::new() };
     drawing.head();
     drawing.floor();
+    drawing.contours(roadmap);
     if planar {
         drawing.obstacles();
         drawing.roadmap(roadmap);
@@ -257,8 +257,9 @@ impl Drawing<'_> {
         ]
         .join(" · ");
         if let Some(path) = path {
-            write!(text, " · path of length {:.2}", path.length)
-                .expect("writing to memory cannot fail");
+            let directed = roadmap.edges().is_directed();
+            let length = if directed { "path with climbs of" } else { "path of length" };
+            text += &format!(" · {length} {:.2}", path.length);
         }
         let name = escaped(&self.problem.name);
         let (x, y) = (decimal(MARGIN_PX), decimal(self.view.size_px[1] + 8.0));
@@ -270,7 +271,7 @@ impl Drawing<'_> {
 }
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above `length`.
-fn round_length(length: f64) -> f64 {
+pub(super) fn round_length(length: f64) -> f64 {
     let mut unit = 1.0;
     while unit > length {
         unit /= 10.0;

@@ -115,3 +115,26 @@ fn an_empty_roadmap_of_a_point_is_drawn_too() {
     let empty = crate::roadmap::Roadmap::new(&problem.space());
     assert_well_formed(&svg(&named, &empty, None).expect("bodies can be drawn"));
 }
+
+/// Contours lie at multiples of ten up to the highest energy of a milestone, below the roadmap and the path.
+#[test]
+fn an_energy_is_drawn_by_its_contours_and_the_way_of_the_lowest_barrier() {
+    let text =
+        include_str!("../../problems/muller-brown.toml").replace("nodes = 5000", "nodes = 500");
+    let (setup, build) = built("muller-brown.toml", &text);
+    let path = path_of(&build).expect("a lowest barrier is found");
+    let picture = svg(&setup.problem, &build.roadmap, Some(path)).expect("it can be drawn");
+    assert_well_formed(&picture);
+    for (class, expected) in [("contour", 14), ("component", 1), ("way", 1), ("start", 1)] {
+        assert_eq!(count(&picture, class), expected, "{class}");
+    }
+    assert!(picture.contains(">contours every 10, from -140 to -10<"));
+    assert!(picture.contains(&format!("path with climbs of {:.2}", path.length)));
+    let place = |class: &str| picture.find(&format!("class=\"{class}\"")).expect("it is drawn");
+    assert!(place("grid") < place("contour") && place("frame") < place("component"));
+    // Without milestones contours go up to the middle one of all energies.
+    let empty = crate::roadmap::Roadmap::new(&setup.problem.space());
+    let picture = svg(&setup.problem, &empty, None).expect("it can be drawn");
+    assert_well_formed(&picture);
+    assert!(count(&picture, "contour") > 5);
+}

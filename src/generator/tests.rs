@@ -21,7 +21,8 @@ fn scene(x: f64) -> String {
 }
 
 fn parse(text: &str, runs: &dyn Runs) -> Problem {
-    let file = tempfile::NamedTempFile::with_suffix(".toml").expect("a file can be made");
+    let file = tempfile::Builder::new().prefix("scene").suffix(".toml").tempfile();
+    let file = file.expect("a file can be made");
     std::fs::write(file.path(), text).expect("it can be written");
     Problem::load_with(file.path(), &Default::default(), runs).unwrap_or_else(|e| panic!("{e}"))
 }

@@ -442,7 +442,10 @@ impl Core {
     /// whose strategy depends on rounds to come.
     fn generate(&mut self, commands: &mut Vec<Command>) {
         let current = self.current();
-        while let Some(place) = self.waiting.pop_front_if(|place| current.contains(place)) {
+        while let Some(place) =
+            self.waiting.front().copied().filter(|place| current.contains(place))
+        {
+            self.waiting.pop_front();
             self.submit_set(place, commands);
         }
         let end = (self.current().end + self.lookahead).min(self.plan.known_until());

@@ -2,7 +2,7 @@
 
 use super::{Event, Executor, Finished, InProcess, Job, Loss, Replica, Round, Setup, Task};
 use crate::model::Scratch;
-use crate::roadmap::{Digest, Increment, Roadmap, Tally};
+use crate::roadmap::{Digest, Full, Increment, Roadmap, Tally};
 use crate::seed::{Purpose, Seed, Stream};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -99,7 +99,7 @@ impl<'a> Simulated<'a> {
 
 impl Executor for Simulated<'_> {
     fn publish(&mut self, increment: &Arc<Increment>) {
-        self.published.push(Digest::of(&crate::wire::encode(&**increment)));
+        self.published.push(Digest::of(&crate::wire::encode(&Full(&**increment))));
         self.replica.publish(&self.setup, increment.clone());
     }
 

@@ -62,8 +62,8 @@ impl Scratch {
     /// The memory of a model. That of another model, which may have used this scratch before, is dropped.
     #[inline]
     pub fn of_model<M: ModelScratch + Default>(&mut self) -> &mut M {
-        let is_ours = |model: &Box<dyn ModelScratch>| (&**model as &dyn Any).is::<M>();
-        if !self.model.as_ref().is_some_and(is_ours) {
+        let is_ours = |model: &dyn ModelScratch| (model as &dyn Any).is::<M>();
+        if !self.model.as_deref().is_some_and(is_ours) {
             self.model = Some(Box::<M>::default());
         }
         let model: &mut dyn Any = &mut **self.model.as_mut().expect("set above");

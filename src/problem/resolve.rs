@@ -79,13 +79,14 @@ fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {
 
 /// Checks what needs the whole problem: configurations.
 fn accepted(source: &Source, file: &File, mut problem: Problem) -> Result<Problem, ProblemError> {
-    let cx = problem.context();
+    let mut cx = problem.context();
     if let Some(query) = &file.query {
         let (mut start, mut goal) = (query.start.clone(), query.goal.clone());
         for (key, q) in [("start", &mut start), ("goal", &mut goal)] {
             cx.accept(q).map_err(|message| source.error(&[Key("query"), Key(key)], message))?;
         }
         problem.query = Some(Ends { start, goal });
+        cx.query.clone_from(&problem.query);
     }
     for (index, strategy) in problem.strategies.iter().enumerate() {
         let given = file.strategies.get(index).is_some_and(|table| table.generator.is_some());

@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn in_a_landscape_shorter_means_less_climbing_and_no_higher_pass() {
-        let text = "[landscape]\nmin = [-1.5, -0.5]\nmax = [1.2, 2]\nenergy = \"muller-brown\"\n\
+        let text = "[landscape]\nmin = [-1.5, -0.5]\nmax = [1.2, 2]\nenergy = { muller-brown = {} }\n\
             highest = 100\ntolerance = 0.1\n[query]\nstart = [-0.558, 1.442]\ngoal = [0.623, 0.028]\n\
             [[strategies]]\nlabel = \"u\"\nnodes = 100\nsampler = { uniform = {} }\n";
         let (setup, path) = solved("landscape.toml", text);
