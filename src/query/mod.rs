@@ -76,6 +76,36 @@ pub fn solve(
     search.answer(shortest, scratch)
 }
 
+/// Why a configuration cannot be the end of a query.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{end}: {reason}")]
+pub struct EndError {
+    /// Which end: `start` or `goal`.
+    pub end: &'static str,
+    /// What is wrong with the configuration.
+    pub reason: String,
+}
+
+/// [`solve`] for configurations that come from outside: both are brought into stored form and checked first.
+///
+/// # Errors
+/// When one of them is no valid configuration.
+pub fn ask(
+    cx: &Context,
+    roadmap: &Roadmap,
+    (start, goal): (&[f64], &[f64]),
+    attachment: &Attachment,
+    scratch: &mut Scratch,
+) -> Result<Answer, EndError> {
+    let accept = |end, q: &[f64]| {
+        let mut q = q.to_vec();
+        cx.accept(&mut q).map_err(|reason| EndError { end, reason })?;
+        Ok(q)
+    };
+    let (start, goal) = (accept("start", start)?, accept("goal", goal)?);
+    Ok(solve(cx, roadmap, (&start, &goal), attachment, scratch))
+}
+
 /// The lowest barrier between `start` and `goal`, both valid, through a roadmap of a model with energies, and the
 /// shortest path, by the edges' costs, that does not exceed it; infinity where there is no path. Edges are checked as
 /// [`solve`] does. The ends are attached to all nodes that were once their nearest.

@@ -29,12 +29,10 @@ impl<'a> Asker<'a> {
     /// Start and goal are attached to the roadmap as the problem's first evaluator that attaches
     /// configurations does it, or, without one, with the default settings.
     pub fn new(ledger: &'a Ledger, arguments: &QueryArguments) -> Asker<'a> {
-        let evaluators = &ledger.problem.evaluators;
-        let attachment = evaluators.iter().find_map(|evaluator| evaluator.method().attachment());
         Asker {
             cx: ledger.problem.context(),
             roadmap: &ledger.roadmap,
-            attachment: attachment.unwrap_or_default(),
+            attachment: ledger.problem.attachment(),
             shorten_tries: arguments.shorten.then_some(arguments.shorten_tries),
             format: arguments.format,
         }
