@@ -1,4 +1,17 @@
 //! Queries: attaching two configurations to a roadmap and finding a path between them.
+//!
+//! ```
+//! use roadmill::{Build, model::Scratch, problem::Problem, query};
+//!
+//! let problem = Problem::load("problems/maze.toml".as_ref())?;
+//! let built = Build::new(problem).run()?;
+//! // The way back, through the same roadmap, then made shorter.
+//! let answer = built.query(&[14.9, 9.0, 0.0], &[1.1, 1.0, 0.0])?;
+//! let path = answer.path.expect("whoever came can go back");
+//! let short = query::shorten(built.context(), &path, 100, &mut Scratch::new());
+//! assert!(short.length < path.length);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod attach;
 mod path;
