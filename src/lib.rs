@@ -40,6 +40,8 @@ pub mod export;
 pub mod finder;
 pub mod generator;
 pub mod img;
+#[doc(hidden)]
+pub mod internal;
 pub mod local;
 pub mod math;
 pub mod methods;
@@ -53,12 +55,11 @@ pub mod sampler;
 pub mod scene;
 pub mod schedule;
 pub mod seed;
-pub mod shelf;
 mod source;
 pub mod space;
 mod strategy;
 
-pub mod wire;
+use internal::{shelf, wire};
 
 pub use build::{Build, BuildError, Built, Cancel};
 pub use context::{Context, Ends};

@@ -8,10 +8,10 @@ use crate::signals::Signals;
 use roadmill::img::{
     Cut, Event, Executor, Finished, Job, LOSSES_MAX, Loss, Outcome, RoundSet, Setup, TICK, Threads,
 };
+use roadmill::internal::wire;
 use roadmill::model::Scratch;
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Roadmap};
-use roadmill::wire;
 use roadmill::{BITS_VERSION, Cancel};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -7,9 +7,9 @@ use bincode::error::{DecodeError, EncodeError};
 use bincode::{Decode, Encode};
 use roadmill::evaluate::Verdict;
 use roadmill::img::{Joined, RoundSet};
+use roadmill::internal::wire::WireError;
 use roadmill::problem::{Layout, Problem};
 use roadmill::roadmap::{Digest, Full, Increment};
-use roadmill::wire::WireError;
 use roadmill::{BITS_VERSION, SourceFile};
 use std::sync::Arc;
 
