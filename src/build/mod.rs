@@ -20,6 +20,9 @@ use std::sync::Arc;
 /// Sets per thread that may be generated ahead of the current round.
 const LOOKAHEAD_PER_THREAD: u64 = 4;
 
+/// Whoever is told how far a build is.
+type Tell<'a> = Box<dyn FnMut(&Progress) + 'a>;
+
 /// A roadmap to be built in this process.
 ///
 /// ```
@@ -40,7 +43,7 @@ const LOOKAHEAD_PER_THREAD: u64 = 4;
 pub struct Build<'a> {
     setup: Arc<Setup>,
     threads: Option<usize>,
-    progress: Option<Box<dyn FnMut(&Progress) + 'a>>,
+    progress: Option<Tell<'a>>,
     cancel: Cancel,
     past: Vec<Round>,
     judgement: Option<Judgement>,
@@ -140,7 +143,7 @@ impl<'a> Build<'a> {
 
 /// Whoever watches for the caller, and keeps what the build may go on from.
 struct Watch<'a> {
-    progress: Option<Box<dyn FnMut(&Progress) + 'a>>,
+    progress: Option<Tell<'a>>,
     cancel: Cancel,
     rounds: Vec<Round>,
     judgement: Option<Judgement>,
