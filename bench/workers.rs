@@ -29,10 +29,10 @@ mod support;
 mod virtual_pool;
 
 use roadmill::img::{Core, Job, Joined, Observer, Outcome, Replica, Setup, Task, drive};
+use roadmill::internal::wire;
 use roadmill::model::Scratch;
 use roadmill::problem::{Limits, Problem};
 use roadmill::roadmap::Increment;
-use roadmill::wire;
 use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;

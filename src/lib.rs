@@ -8,20 +8,20 @@
 //! # A roadmap in ten lines
 //!
 //! ```
-//! use roadmill::{img, problem::Problem};
-//! use std::{path::Path, sync::Arc};
+//! use roadmill::{Build, problem::Problem};
 //!
-//! let problem = Problem::load(Path::new("problems/maze.toml"))?;
-//! let setup = Arc::new(img::Setup::new(problem));
-//! let built = img::build(&setup);
-//! let judgement = built.judgement.expect("a round was judged");
-//! let answer = judgement.verdicts[0].answer.as_ref().expect("the maze has a query");
-//! let path = answer.path.as_ref().expect("the maze has a way through");
-//! assert_eq!(Some(path.configs.get(0)), setup.cx.query.as_ref().map(|ends| &ends.start[..]));
-//! # Ok::<(), roadmill::problem::ProblemError>(())
+//! let problem = Problem::load("problems/maze.toml".as_ref())?;
+//! let built = Build::new(problem).threads(2).run()?;
+//! let path = built.path().expect("the maze has a way through");
+//! for q in path {
+//!     println!("{q:?}");
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Other questions than the problem's own are asked with [`query::solve`].
+//! [`Build`] also tells how far it is and can be cancelled. What it comes to is a [`Built`]: the roadmap, the path
+//! of the problem's query, what each evaluator said, answers to [other queries](Built::query), and the way to
+//! [go on](Built::resume).
 //!
 //! # Units and frames
 //!
@@ -29,6 +29,7 @@
 //! `w x y z`. A configuration is a flat slice with one value per degree of freedom; for rigid bodies
 //! it is the pose of the robot's frame in the world's.
 
+mod build;
 mod context;
 mod digest;
 mod lanes;
@@ -39,6 +40,8 @@ pub mod export;
 pub mod finder;
 pub mod generator;
 pub mod img;
+#[doc(hidden)]
+pub mod internal;
 pub mod local;
 pub mod math;
 pub mod methods;
@@ -52,13 +55,13 @@ pub mod sampler;
 pub mod scene;
 pub mod schedule;
 pub mod seed;
-pub mod shelf;
 mod source;
 pub mod space;
 mod strategy;
 
-pub mod wire;
+use internal::{shelf, wire};
 
+pub use build::{Build, BuildError, Built, Cancel};
 pub use context::{Context, Ends};
 pub use digest::SourceFile;
 pub use strategy::Strategy;

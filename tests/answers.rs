@@ -5,7 +5,7 @@
 mod judge;
 
 use judge::Judge;
-use roadmill::img::{Build, Setup, Stop, build_in_threads};
+use roadmill::img::{Grown, Setup, Stop, build_in_threads};
 use roadmill::problem::Problem;
 use std::path::Path;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ fn load(name: &str) -> Problem {
     Problem::load(&file).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn build(name: &str) -> (Arc<Setup>, Build) {
+fn build(name: &str) -> (Arc<Setup>, Grown) {
     let setup = Arc::new(Setup::new(load(name)));
     let build = build_in_threads(&setup, 2);
     (setup, build)

@@ -1,7 +1,7 @@
 //! A build that is cut anywhere and goes on comes to what an undisturbed one comes to.
 
 use roadmill::img::{
-    Build, Core, Cut, Executor, Judgement, Memo, Observer, Past, Progress, Round, Serial, Setup,
+    Core, Cut, Executor, Grown, Judgement, Memo, Observer, Past, Progress, Round, Serial, Setup,
     Simulated, Stop, build, drive, resume_with,
 };
 use roadmill::model::bodies::validity::MotionChecking;
@@ -27,7 +27,7 @@ fn load(name: &str) -> Problem {
 }
 
 /// Everything that must not differ.
-fn result(build: &Build) -> (String, Stop, String) {
+fn result(build: &Grown) -> (String, Stop, String) {
     let judgement = format!("{:?}", build.judgement);
     (build.roadmap.digest().to_string(), build.stop.clone(), judgement)
 }

@@ -1,6 +1,6 @@
 //! The same roadmap, bit for bit, whatever does the work.
 
-use roadmill::img::{Build, Memo, Setup, Simulated, Stop, build, build_in_threads, build_with};
+use roadmill::img::{Grown, Memo, Setup, Simulated, Stop, build, build_in_threads, build_with};
 use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::problem::Problem;
 use std::path::Path;
@@ -34,7 +34,7 @@ fn setup(name: &str) -> Arc<Setup> {
 }
 
 /// Everything that must not differ.
-fn result(build: &Build) -> (String, Stop, String) {
+fn result(build: &Grown) -> (String, Stop, String) {
     let verdicts = format!("{:?}", build.judgement);
     (build.roadmap.digest().to_string(), build.stop.clone(), verdicts)
 }

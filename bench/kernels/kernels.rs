@@ -4,6 +4,7 @@ use super::support::sample;
 use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
 use roadmill::img::{Job, Outcome, Replica, Setup};
+use roadmill::internal::wire;
 use roadmill::model::Scratch;
 use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::neighbor::{Index, Searched, k_nearest, k_nearest_graph, radius_graph};
@@ -12,7 +13,6 @@ use roadmill::query::{Attachment, solve};
 use roadmill::roadmap::{Configs, Increment};
 use roadmill::sampler::SamplerKind;
 use roadmill::seed::Seed;
-use roadmill::wire;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -1,7 +1,8 @@
 //! `roadmill`: the coordinator of builds, and the command line around it.
 //!
-//! A program of your own can build with worker processes too: an executable `roadmill`
-//! ([`crew::Executable::at`]), a crew of processes that run it ([`crew::LocalCrew`]), and a
+//! A program of your own can build with worker processes too, in a run folder that survives crashes: see
+//! [`Run`], and [`work`] for an example. With other workers, or without a run folder, it is put together from
+//! an executable `roadmill` ([`crew::Executable::at`]), a crew of processes that run it ([`crew::LocalCrew`]), and a
 //! [`dispatch::Dispatcher`] over the crew as the executor of [`roadmill::img::drive`].
 
 mod cli;
@@ -10,10 +11,14 @@ mod cpu;
 pub mod crew;
 pub mod dispatch;
 pub mod exit;
+mod files;
 mod memory;
 mod progress;
 pub mod run;
 pub mod signals;
+pub mod work;
+
+pub use work::{Ended, Growth, Run, Selection, Workers};
 
 use clap::Parser;
 use exit::Failure;

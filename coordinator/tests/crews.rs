@@ -6,9 +6,9 @@ mod support;
 use roadmill::img::{
     Core, Cut, Executor, Job, Judgement, Observer, Progress, Round, Setup, Stop, drive,
 };
+use roadmill::internal::wire;
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Tally};
-use roadmill::wire;
 use roadmill_coordinator::crew::{
     Crew, Executable, LocalCrew, News, StreamCrew, WorkerThread, serve_stream,
 };

@@ -2,6 +2,19 @@
 //!
 //! An evaluator is a pure function of the problem and the folded roadmap: it remembers nothing
 //! from round to round, so that a resumed build judges as an undisturbed one.
+//!
+//! ```
+//! use roadmill::evaluate::{Evaluator, Query};
+//! use roadmill::{Build, model::Scratch, problem::Problem};
+//!
+//! let problem = Problem::load("problems/maze.toml".as_ref())?;
+//! let built = Build::new(problem).run()?;
+//! let (cx, roadmap) = (built.context(), built.roadmap());
+//! let verdict = Query::default().evaluate(cx, "by hand", roadmap, &mut Scratch::new());
+//! assert!(verdict.satisfied);
+//! assert!(verdict.answer().is_some_and(|answer| answer.path.is_some()));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod all;
 mod any;

@@ -1,4 +1,21 @@
 //! Formats that other programs read, and pictures of roadmaps.
+//!
+//! ```
+//! use roadmill::export::{Exported, FORMATS, path_csv};
+//! use roadmill::{Build, problem::Problem};
+//!
+//! let problem = Problem::load("problems/maze.toml".as_ref())?;
+//! let built = Build::new(problem).run()?;
+//! let (problem, roadmap, path) = (built.problem(), built.roadmap(), built.path());
+//! let csv = path_csv(&built.context().space, path.expect("the maze has a way through"));
+//! assert!(csv.starts_with("x"));
+//! // A roadmap in every format that `roadmill export` has.
+//! for format in FORMATS {
+//!     let files = format.files(&Exported { problem, roadmap, path })?;
+//!     println!("{}: {} files", format.name(), files.len());
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod animation;
 mod contours;

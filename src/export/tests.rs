@@ -1,5 +1,5 @@
 use super::svg;
-use crate::img::{Build, Setup, build};
+use crate::img::{Grown, Setup, build};
 use crate::problem::Problem;
 use crate::query;
 use std::path::Path;
@@ -30,14 +30,14 @@ start = [0.5, 1.5, 1.0, 1.0, 0.0, 0.0, 0.0]
 goal = [3.5, 1.5, 1.0, 1.0, 0.0, 0.0, 0.0]
 "#;
 
-fn built(name: &str, text: &str) -> (Arc<Setup>, Build) {
+fn built(name: &str, text: &str) -> (Arc<Setup>, Grown) {
     let problem = Problem::parse(Path::new(name), text).unwrap_or_else(|error| panic!("{error}"));
     let setup = Arc::new(Setup::new(problem));
     let build = build(&setup);
     (setup, build)
 }
 
-fn path_of(build: &Build) -> Option<&query::Path> {
+fn path_of(build: &Grown) -> Option<&query::Path> {
     build.judgement.as_ref()?.verdicts[0].answer.as_ref()?.path.as_ref()
 }
 

@@ -80,7 +80,7 @@ fn put(out: &mut String, text: Arguments) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::img::{Build, Setup, build};
+    use crate::img::{Grown, Setup, build};
     use crate::problem::Problem;
     use crate::roadmap::Roadmap;
     use std::collections::BTreeMap;
@@ -89,7 +89,7 @@ mod tests {
 
     fn built(text: &str) -> (Problem, Roadmap) {
         let problem = Problem::parse(Path::new("p.toml"), text).expect("a sound problem");
-        let Build { roadmap, .. } = build(&Arc::new(Setup::new(problem.clone())));
+        let Grown { roadmap, .. } = build(&Arc::new(Setup::new(problem.clone())));
         (problem, roadmap)
     }
 

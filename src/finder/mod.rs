@@ -2,6 +2,22 @@
 //!
 //! What a finder gives is *defined* by looking at all milestones; the indices of [`neighbor`](crate::neighbor) give
 //! the same, bit for bit, in less time. So whether and when an index is built changes no roadmap.
+//!
+//! ```
+//! use roadmill::finder::{Finder, KNearest};
+//! use roadmill::problem::Problem;
+//! use roadmill::roadmap::{Components, Configs};
+//!
+//! let space = Problem::load("tests/problems/slide.toml".as_ref())?.space();
+//! let mut milestones = Configs::new(space.len());
+//! for x in [0.0, 1.0, 3.0] {
+//!     milestones.push(&[x, 0.0, 0.0]);
+//! }
+//! let unconnected = Components::of(&space, &milestones, &[]);
+//! let near = KNearest { neighbors: 2 }.near(&space, &milestones, &unconnected, &[2.8, 0.0, 0.0]);
+//! assert_eq!(near.iter().map(|neighbor| neighbor.id).collect::<Vec<_>>(), [2, 1]);
+//! # Ok::<(), roadmill::problem::ProblemError>(())
+//! ```
 
 mod k_nearest;
 mod radius;

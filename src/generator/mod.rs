@@ -3,6 +3,21 @@
 //! A generator makes an increment of the roadmap, a pure function of the problem, the set's seed and what the
 //! generator says that it reads. One that reads nothing, or the roadmap of a *parent* run, is given out to workers
 //! ahead of the rounds; one that *grows* the roadmap reads it as it was at the start of the set's round.
+//!
+//! ```
+//! use roadmill::generator::{Generator, Sample};
+//! use roadmill::{model::Scratch, problem::Problem, seed::Seed};
+//!
+//! let cx = Problem::load("tests/problems/slide.toml".as_ref())?.context();
+//! // Uniform milestones, each tried with its nearest.
+//! let generator = Sample { sampler: Default::default(), within: Default::default() };
+//! let seed = Seed::of_set(1, "uniform", 0);
+//! let increment = generator.generate(&cx, &seed, 20, None, &mut Scratch::new());
+//! let increment = increment.expect("there is room for 20 milestones");
+//! assert_eq!(increment.configs.len(), 20);
+//! assert!(!increment.edges.is_empty());
+//! # Ok::<(), roadmill::problem::ProblemError>(())
+//! ```
 
 mod expansion;
 mod parent;

@@ -3,7 +3,8 @@
 //!
 //! [`Core`] decides, without any input or output; an [`Executor`] works: [`Serial`], [`Threads`]
 //! (rayon), [`Simulated`] here, worker processes in the coordinator. [`drive`] brings the two
-//! together. Whatever the executor does (reorder, repeat, lose), the roadmap is the same.
+//! together. Programs that want a roadmap and no more use [`Build`](crate::Build), which is made of this.
+//! Whatever the executor does (reorder, repeat, lose), the roadmap is the same.
 
 mod core;
 mod drive;
@@ -54,8 +55,8 @@ impl Setup {
     }
 }
 
-/// A finished build.
-pub struct Build {
+/// What the functions here build: the lower layer of [`Built`](crate::Built).
+pub struct Grown {
     /// The roadmap.
     pub roadmap: Roadmap,
     /// Why the build stopped.
@@ -66,17 +67,17 @@ pub struct Build {
 
 /// Builds a roadmap in this thread. The problem's limit on seconds is left to programs that have
 /// a clock.
-pub fn build(setup: &Arc<Setup>) -> Build {
+pub fn build(setup: &Arc<Setup>) -> Grown {
     build_with(setup, Serial::new(setup.clone()), 0)
 }
 
 /// Builds a roadmap in `threads` threads of this process: the same roadmap as [`build`].
-pub fn build_in_threads(setup: &Arc<Setup>, threads: usize) -> Build {
+pub fn build_in_threads(setup: &Arc<Setup>, threads: usize) -> Grown {
     build_with(setup, Threads::new(setup.clone(), threads), 4 * threads as u64)
 }
 
 /// Builds a roadmap with any executor, up to `lookahead` sets beyond the current round at hand.
-pub fn build_with(setup: &Arc<Setup>, executor: impl InProcess, lookahead: u64) -> Build {
+pub fn build_with(setup: &Arc<Setup>, executor: impl InProcess, lookahead: u64) -> Grown {
     resume_with(setup, executor, lookahead, &[], None)
 }
 
@@ -84,11 +85,11 @@ pub fn build_with(setup: &Arc<Setup>, executor: impl InProcess, lookahead: u64) 
 /// What comes of it is what would have come of the build without the interruption.
 pub fn resume_with(
     setup: &Arc<Setup>,
-    mut executor: impl InProcess,
+    executor: impl InProcess,
     lookahead: u64,
     rounds: &[Round],
     judgement: Option<Judgement>,
-) -> Build {
+) -> Grown {
     struct Last(Option<Judgement>);
     impl Observer for Last {
         type Error = std::convert::Infallible;
@@ -97,19 +98,30 @@ pub fn resume_with(
             Ok(())
         }
     }
+    let mut last = Last(judgement.clone());
+    match grow(setup, executor, lookahead, (rounds, judgement), &mut last) {
+        Ok((stop, roadmap)) => Grown { roadmap, stop, judgement: last.0 },
+        Err(never) => match never {},
+    }
+}
+
+/// Goes on with a build after these rounds, watched by `observer`.
+pub(crate) fn grow<O: Observer>(
+    setup: &Arc<Setup>,
+    mut executor: impl InProcess,
+    lookahead: u64,
+    (rounds, judgement): (&[Round], Option<Judgement>),
+    observer: &mut O,
+) -> Result<(Stop, Roadmap), O::Error> {
     let mut past = Past::new(setup);
     for round in rounds {
         executor.restore(round);
         past.fold(round);
     }
-    past.verdicts = judgement.as_ref().map(|judgement| judgement.verdicts.clone());
+    past.verdicts = judgement.map(|judgement| judgement.verdicts);
     let mut core = Core::resume(setup, lookahead, past);
-    let mut last = Last(judgement);
-    let stop = match drive(&mut core, &mut executor, &mut last) {
-        Ok(stop) => stop,
-        Err(never) => match never {},
-    };
-    Build { roadmap: executor.into_roadmap(), stop, judgement: last.0 }
+    let stop = drive(&mut core, &mut executor, observer)?;
+    Ok((stop, executor.into_roadmap()))
 }
 
 #[cfg(test)]

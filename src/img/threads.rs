@@ -28,14 +28,21 @@ impl Threads {
     /// # Panics
     /// If the system refuses to start the threads.
     pub fn new(setup: Arc<Setup>, threads: usize) -> Threads {
+        Threads::start(setup, threads).expect("threads can be started")
+    }
+
+    /// [`Threads::new`] for those who can go on without.
+    pub(crate) fn start(
+        setup: Arc<Setup>,
+        threads: usize,
+    ) -> Result<Threads, rayon::ThreadPoolBuildError> {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads.max(1))
             .thread_name(|index| format!("roadmill {index}"))
-            .build()
-            .expect("threads can be started");
+            .build()?;
         let replica = Replica::new(&setup);
         let waiting = BTreeSet::new();
-        Threads { setup, replica, pool, waiting, running: 0, results: unbounded() }
+        Ok(Threads { setup, replica, pool, waiting, running: 0, results: unbounded() })
     }
 
     /// Keeps every thread busy with the most urgent jobs; the rest wait here, where urgency rules.

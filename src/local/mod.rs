@@ -3,6 +3,20 @@
 //! A planner names the configurations by which the motion goes; between them it follows
 //! [`Space::interpolate`](crate::space::Space::interpolate). The motion is free when those
 //! configurations and every stretch between them are valid.
+//!
+//! ```
+//! use roadmill::local::{self, Planner};
+//! use roadmill::{model::Scratch, problem::Problem};
+//!
+//! let cx = Problem::load("problems/maze.toml".as_ref())?.context();
+//! let (a, b) = ([1.1, 1.0, 0.0], [1.4, 1.0, 0.1]);
+//! // The first planner whose motion is valid, and what the motion costs.
+//! let joined = local::connect(&cx, &[Planner::StraightLine], (&a, &b), 1, &mut Scratch::new());
+//! assert_eq!(joined.map(|(planner, _)| planner), Some(Planner::StraightLine));
+//! // Only the motion's ends: a straight line has no turns.
+//! assert_eq!(Planner::StraightLine.motion(&cx, &a, &b).len(), 2);
+//! # Ok::<(), roadmill::problem::ProblemError>(())
+//! ```
 
 mod manhattan;
 mod rotate_at;

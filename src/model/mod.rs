@@ -5,6 +5,21 @@
 //! it a process *prepares* the model itself, which answers the questions of planning: what is valid, what
 //! a motion costs. Samplers, connections and evaluators know a model by the trait [`Model`] alone. What
 //! not every model can say, such as how far the nearest obstacle is, is a capability, asked for.
+//!
+//! ```
+//! use roadmill::{model::Scratch, problem::Problem};
+//!
+//! // A ball among obstacles, which only translates.
+//! let problem = Problem::load("tests/problems/slide.toml".as_ref())?;
+//! let model = problem.model.description().prepare();
+//! let scratch = &mut Scratch::new();
+//! let (corner, slab) = ([-3.0, -3.0, -3.0], [2.0, 0.0, 0.0]);
+//! assert!(model.is_valid(&corner, scratch));
+//! assert!(!model.is_valid(&slab, scratch));
+//! // What a motion costs, if it is valid at the problem's resolution.
+//! assert!(model.motion(&corner, &[-3.0, 3.0, -3.0], 1, scratch).is_some());
+//! # Ok::<(), roadmill::problem::ProblemError>(())
+//! ```
 
 mod clearance;
 mod cost;

@@ -23,6 +23,7 @@ use crate::digest::{Digest, SourceFile};
 use crate::evaluate::EvaluatorKind;
 use crate::generator::{NoRuns, Runs};
 use crate::model::{self, ModelKind, SceneOptions};
+use crate::query::Attachment;
 use crate::schedule::Adaptive;
 use crate::space::Space;
 use crate::strategy::Strategy;
@@ -132,6 +133,13 @@ impl Problem {
             base_seed: self.seed,
             query: self.query.clone(),
         }
+    }
+
+    /// How configurations are attached to a roadmap of the problem: as its first evaluator does that attaches
+    /// any, or else with the default settings.
+    pub fn attachment(&self) -> Attachment {
+        let attachment = self.evaluators.iter().find_map(|kind| kind.method().attachment());
+        attachment.unwrap_or_default()
     }
 
     /// What would be built, for people to read: grammar of configurations, scene, strategies,

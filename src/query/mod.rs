@@ -1,4 +1,17 @@
 //! Queries: attaching two configurations to a roadmap and finding a path between them.
+//!
+//! ```
+//! use roadmill::{Build, model::Scratch, problem::Problem, query};
+//!
+//! let problem = Problem::load("problems/maze.toml".as_ref())?;
+//! let built = Build::new(problem).run()?;
+//! // The way back, through the same roadmap, then made shorter.
+//! let answer = built.query(&[14.9, 9.0, 0.0], &[1.1, 1.0, 0.0])?;
+//! let path = answer.path.expect("whoever came can go back");
+//! let short = query::shorten(built.context(), &path, 100, &mut Scratch::new());
+//! assert!(short.length < path.length);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod attach;
 mod path;
@@ -74,6 +87,36 @@ pub fn solve(
     let search = Search { cx, roadmap, ends: [start, goal], attached: [from_start, from_goal] };
     let shortest = |graph: &Graph, failed: &BTreeSet<u32>| graph.shortest(nodes, nodes + 1, failed);
     search.answer(shortest, scratch)
+}
+
+/// Why a configuration cannot be the end of a query.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{end}: {reason}")]
+pub struct EndError {
+    /// Which end: `start` or `goal`.
+    pub end: &'static str,
+    /// What is wrong with the configuration.
+    pub reason: String,
+}
+
+/// [`solve`] for configurations that come from outside: both are brought into stored form and checked first.
+///
+/// # Errors
+/// When one of them is no valid configuration.
+pub fn ask(
+    cx: &Context,
+    roadmap: &Roadmap,
+    (start, goal): (&[f64], &[f64]),
+    attachment: &Attachment,
+    scratch: &mut Scratch,
+) -> Result<Answer, EndError> {
+    let accept = |end, q: &[f64]| {
+        let mut q = q.to_vec();
+        cx.accept(&mut q).map_err(|reason| EndError { end, reason })?;
+        Ok(q)
+    };
+    let (start, goal) = (accept("start", start)?, accept("goal", goal)?);
+    Ok(solve(cx, roadmap, (&start, &goal), attachment, scratch))
 }
 
 /// The lowest barrier between `start` and `goal`, both valid, through a roadmap of a model with energies, and the

@@ -68,6 +68,16 @@ impl Path {
     }
 }
 
+/// The configurations of a path, from start to goal.
+impl<'a> IntoIterator for &'a Path {
+    type Item = &'a [f64];
+    type IntoIter = Box<dyn Iterator<Item = &'a [f64]> + 'a>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        Box::new(self.configs.iter())
+    }
+}
+
 /// The leg of a path that holds the place `at`, a length from its start, and how far along it that
 /// is, as a fraction.
 pub(super) fn leg(lengths: &[f64], at: f64) -> (usize, f64) {

@@ -2,6 +2,20 @@
 //!
 //! To add one, write its file after the pattern of `uniform.rs` and name it in the two marked
 //! places below.
+//!
+//! ```
+//! use roadmill::{model::Scratch, problem::Problem, roadmap::Configs};
+//! use roadmill::sampler::{Sampler, Uniform};
+//! use roadmill::seed::Seed;
+//!
+//! let cx = Problem::load("tests/problems/slide.toml".as_ref())?.context();
+//! let (seed, scratch) = (Seed::of_set(1, "uniform", 0), &mut Scratch::new());
+//! let mut milestones = Configs::new(cx.space.len());
+//! let sampled = Uniform::default().sample(&cx, &seed, 5, scratch, &mut milestones);
+//! assert!(sampled.is_ok() && milestones.len() == 5);
+//! assert!(milestones.iter().all(|q| cx.model.is_valid(q, scratch)));
+//! # Ok::<(), roadmill::problem::ProblemError>(())
+//! ```
 
 mod bridge;
 mod energy;

@@ -1,6 +1,6 @@
 use crate::channel::ChannelError;
 use crate::stream::FrameError;
-use roadmill::wire::WireError;
+use roadmill::internal::wire::WireError;
 
 /// Why a worker ended.
 #[derive(Debug, thiserror::Error)]

@@ -134,7 +134,7 @@ fn die() -> ! {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use roadmill::wire;
+    use roadmill::internal::wire;
 
     #[test]
     fn rubbish_is_no_message() {

@@ -1,7 +1,7 @@
 //! What a worker needs of the outside: a line to its coordinator, and what it shares with other workers.
 
 use crate::error::WorkerError;
-use roadmill::shelf::Shelf;
+use roadmill::internal::shelf::Shelf;
 use std::io;
 use std::sync::Arc;
 use std::time::Duration;

@@ -1,4 +1,4 @@
-//! What workers and coordinator say to one another, as bytes of [`roadmill::wire`].
+//! What workers and coordinator say to one another, as bytes of [`roadmill::internal::wire`].
 //!
 //! ```text
 //! worker                                   coordinator

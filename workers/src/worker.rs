@@ -6,10 +6,10 @@ use crate::faults::{Faults, Slip};
 use crate::line::{Line, SharedData};
 use crate::message::{FromWorker, PROTOCOL, ToWorker};
 use roadmill::img::{Outcome, Replica, Setup, Task};
+use roadmill::internal::wire;
 use roadmill::model::Scratch;
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Roadmap};
-use roadmill::wire;
 use std::convert::Infallible;
 use std::sync::Arc;
 

@@ -1,19 +1,16 @@
 //! Answers single queries from the roadmap of a run, in the way that the command line asks for.
 
 use crate::cli::{PathFormat, QueryArguments};
-use crate::run::Ledger;
+use crate::work::Recorded;
 use roadmill::Context;
 use roadmill::export::{parasol_path, path_csv};
 use roadmill::model::Scratch;
-use roadmill::query::{Answer, Attachment, Path, shorten, solve};
-use roadmill::roadmap::Roadmap;
+use roadmill::query::{Answer, Path, shorten};
 use std::time::Instant;
 
-/// A roadmap together with everything that decides how its queries are answered and written.
+/// A run together with everything that decides how its paths are written.
 pub(super) struct Asker<'a> {
-    pub cx: Context,
-    roadmap: &'a Roadmap,
-    attachment: Attachment,
+    pub run: &'a Recorded,
     /// How many shortcuts are tried on a path that was found; `None` leaves paths as they are.
     shorten_tries: Option<u32>,
     format: PathFormat,
@@ -26,28 +23,27 @@ pub(super) struct Asked {
 }
 
 impl<'a> Asker<'a> {
-    /// Start and goal are attached to the roadmap as the problem's first evaluator that attaches
-    /// configurations does it, or, without one, with the default settings.
-    pub fn new(ledger: &'a Ledger, arguments: &QueryArguments) -> Asker<'a> {
-        let evaluators = &ledger.problem.evaluators;
-        let attachment = evaluators.iter().find_map(|evaluator| evaluator.method().attachment());
+    /// How the command line wants paths.
+    pub fn new(run: &'a Recorded, arguments: &QueryArguments) -> Asker<'a> {
         Asker {
-            cx: ledger.problem.context(),
-            roadmap: &ledger.roadmap,
-            attachment: attachment.unwrap_or_default(),
+            run,
             shorten_tries: arguments.shorten.then_some(arguments.shorten_tries),
             format: arguments.format,
         }
+    }
+
+    /// The problem made ready for work.
+    pub fn cx(&self) -> &Context {
+        self.run.context()
     }
 
     /// Searches the roadmap for a path between two configurations.
     pub fn ask(&self, start: &[f64], goal: &[f64]) -> Asked {
         let begun = Instant::now();
         let mut scratch = Scratch::new();
-        let mut answer =
-            solve(&self.cx, self.roadmap, (start, goal), &self.attachment, &mut scratch);
+        let mut answer = self.run.solve((start, goal), &mut scratch);
         if let (Some(path), Some(tries)) = (&mut answer.path, self.shorten_tries) {
-            *path = shorten(&self.cx, path, tries, &mut scratch);
+            *path = shorten(self.cx(), path, tries, &mut scratch);
         }
         Asked { answer, seconds: begun.elapsed().as_secs_f64() }
     }
@@ -55,8 +51,8 @@ impl<'a> Asker<'a> {
     /// A path in the format that was asked for.
     pub fn text(&self, path: &Path) -> String {
         match self.format {
-            PathFormat::Csv => path_csv(&self.cx.space, path),
-            PathFormat::Path => parasol_path(&self.cx.space, path),
+            PathFormat::Csv => path_csv(&self.cx().space, path),
+            PathFormat::Path => parasol_path(&self.cx().space, path),
         }
     }
 

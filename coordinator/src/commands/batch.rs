@@ -1,8 +1,8 @@
 //! Many queries from a file.
 
 use super::asker::{Asked, Asker};
-use super::write_whole;
 use crate::exit::{Code, Failure};
+use crate::files::write_whole;
 use roadmill::problem::configuration;
 use std::fmt::Write;
 use std::fs;
@@ -47,7 +47,7 @@ fn read(asker: &Asker, file: &Path) -> Result<Vec<[Vec<f64>; 2]>, Failure> {
     let text = fs::read_to_string(file).map_err(|error| {
         Failure::usage(format!("{}: cannot read the queries: {error}", file.display()))
     })?;
-    let dofs = asker.cx.space.len();
+    let dofs = asker.cx().space.len();
     let mut queries = Vec::new();
     let mut header_may_come = true;
     let text = text.strip_prefix('\u{FEFF}').unwrap_or(&text);
@@ -75,7 +75,7 @@ fn read(asker: &Asker, file: &Path) -> Result<Vec<[Vec<f64>; 2]>, Failure> {
             return Err(wrong(format!("nothing found in field {}, a number expected", empty + 1)));
         }
         let end = |name: &str, fields: &[&str]| {
-            configuration(&asker.cx, &fields.join(","))
+            configuration(asker.cx(), &fields.join(","))
                 .map_err(|error| wrong(format!("{name}: {error}")))
         };
         queries.push([end("start", &fields[..dofs])?, end("goal", &fields[dofs..])?]);

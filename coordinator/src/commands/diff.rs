@@ -1,8 +1,8 @@
-use super::difference;
 use crate::cli::DiffArguments;
 use crate::exit::{Code, Failure};
 use crate::run::ledger::Chapter;
 use crate::run::{Replay, Scan, Told};
+use crate::work::difference;
 use roadmill::evaluate::Verdict;
 use roadmill::img::RoundSet;
 use roadmill::problem::Problem;

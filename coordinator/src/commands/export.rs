@@ -1,6 +1,6 @@
-use super::write_whole;
 use crate::cli::ExportArguments;
 use crate::exit::{Code, Failure};
+use crate::files::write_whole;
 use crate::run::Ledger;
 use roadmill::export::{Exported, FORMATS};
 

@@ -1,4 +1,4 @@
-use super::grow::workers;
+use super::crew::count;
 use super::load::load;
 use crate::cli::{CrewArguments, GenerateArguments};
 use crate::exit::{Code, Failure};
@@ -23,7 +23,7 @@ pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
     private_umask();
     let mut problem = load(&arguments.problem)?;
     problem.seed = arguments.seed.unwrap_or(problem.seed);
-    let threads = workers(&CrewArguments { workers: None, threads: arguments.threads })?;
+    let threads = count(&CrewArguments { workers: None, threads: arguments.threads })?;
     let (label, ordinals) = &arguments.sets;
     let Some(strategy) = problem.strategies.iter().position(|known| known.label == *label) else {
         let labels: Vec<_> = problem.strategies.iter().map(|known| &*known.label).collect();

@@ -3,9 +3,9 @@ use crate::exit::{Code, Failure};
 use crate::progress::print_json;
 use crate::run::{Replay, Scan, Told};
 use roadmill::img::Joined;
+use roadmill::internal::wire;
 use roadmill::roadmap::{Digest, Full, Increment};
 use roadmill::seed::Seed;
-use roadmill::wire;
 use serde::Serialize;
 use std::io::Write;
 

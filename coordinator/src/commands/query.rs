@@ -1,8 +1,9 @@
 use super::asker::{Asked, Asker};
-use super::{batch, write_whole};
+use super::batch;
 use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
-use crate::run::Ledger;
+use crate::files::write_whole;
+use crate::work::Run;
 use roadmill::export::animation;
 use roadmill::problem::configuration;
 use roadmill::query::{Answer, PATH_REFINEMENT};
@@ -10,17 +11,17 @@ use std::io::Write;
 
 /// Answers one query from the roadmap of a run, or, with `--queries`, all queries of a file.
 pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
-    let ledger = Ledger::read(&arguments.run)?;
-    match &ledger.stopped {
+    let run = Run::at(&arguments.run).read()?;
+    match run.stopped() {
         None => eprintln!("the build has not ended; its complete rounds are searched"),
         Some(stopped) => eprintln!("the build ended: {}", stopped.reason),
     }
-    let asker = Asker::new(&ledger, arguments);
-    let cx = &asker.cx;
+    let asker = Asker::new(&run, arguments);
+    let cx = asker.cx();
     if let (Some(file), Some(folder)) = (&arguments.queries, &arguments.out) {
         return batch::batch(&asker, file, folder);
     }
-    let given = ledger.problem.query.as_ref();
+    let given = run.problem().query.as_ref();
     let end = |name: &str, text: &Option<String>, given: Option<&Vec<f64>>| match (text, given) {
         (Some(text), _) => {
             configuration(cx, text).map_err(|error| Failure::usage(format!("--{name}: {error}")))
@@ -49,7 +50,7 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
         None => drop(std::io::stdout().write_all(text.as_bytes())),
     }
     if let Some(file) = &arguments.animate {
-        match animation(&ledger.problem, path) {
+        match animation(run.problem(), path) {
             Some(page) => write_whole(file, page)?,
             None => return Err(Failure::usage("--animate: this model cannot be drawn")),
         }

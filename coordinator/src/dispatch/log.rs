@@ -1,7 +1,7 @@
 use crate::crew::Crew;
 use roadmill::img::{Job, Outcome, Round};
+use roadmill::internal::wire;
 use roadmill::roadmap::{Digest, Increment};
-use roadmill::wire;
 use roadmill_workers::message::{Bytes, Entry};
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -7,7 +7,7 @@ use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
 
 use memmap2::{Mmap, MmapMut};
-use roadmill::shelf::{Block, BlockName, Claim, Shelf};
+use roadmill::internal::shelf::{Block, BlockName, Claim, Shelf};
 use rustix::fs::{AtFlags, CWD, FallocateFlags, FlockOperation, Mode, OFlags};
 
 use super::run_folder::shared_memory_prefix;
@@ -137,7 +137,7 @@ mod tests {
         assert!(ours.find(NAME, 3).is_none());
         let block = put(&ours, &[1, 2, 3]).expect("there is room");
         assert_eq!(block, &[1, 2, 3][..]);
-        assert_eq!(block.as_ptr().align_offset(roadmill::shelf::ALIGNMENT), 0);
+        assert_eq!(block.as_ptr().align_offset(roadmill::internal::shelf::ALIGNMENT), 0);
         assert_eq!(theirs.find(NAME, 3).expect("it is there"), block);
         // Who makes it at the same time gets the other's.
         assert_eq!(put(&theirs, &[4, 5, 6]).expect("it is there"), block);

@@ -1,8 +1,8 @@
 //! Frames: how records stand one after the other in the file, and how each is chained to the one before.
 
 use bincode::Encode;
+use roadmill::internal::wire;
 use roadmill::roadmap::Digest;
-use roadmill::wire;
 use std::io::{ErrorKind, Read};
 
 /// Name and, as the last byte, version of the format.

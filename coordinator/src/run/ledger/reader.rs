@@ -3,7 +3,7 @@ use super::durable;
 use super::frame::{Fault, Frames, HEADING, Mark};
 use super::record::Record;
 use crate::exit::{Code, Failure};
-use roadmill::wire;
+use roadmill::internal::wire;
 use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};

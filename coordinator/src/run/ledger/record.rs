@@ -8,9 +8,9 @@ use bincode::{Decode, Encode};
 use roadmill::evaluate::Verdict;
 use roadmill::generator::{GeneratorKind, Reads};
 use roadmill::img::{Joined, RoundSet};
+use roadmill::internal::wire::WireError;
 use roadmill::problem::{Layout, Problem};
 use roadmill::roadmap::{Digest, Full, Increment};
-use roadmill::wire::WireError;
 use roadmill::{BITS_VERSION, SourceFile};
 use std::sync::Arc;
 

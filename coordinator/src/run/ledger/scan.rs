@@ -5,8 +5,8 @@ use super::stopped::Stopped;
 use crate::exit::{Code, Failure};
 use roadmill::BITS_VERSION;
 use roadmill::evaluate::Verdict;
+use roadmill::internal::wire;
 use roadmill::problem::Problem;
-use roadmill::wire;
 use std::path::{Path, PathBuf};
 
 /// What a ledger comes to, found without looking into its sets: every record's hash is checked, and

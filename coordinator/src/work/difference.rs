@@ -2,10 +2,10 @@
 
 use roadmill::evaluate::Verdict;
 use roadmill::img::Joined;
+use roadmill::internal::wire;
 use roadmill::model::Asked;
 use roadmill::roadmap::{Edge, Increment};
 use roadmill::space::Space;
-use roadmill::wire;
 
 /// The first difference between two increments; each is named as what it is on either side.
 pub fn of_increments(space: &Space, left: &Increment, right: &Increment) -> Option<String> {

@@ -1,0 +1,126 @@
+//! What `build`, `resume` and `verify` share: who does the work, and what is said meanwhile.
+
+use crate::cli::CrewArguments;
+use crate::exit::{Code, Failure};
+use crate::progress::{Reporter, print_json};
+use crate::work::{Begun, Ended, Growth, Status, WORKERS_MAX, Watch, Workers};
+use std::io::Write;
+
+/// Who does the jobs, as the command line says.
+pub(super) fn workers(crew: &CrewArguments) -> Result<Workers, Failure> {
+    let count = count(crew)?;
+    Ok(match crew.threads {
+        Some(_) => Workers::threads(count),
+        None => Workers::own_processes(count),
+    })
+}
+
+/// How many workers or threads the command line asks for; one for each processor if it does not say.
+pub(super) fn count(crew: &CrewArguments) -> Result<usize, Failure> {
+    let (option, workers) = match (crew.workers, crew.threads) {
+        (Some(workers), _) => ("--workers", workers),
+        (None, Some(threads)) => ("--threads", threads),
+        (None, None) => ("", Workers::available()),
+    };
+    if (1..=WORKERS_MAX).contains(&workers) {
+        Ok(workers)
+    } else {
+        Err(Failure::usage(format!("{option}: {workers} found, 1 to {WORKERS_MAX} expected")))
+    }
+}
+
+/// Grows a roadmap and says how it goes and what came of it; the exit code.
+pub(super) fn grow(growth: Growth, json: bool) -> Result<Code, Failure> {
+    let ended = growth.watch(Telling { json, reporter: None }).grow()?;
+    let Some(summary) = ended.summary() else { return say_finished(&ended, json) };
+    if json {
+        print_json(summary);
+    } else {
+        // A pipe that its reader has closed is no failure: the reader has seen enough.
+        let _ = writeln!(std::io::stdout(), "{summary}");
+    }
+    match ended.outcome() {
+        (Code::Done, _) => Ok(Code::Done),
+        (code, reason) => Err(Failure::new(code, reason)),
+    }
+}
+
+/// Says that there is nothing to do, and ends as the build did.
+fn say_finished(ended: &Ended, json: bool) -> Result<Code, Failure> {
+    let folder = ended.run().folder();
+    let summary = std::fs::read_to_string(folder.join("summary.json")).ok();
+    let summary = summary.and_then(|text| serde_json::from_str::<serde_json::Value>(&text).ok());
+    let line = match (json, summary, ended.rounds()) {
+        (true, Some(summary), _) => Some(summary.to_string()),
+        (false, _, 1..) => Some(format!("digest {}", ended.digest())),
+        _ => None,
+    };
+    if let Some(line) = line {
+        // Whoever closes the pipe does not want it.
+        let _ = writeln!(std::io::stdout(), "{line}");
+    }
+    let before = format!("{}: the build has ended before", folder.display());
+    match ended.outcome() {
+        (Code::Done, reason) => {
+            eprintln!("{before}: {reason}");
+            Ok(Code::Done)
+        }
+        (code, reason) => Err(Failure::new(code, format!("{before}: {reason}"))),
+    }
+}
+
+/// Tells people, or with `--json` programs, how a build goes.
+struct Telling {
+    json: bool,
+    /// From the beginning of the build on.
+    reporter: Option<Reporter>,
+}
+
+impl Watch for Telling {
+    fn begun(&mut self, begun: &Begun) {
+        if !self.json {
+            say_begun(begun);
+        }
+        self.reporter = Some(Reporter::new(self.json));
+    }
+
+    fn progress(&mut self, status: &Status) {
+        if let Some(reporter) = &mut self.reporter {
+            let Status { problem, progress, tally, workers, .. } = status;
+            reporter.report(problem, progress, tally, *workers);
+        }
+    }
+}
+
+/// Clears the terminal's line, whatever the build came to.
+impl Drop for Telling {
+    fn drop(&mut self) {
+        if let Some(reporter) = &self.reporter {
+            reporter.finish();
+        }
+    }
+}
+
+fn say_begun(begun: &Begun) {
+    match begun {
+        Begun::Anew { problem, folder, imported } => {
+            let (name, seed) = (&problem.name, problem.seed);
+            eprintln!("{name}: seed {seed}, run folder {}", folder.display());
+            problem.notes.iter().for_each(|note| eprintln!("{name}: {note}"));
+            if *imported > 0 {
+                eprintln!("{name}: {imported} sets are imported when they are needed");
+            }
+        }
+        Begun::Again { problem, folder, rounds, nodes, is_chapter, torn } => {
+            let (name, run) = (&problem.name, folder.display());
+            let chapter = if *is_chapter { ", in a new chapter" } else { "" };
+            eprintln!(
+                "{name}: goes on after {rounds} rounds and {nodes} nodes{chapter}, run folder {run}"
+            );
+            if let Some((bytes, path)) = torn {
+                let path = path.display();
+                eprintln!("{name}: {bytes} bytes of an unfinished round were moved to {path}");
+            }
+        }
+    }
+}

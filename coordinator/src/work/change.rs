@@ -1,0 +1,78 @@
+//! What a build that goes on may change.
+
+use super::growth::limit;
+use crate::run::{Scan, SetFiles};
+use roadmill::problem::Problem;
+
+/// What a build that goes on may change.
+pub(super) enum Change {
+    /// Nothing: it must be that of this problem, of which sets may be imported.
+    None(Box<Problem>, SetFiles),
+    /// Criteria, limits and the schedule; a chapter is opened for it.
+    Chapter(Chapter),
+}
+
+/// What a chapter changes.
+#[derive(Default)]
+pub(super) struct Chapter {
+    pub with: Option<Box<Problem>>,
+    pub accept_bits: bool,
+    pub max_nodes: Option<u64>,
+    pub max_sets: Option<u64>,
+}
+
+impl Change {
+    /// The problem that the build goes on with.
+    pub fn apply(&self, scan: &Scan, present: &Problem) -> Result<Problem, String> {
+        match self {
+            Change::None(problem, _) => {
+                let mut problem = (**problem).clone();
+                let known = &scan.chapter().sources;
+                for file in problem.sources.iter().skip(1) {
+                    let was = known.iter().find(|known| known.path == file.path);
+                    if let Some(was) = was.filter(|was| was.digest != file.digest) {
+                        let (now, then) = (file.digest, was.digest);
+                        return Err(format!("{} has changed: {now}, {then} expected", file.path));
+                    }
+                }
+                // A limit of time is one of this process.
+                problem.limits.seconds = present.limits.seconds;
+                let next = present.continued(&problem, scan.rounds())?;
+                match difference(present, &next) {
+                    None => Ok(next),
+                    Some(what) => Err(format!(
+                        "{what} not those of the run; `resume --with` opens a chapter for others"
+                    )),
+                }
+            }
+            Change::Chapter(Chapter { with, max_nodes, max_sets, .. }) => {
+                let mut next = match with {
+                    Some(with) => present.continued(with, scan.rounds())?,
+                    None => present.clone(),
+                };
+                limit(&mut next, *max_nodes, *max_sets).map_err(|failure| failure.message)?;
+                Ok(next)
+            }
+        }
+    }
+
+    pub fn accepts_bits(&self) -> bool {
+        matches!(self, Change::Chapter(Chapter { accept_bits: true, .. }))
+    }
+}
+
+/// What of a chapter differs; names, notes and files do not make one.
+pub(super) fn difference(present: &Problem, next: &Problem) -> Option<&'static str> {
+    let parts = [
+        ("the strategies are", present.strategies == next.strategies),
+        ("the schedule and the sets per round are", present.earlier == next.earlier),
+        ("the ends of the query are", present.query == next.query),
+        ("the criteria are", present.evaluators == next.evaluators),
+        ("the limits are", present.limits == next.limits),
+        // Of a chapter without rounds these differ alone.
+        ("the schedule is", present.schedule == next.schedule),
+        ("the policy of the schedule is", present.adaptive == next.adaptive),
+        ("the sets per round are", present.sets_per_round == next.sets_per_round),
+    ];
+    parts.into_iter().find(|(_, same)| !same).map(|(what, _)| what)
+}

@@ -1,0 +1,65 @@
+use crate::run::ledger::{Ledger, Stopped};
+use roadmill::Context;
+use roadmill::model::Scratch;
+use roadmill::problem::Problem;
+use roadmill::query::{self, Answer, Attachment, EndError, Path};
+use roadmill::roadmap::{Digest, Roadmap};
+
+/// A run as it is recorded: the roadmap, and the way to paths through it.
+pub struct Recorded {
+    ledger: Ledger,
+    cx: Context,
+    attachment: Attachment,
+}
+
+impl Recorded {
+    pub(super) fn new(ledger: Ledger) -> Recorded {
+        let (cx, attachment) = (ledger.problem.context(), ledger.problem.attachment());
+        Recorded { ledger, cx, attachment }
+    }
+
+    /// The problem, all chapters taken together.
+    pub fn problem(&self) -> &Problem {
+        &self.ledger.problem
+    }
+
+    /// The problem made ready for work: its space and its model.
+    pub fn context(&self) -> &Context {
+        &self.cx
+    }
+
+    /// The roadmap of the complete rounds.
+    pub fn roadmap(&self) -> &Roadmap {
+        &self.ledger.roadmap
+    }
+
+    /// The roadmap's digest.
+    pub fn digest(&self) -> Digest {
+        self.ledger.roadmap.digest()
+    }
+
+    /// The path of the problem's own query, if the last judgement found one.
+    pub fn path(&self) -> Option<&Path> {
+        self.ledger.path.as_ref()
+    }
+
+    /// Why the build stopped; `None` while it runs or where it was killed.
+    pub fn stopped(&self) -> Option<&Stopped> {
+        self.ledger.stopped.as_ref()
+    }
+
+    /// Looks for a path between two configurations, attached to the roadmap as the problem's first evaluator does it
+    /// that attaches any.
+    ///
+    /// # Errors
+    /// When `start` or `goal` is no valid configuration.
+    pub fn query(&self, start: &[f64], goal: &[f64]) -> Result<Answer, EndError> {
+        let (roadmap, scratch) = (&self.ledger.roadmap, &mut Scratch::new());
+        query::ask(&self.cx, roadmap, (start, goal), &self.attachment, scratch)
+    }
+
+    /// [`Recorded::query`] for ends that were checked before.
+    pub(crate) fn solve(&self, ends: (&[f64], &[f64]), scratch: &mut Scratch) -> Answer {
+        query::solve(&self.cx, &self.ledger.roadmap, ends, &self.attachment, scratch)
+    }
+}

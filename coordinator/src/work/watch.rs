@@ -1,0 +1,236 @@
+use super::interrupt::Interrupt;
+use super::{Ended, Run};
+use crate::cpu::CpuClock;
+use crate::dispatch::Imported;
+use crate::exit::Failure;
+use crate::files::write_whole;
+use crate::memory::resident_bytes;
+use crate::run::{
+    CoordinatorCpu, LedgerWriter, Replay, RunFolder, Scan, Stopped, Summary, Times, Told,
+};
+use roadmill::evaluate::Verdict;
+use roadmill::export::path_csv;
+use roadmill::img::{
+    Core, Cut, Executor, Judgement, Observer, Past, Progress, Round, Setup, Stop, drive,
+};
+use roadmill::problem::Problem;
+use roadmill::query::Path;
+use roadmill::roadmap::Tally;
+use std::path::Path as FilePath;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+/// Sets per worker that may be generated ahead of the current round. Where sets are short these are some
+/// milliseconds of work for each worker, so that no worker has to wait for the end of a round.
+const LOOKAHEAD_PER_WORKER: u64 = 8;
+/// Between two times that the memory of all processes is added up, which takes a while.
+const MEMORY_PAUSE: Duration = Duration::from_secs(1);
+
+/// Whoever is told how a build goes. All of it is called from the thread that grows the roadmap, which waits.
+pub trait Watch {
+    /// The build begins.
+    fn begun(&mut self, _begun: &Begun) {}
+
+    /// Called between events, at least five times a second.
+    fn progress(&mut self, _status: &Status) {}
+}
+
+/// Nobody.
+impl Watch for () {}
+
+/// How a build begins.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub enum Begun<'a> {
+    /// A new one.
+    Anew {
+        /// The problem.
+        problem: &'a Problem,
+        /// The run folder.
+        folder: &'a FilePath,
+        /// Sets that are read from files when they are needed.
+        imported: usize,
+    },
+    /// One that goes on.
+    Again {
+        /// The problem.
+        problem: &'a Problem,
+        /// The run folder.
+        folder: &'a FilePath,
+        /// Complete rounds that are there.
+        rounds: u64,
+        /// Nodes that are there.
+        nodes: u64,
+        /// Whether a chapter is opened for what is changed.
+        is_chapter: bool,
+        /// Bytes of an unfinished round, and the file that they were moved to.
+        torn: Option<(u64, &'a FilePath)>,
+    },
+}
+
+/// How far a build is.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Status<'a> {
+    /// The problem.
+    pub problem: &'a Problem,
+    /// How far sets, rounds and verdicts are.
+    pub progress: &'a Progress,
+    /// What the roadmap comes to.
+    pub tally: &'a Tally,
+    /// Workers that are ready or at work, and how many there are to be.
+    pub workers: (usize, usize),
+}
+
+/// The path of the problem's own query, if the verdicts have one.
+pub(super) fn path_in(verdicts: &[Verdict]) -> Option<Path> {
+    let answers = verdicts.iter().filter_map(Verdict::answer);
+    answers.filter_map(|answer| answer.path.clone()).next()
+}
+
+/// Watches a build: writes its ledger, reports how far the build is, and ends it when time is up, memory is
+/// short or a signal comes.
+pub(super) struct Keeper<'a> {
+    pub setup: Arc<Setup>,
+    pub ledger: LedgerWriter,
+    pub watch: &'a mut dyn Watch,
+    pub interrupt: Interrupt,
+    pub workers: usize,
+    pub cpu: CpuClock,
+    pub begun: Instant,
+    pub verdicts: Vec<Verdict>,
+    pub seconds: Option<f64>,
+    pub memory: Option<u64>,
+    /// Complete rounds.
+    pub rounds: u64,
+    /// After which round the memory was added up last, and when.
+    pub weighed: (u64, Option<Instant>),
+    /// Bytes stored for the workers in shared memory, which count as no process's own.
+    pub stored: Arc<AtomicU64>,
+}
+
+impl Keeper<'_> {
+    pub fn drive(
+        &mut self,
+        past: Option<&Scan>,
+        executor: &mut Imported<impl Executor>,
+    ) -> Result<Stop, Failure> {
+        let past = match past {
+            Some(scan) => self.restore(scan, executor)?,
+            None => Past::new(&self.setup),
+        };
+        let lookahead = LOOKAHEAD_PER_WORKER * self.workers as u64;
+        let mut core = Core::resume(&self.setup, lookahead, past);
+        let stop = drive(&mut core, executor, self)?;
+        executor.take_failure().map_or(Ok(stop), Err)
+    }
+
+    /// Folds the rounds that the ledger has already.
+    fn restore(&self, scan: &Scan, executor: &mut impl Executor) -> Result<Past, Failure> {
+        let mut replay = Replay::new(scan, &self.setup.problem)?;
+        let mut past = Past::new(&self.setup);
+        while let Some(told) = replay.read()? {
+            if let Told::Round(round, digest) = told {
+                executor.restore(&round);
+                replay.check(executor.tally(), digest)?;
+                past.fold(&round);
+            }
+            self.interrupt.check()?;
+        }
+        past.verdicts.clone_from(&scan.verdicts);
+        Ok(past)
+    }
+
+    /// Writes the summary and the ledger's last record, and reports them. `dispatch_seconds` are the CPU seconds
+    /// that the dispatcher spent on messages and on folds, where there was one.
+    pub fn end(
+        mut self,
+        folder: &RunFolder,
+        stop: &Stop,
+        tally: &Tally,
+        dispatch_seconds: Option<(f64, f64)>,
+    ) -> Result<Ended, Failure> {
+        let problem = &self.setup.problem;
+        let mut stopped = Stopped::new(stop, problem);
+        if *stop == Stop::Cut(Cut::Interrupted) {
+            self.interrupt.reason().clone_into(&mut stopped.reason);
+        }
+        let path = path_in(&self.verdicts);
+        if let Some(path) = &path {
+            write_whole(&folder.file("path.csv"), path_csv(&self.setup.cx.space, path))?;
+        }
+        let coordinator_cpu_seconds = self.cpu.own_seconds();
+        let coordinator_cpu = dispatch_seconds.map(|(messages, fold)| {
+            let ledger = self.ledger.cpu_seconds();
+            let rest = coordinator_cpu_seconds - messages - fold - ledger;
+            CoordinatorCpu { messages, fold, ledger, rest }
+        });
+        let times = Times {
+            cpu_seconds: coordinator_cpu_seconds + self.cpu.children_seconds(),
+            coordinator_cpu_seconds,
+            coordinator_cpu,
+            wall_seconds: self.begun.elapsed().as_secs_f64(),
+            ledger_seconds: self.ledger.seconds(),
+        };
+        let summary = Summary::new(problem, folder.path(), tally, &self.verdicts, &stopped, times);
+        let text = serde_json::to_string_pretty(&summary).map_err(Failure::system)?;
+        write_whole(&folder.file("summary.json"), text + "\n")?;
+        // Written last: a build that is killed before this has no end in its ledger and can go on to here again.
+        self.ledger.stopped(&stopped)?;
+        Ok(Ended {
+            run: Run::at(folder.path()),
+            problem: problem.clone(),
+            stopped,
+            rounds: self.rounds,
+            digest: tally.digest(),
+            path,
+            summary: Some(summary),
+        })
+    }
+
+    /// Whether memory is short. Added up once after a round, since only rounds make the roadmap larger.
+    fn is_short_of_memory(&mut self, rounds: u64) -> bool {
+        let (round, at) = self.weighed;
+        let Some(limit) = self.memory.filter(|_| round < rounds) else { return false };
+        if at.is_some_and(|at| at.elapsed() < MEMORY_PAUSE) {
+            return false;
+        }
+        self.weighed = (rounds, Some(Instant::now()));
+        resident_bytes() + self.stored.load(Ordering::Relaxed) >= limit
+    }
+}
+
+impl Observer for Keeper<'_> {
+    type Error = Failure;
+
+    fn folded(&mut self, round: &Round, tally: &Tally) -> Result<(), Failure> {
+        self.rounds = round.index + 1;
+        self.ledger.round(round, &self.setup.problem, tally)
+    }
+
+    fn judged(&mut self, judgement: &Judgement) -> Result<(), Failure> {
+        self.verdicts = judgement.verdicts.clone();
+        self.ledger.judged(judgement)
+    }
+
+    fn tick(
+        &mut self,
+        progress: &Progress,
+        tally: &Tally,
+        alive: usize,
+    ) -> Result<Option<Cut>, Failure> {
+        self.ledger.sync_if_due()?;
+        let (problem, workers) = (&self.setup.problem, (alive, self.workers));
+        self.watch.progress(&Status { problem, progress, tally, workers });
+        Ok(if self.interrupt.came() {
+            Some(Cut::Interrupted)
+        } else if self.seconds.is_some_and(|limit| self.begun.elapsed().as_secs_f64() >= limit) {
+            Some(Cut::Time)
+        } else if self.is_short_of_memory(progress.rounds) {
+            self.memory.map(Cut::Memory)
+        } else {
+            None
+        })
+    }
+}

@@ -1,0 +1,69 @@
+use crate::crew::{CrewError, Executable, LocalCrew};
+use crate::dispatch::Dispatcher;
+use crate::exit::Failure;
+use roadmill::img::Setup;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The most worker processes or threads.
+pub const WORKERS_MAX: usize = 4096;
+
+/// Who does the jobs of a build. It changes how long the build takes and nothing else.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Workers {
+    pub(super) count: usize,
+    pub(super) kind: Kind,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Threads,
+    /// Worker processes that run the program at this path; `None` stands for that of this process.
+    Processes(Option<PathBuf>),
+}
+
+impl Workers {
+    /// Threads of this process: no process is started.
+    pub fn threads(count: usize) -> Workers {
+        Workers { count, kind: Kind::Threads }
+    }
+
+    /// Worker processes that run `roadmill`, the path of an executable of the same version as this library.
+    pub fn processes(count: usize, roadmill: impl Into<PathBuf>) -> Workers {
+        Workers { count, kind: Kind::Processes(Some(roadmill.into())) }
+    }
+
+    /// Worker processes that run the program of this process, which has to be `roadmill`.
+    pub(crate) fn own_processes(count: usize) -> Workers {
+        Workers { count, kind: Kind::Processes(None) }
+    }
+
+    /// As many as there are processors that the system lets this process use.
+    pub fn available() -> usize {
+        std::thread::available_parallelism().map_or(1, usize::from)
+    }
+
+    pub(super) fn check(&self) -> Result<(), Failure> {
+        if (1..=WORKERS_MAX).contains(&self.count) {
+            return Ok(());
+        }
+        Err(Failure::usage(format!("{} workers found, 1 to {WORKERS_MAX} expected", self.count)))
+    }
+}
+
+/// A thread for every processor.
+impl Default for Workers {
+    fn default() -> Workers {
+        Workers::threads(Workers::available())
+    }
+}
+
+/// Starts worker processes.
+pub(super) fn start(
+    setup: &Arc<Setup>,
+    count: usize,
+    program: Option<&PathBuf>,
+) -> Result<Dispatcher<LocalCrew>, CrewError> {
+    let executable = program.map_or_else(Executable::own, |path| Executable::at(path))?;
+    Dispatcher::start(setup.clone(), LocalCrew::open(executable, count)?)
+}

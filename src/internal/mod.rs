@@ -1,0 +1,4 @@
+//! What the other crates of roadmill need of this one, and nobody else: it may change with every version.
+
+pub mod shelf;
+pub mod wire;
