@@ -1,7 +1,7 @@
 //! What a roadmap says of an energy whose saddles are known: the potential of Müller and Brown.
 
 use roadmill::img::{
-    Build, Core, Cut, Judgement, Observer, Progress, Round, Serial, Setup, Stop, build_in_threads,
+    Core, Cut, Grown, Judgement, Observer, Progress, Round, Serial, Setup, Stop, build_in_threads,
     drive,
 };
 use roadmill::math;
@@ -153,7 +153,7 @@ fn no_flow_falls_and_no_barrier_rises_from_round_to_round() {
 #[test]
 fn edges_cost_what_energies_say_and_peaks_are_above_all_energies() {
     let setup = problem(301, 1000, BARRIER);
-    let Build { roadmap, .. } = build_in_threads(&setup, 2);
+    let Grown { roadmap, .. } = build_in_threads(&setup, 2);
     let (cx, scratch) = (&setup.cx, &mut Scratch::new());
     let tolerance = 0.001;
     for (index, edge) in roadmap.edges().iter().enumerate() {

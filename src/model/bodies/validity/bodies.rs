@@ -95,7 +95,7 @@ pub(super) struct SelfPair {
 }
 
 impl BodyValidity {
-    /// Prepares the bodies. `resolution` is a length; see [`Validity::motion`].
+    /// Prepares the bodies. `resolution` is a length; see [`Model::motion`](crate::model::Model::motion).
     pub fn new(
         space: Space,
         robot: &Robot,

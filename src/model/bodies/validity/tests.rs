@@ -168,7 +168,7 @@ fn a_motion_through_a_thin_wall_is_seen_at_the_resolution() {
     let (_, validity) = validity(BaseJoint::Rigid2d, BoundsMeaning::Reference, &robot, &wall);
     let mut scratch = Scratch::new();
     let (left, right) = ([-2.0, 0.0, 0.0], [2.0, 1.0, 3.0]);
-    assert!(!validity.motion(&left, &right, 1, &mut scratch).is_some());
+    assert!(validity.motion(&left, &right, 1, &mut scratch).is_none());
     assert!(validity.motion(&left, &[-2.0, 3.0, -3.0], 20, &mut scratch).is_some());
     assert_eq!(scratch.take_asked(), Asked { configurations: 0, motions: 2 });
 }
@@ -233,7 +233,7 @@ fn links_that_are_not_neighbours_must_not_touch_unless_they_may() {
         BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.05), &[]);
     assert!(valid(&validity, &straight));
     assert!(!valid(&validity, &closed));
-    assert!(!validity.motion(&straight, &[2.9, 2.9, 2.9], 1, &mut Scratch::new()).is_some());
+    assert!(validity.motion(&straight, &[2.9, 2.9, 2.9], 1, &mut Scratch::new()).is_none());
     robot.may_touch = vec![(0, 2), (0, 3), (1, 3)];
     let validity = BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.05), &[]);
     assert!(valid(&validity, &closed));
