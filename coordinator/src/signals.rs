@@ -1,5 +1,7 @@
 //! SIGINT, SIGTERM and SIGHUP as something to look at between events.
 
+use crate::exit::Code;
+use rustix::net::{RecvFlags, recv};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use std::os::fd::{AsFd, BorrowedFd};
 use std::os::unix::net::UnixStream;
@@ -22,7 +24,7 @@ impl Signals {
         let (bell, striker) = UnixStream::pair()?;
         for signal in [SIGINT, SIGTERM, SIGHUP] {
             // Registered first, so that it acts on the second signal only.
-            let code = i32::from(crate::exit::Code::Interrupted as u8);
+            let code = i32::from(Code::Interrupted as u8);
             signal_hook::flag::register_conditional_shutdown(signal, code, came.clone())?;
             signal_hook::flag::register(signal, came.clone())?;
             signal_hook::low_level::pipe::register(signal, striker.try_clone()?)?;
@@ -30,9 +32,17 @@ impl Signals {
         Ok(Signals { came, bell })
     }
 
-    /// Whether one has come.
+    /// Whether one has come. Does not return where two have.
     pub fn came(&self) -> bool {
-        self.came.load(Ordering::SeqCst)
+        let came = self.came.load(Ordering::SeqCst);
+        // Two signals can reach two threads at the same moment, so that both are taken for the first. Each of them has
+        // put a byte into the bell, which stays there.
+        let two = &mut [0u8; 2][..];
+        let peek = RecvFlags::PEEK | RecvFlags::DONTWAIT;
+        if came && recv(&self.bell, two, peek).is_ok_and(|(read, _)| read == 2) {
+            std::process::exit(i32::from(Code::Interrupted as u8));
+        }
+        came
     }
 
     /// Readable once one has come.
