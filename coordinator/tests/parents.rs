@@ -44,6 +44,12 @@ fn a_build_from_a_parent_is_the_same_everywhere_and_needs_the_parent_no_more() {
     let imports = [&build[..], &["--threads", "1", "--import", "b.sets"]].concat();
     scratch.build("imported", &imports, 0);
     assert!(scratch.ledger("imported") == scratch.ledger("threads"), "the ledgers differ");
+    // Written elsewhere it is the same problem.
+    fs::create_dir(scratch.path("elsewhere")).expect("a folder can be made");
+    scratch.run(&["import", "child.toml", "--out", "elsewhere/child.toml"]).assert_code(0);
+    let elsewhere = ["elsewhere/child.toml", "--max-sets", "24", "--threads", "1"];
+    let digest = scratch.build("elsewhere-run", &elsewhere, 0);
+    assert_eq!(digest, scratch.summary("threads").digest);
     fs::remove_dir_all(scratch.path("parent")).expect("it is there");
     scratch.run(&["verify", "threads", "--all", "--workers", "2"]).assert_code(0);
     scratch.run(&["resume", "short", "--max-sets", "24", "--workers", "2"]).assert_code(0);

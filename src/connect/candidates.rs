@@ -51,6 +51,11 @@ impl<'a> CandidatePairs<'a> {
         Some(CandidatePairs { old, new, linked })
     }
 
+    /// The pairs of an old and a new node that have an edge already.
+    pub fn linked(&self) -> impl Iterator<Item = [u32; 2]> {
+        self.linked.iter().map(|(new, old)| [*old, *new])
+    }
+
     /// Each new node in order with its `neighbors` nearest old ones, nearest first, ties by id.
     pub fn nearest(&self, cx: &Context, neighbors: u32) -> Vec<CandidatePair> {
         self.found(cx, &KNearest { neighbors })

@@ -36,6 +36,13 @@ impl Among for UntilJoined {
             a.distance.total_cmp(&b.distance).then((a.new, a.old).cmp(&(b.new, b.old)))
         });
         let mut joined = Joined::default();
+        // What the edges with which a growing set was made have joined.
+        for pair in candidates.linked() {
+            let sides = pair.map(|node| joined.root(candidates.component(node)));
+            if sides[0] != sides[1] {
+                joined.unite(sides);
+            }
+        }
         let mut edges = Vec::new();
         for pair in pairs {
             let sides = [pair.old, pair.new].map(|node| joined.root(candidates.component(node)));

@@ -37,7 +37,8 @@ impl Levels {
         if !(range > 0.0 && range.is_finite()) {
             return None;
         }
-        let step = round_length(2.0 * range / LEVELS);
+        // Of energies too near to zero to be told apart there is no level.
+        let step = Some(2.0 * range / LEVELS).filter(|step| step.is_normal()).map(round_length)?;
         let (first, last) = ((lowest / step).ceil() as i64, (highest / step).floor() as i64);
         (first <= last).then_some(Levels { step, first, last })
     }

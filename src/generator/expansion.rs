@@ -59,6 +59,7 @@ fn default_attempts() -> u64 {
 }
 
 const HALVINGS_MAX: u32 = 30;
+const STEPS_MAX: u32 = 1_000_000;
 
 impl Generator for ExpansionStep {
     fn reads(&self) -> Reads {
@@ -96,9 +97,11 @@ impl Generator for ExpansionStep {
         if self.halvings > HALVINGS_MAX {
             return Some(("halvings", self.halvings.to_string(), "0 to 30"));
         }
-        let counts = [("steps", self.steps), ("bounces", self.bounces)];
-        if let Some((key, _)) = counts.iter().find(|(_, count)| *count == 0) {
-            return Some((key, "0".to_owned(), "at least 1"));
+        if !(1..=STEPS_MAX).contains(&self.steps) {
+            return Some(("steps", self.steps.to_string(), "1 to 1000000"));
+        }
+        if self.bounces == 0 {
+            return Some(("bounces", "0".to_owned(), "at least 1"));
         }
         (self.attempts == 0).then(|| ("attempts", "0".to_owned(), "at least 1"))
     }
@@ -215,6 +218,10 @@ impl Walks<'_> {
                 continue;
             }
             space.along(at, &direction, reached, &mut there);
+            // A step can be too short to move anything.
+            if there == at {
+                continue;
+            }
             // The steps were looked at one by one; the motion is to be valid as every edge is. It follows the
             // shortest way, which is not the one that was walked where an angle turned by more than half a turn.
             if let Some(cost) = self.cx.model.motion(at, &there, 1, self.scratch) {

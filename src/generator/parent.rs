@@ -3,7 +3,8 @@ use crate::roadmap::Roadmap;
 use crate::space::Space;
 use bincode::Encode;
 use bincode::de::{Decode, Decoder};
-use bincode::error::DecodeError;
+use bincode::enc::Encoder;
+use bincode::error::{DecodeError, EncodeError};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::Path;
@@ -14,10 +15,14 @@ use std::sync::Arc;
 /// A problem file names the run by its folder, from the folder of the file, and may say the hash of its ledger.
 /// Once the problem is read, the nodes and edges of the run's roadmap are part of the problem, as its meshes are:
 /// whoever has the problem's bytes, a worker, a ledger or a file of sets, needs the run no more.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, bincode::Decode)]
+///
+/// The hash of the ledger and the roadmap say what the parent is. Where its folder is does not count: it is no part of
+/// the bytes, and parents from different folders can be equal.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parent {
-    /// The run's folder, as the problem file writes it.
+    /// The run's folder: as the problem file writes it, an absolute path once the problem is read, and empty in a
+    /// problem that comes from bytes.
     pub run: String,
     /// The hash of the run's ledger up to its last complete round. A problem file may leave it out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -88,6 +93,8 @@ impl Parent {
         if run.roadmap.configs().is_empty() {
             return Err(format!("the roadmap of {} has no nodes; at least 1 expected", self.run));
         }
+        let place = std::path::absolute(folder.join(&self.run));
+        self.run = place.map_or_else(|_| self.run.clone(), |path| path.to_string_lossy().into());
         self.ledger = Some(run.ledger);
         self.roadmap = Arc::new(ParentRoadmap {
             dofs: space.len() as u32,
@@ -102,6 +109,29 @@ impl Parent {
         &self.roadmap
     }
 }
+
+impl PartialEq for Parent {
+    fn eq(&self, other: &Parent) -> bool {
+        (self.ledger, &self.roadmap) == (other.ledger, &other.roadmap)
+    }
+}
+
+impl Encode for Parent {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        (self.ledger, &self.roadmap).encode(encoder)
+    }
+}
+
+impl<Context> Decode<Context> for Parent {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Self, DecodeError> {
+        let (ledger, roadmap): (Option<Digest>, Arc<ParentRoadmap>) = Decode::decode(decoder)?;
+        if ledger.is_none() || roadmap.is_empty() {
+            return Err(DecodeError::Other("a parent that was never read"));
+        }
+        Ok(Parent { run: String::new(), ledger, roadmap })
+    }
+}
+bincode::impl_borrow_decode!(Parent);
 
 impl ParentRoadmap {
     /// Number of nodes.

@@ -67,14 +67,14 @@ fn push_edge(bytes: &mut Vec<u8>, edge: &Edge) {
 }
 
 /// What sets of the first version do not have: a number that cannot be the count of a set's milestones, the
-/// values of the milestones, the links, and of all directed edges the weight back and the peak.
+/// values of the milestones, the root edges, and of all directed edges the weight back and the peak.
 fn push_rest(bytes: &mut Vec<u8>, first: u32, increment: &Increment, joins: &[Edge]) {
     let number = |value: f64| (value + 0.0).to_bits().to_le_bytes();
     bytes.extend(u64::MAX.to_le_bytes());
     bytes.extend((increment.values.len() as u64).to_le_bytes());
     bytes.extend(increment.values.iter().flat_map(|value| number(*value)));
     bytes.extend((increment.root_edges.len() as u64).to_le_bytes());
-    increment.root_edges_from(first).for_each(|link| push_edge(bytes, &link));
+    increment.root_edges_from(first).for_each(|edge| push_edge(bytes, &edge));
     for edge in increment.edges.iter().chain(joins).chain(&increment.root_edges) {
         match edge.cost {
             EdgeCost::Metric(_) => bytes.push(0),

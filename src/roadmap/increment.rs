@@ -143,18 +143,18 @@ impl Increment {
     /// the number of nodes at the start of the round.
     pub fn is_sound(&self, form: SetForm, before: u64) -> bool {
         let nodes = self.configs.len() as u64;
-        let of_links = |link: &Edge| u64::from(link.low) < before && u64::from(link.high) < nodes;
+        let of_roots = |edge: &Edge| u64::from(edge.low) < before && u64::from(edge.high) < nodes;
         self.configs.is_sound(form.dofs)
             && self.edges.iter().all(|edge| {
                 edge.low < edge.high && u64::from(edge.high) < nodes && form.has_cost(edge)
             })
-            && self.root_edges.iter().all(|link| of_links(link) && form.has_cost(link))
+            && self.root_edges.iter().all(|edge| of_roots(edge) && form.has_cost(edge))
             && self.values.len() as u64 == nodes * form.values as u64
             && self.values.iter().all(|value| value.is_finite())
     }
 
-    /// The links as edges of a roadmap in which the first milestone is called `first`.
+    /// The root edges as edges of a roadmap in which the first milestone is called `first`.
     pub fn root_edges_from(&self, first: u32) -> impl Iterator<Item = Edge> {
-        self.root_edges.iter().map(move |link| Edge { high: link.high + first, ..*link })
+        self.root_edges.iter().map(move |edge| Edge { high: edge.high + first, ..*edge })
     }
 }

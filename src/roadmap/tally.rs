@@ -97,8 +97,8 @@ impl Outline {
             self.forest.grow(increment.configs.len() as u32);
             components += increment.configs.len();
             let inner = increment.edges.iter().map(|edge| edge.shifted(first));
-            let links = increment.root_edges_from(first);
-            for edge in inner.chain(links).chain(joins.iter().copied()) {
+            let roots = increment.root_edges_from(first);
+            for edge in inner.chain(roots).chain(joins.iter().copied()) {
                 let [low, high] = self.forest.unite(edge.low, edge.high);
                 components -= usize::from(low != high);
             }

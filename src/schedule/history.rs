@@ -24,8 +24,8 @@ impl History {
                 let edge = edge.shifted(first);
                 self.forest.unite(edge.low, edge.high);
             }
-            for link in set.increment.root_edges_from(first) {
-                self.forest.unite(link.low, link.high);
+            for edge in set.increment.root_edges_from(first) {
+                self.forest.unite(edge.low, edge.high);
             }
         }
         let mut yields = vec![Yield::default(); self.strategies];

@@ -14,8 +14,9 @@ use std::path::Path;
 pub(super) fn batch(asker: &Asker, file: &Path, folder: &Path) -> Result<Code, Failure> {
     let queries = read(asker, file)?;
     make_empty(folder)?;
+    let unit = asker.run.problem().model.description().cost_unit();
     let mut summary =
-        "index,solved,length [length],configurations,dropped_edges,seconds\n".to_owned();
+        format!("index,solved,length [{unit}],configurations,dropped_edges,seconds\n");
     let (mut unsolved, mut whole) = (0, 0.0);
     for (index, [start, goal]) in queries.iter().enumerate() {
         let Asked { answer, seconds } = asker.ask(start, goal);

@@ -1,3 +1,4 @@
+use super::say;
 use crate::cli::DiffArguments;
 use crate::exit::{Code, Failure};
 use crate::run::ledger::Chapter;
@@ -13,7 +14,7 @@ use std::path::Path;
 pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
     let (left, right) = (Read::new(&arguments.left)?, Read::new(&arguments.right)?);
     for reason in reasons(&left.scan.chapters, &right.scan.chapters) {
-        println!("{reason}");
+        say(reason);
     }
     let [mut ours, mut theirs] = [Side::new(&left)?, Side::new(&right)?];
     let mut sets = 0u64;
@@ -63,7 +64,7 @@ pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
             ));
         }
     }
-    println!("the same {sets} sets and judgements");
+    say(format_args!("the same {sets} sets and judgements"));
     Ok(Code::Done)
 }
 

@@ -1,5 +1,6 @@
 use super::crew::count;
 use super::load::load;
+use super::say;
 use crate::cli::{CrewArguments, GenerateArguments};
 use crate::exit::{Code, Failure};
 use crate::run::SetsWriter;
@@ -60,7 +61,8 @@ pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
     }
     writer.end()?;
     let Range { start, end } = ordinals;
-    println!("{} sets {label}:{start}..{end} in {}", end - start, out.display());
+    let count = end - start;
+    say(format_args!("{count} sets {label}:{start}..{end} in {}", out.display()));
     Ok(Code::Done)
 }
 

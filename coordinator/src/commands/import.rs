@@ -1,6 +1,9 @@
 use super::load::load;
+use super::say;
 use crate::cli::ImportArguments;
 use crate::exit::{Code, Failure};
+use crate::run::Ledgers;
+use roadmill::model::SceneOptions;
 use roadmill::problem::{Problem, Written};
 use std::fs;
 use std::io;
@@ -20,7 +23,8 @@ pub fn import(arguments: &ImportArguments) -> Result<Code, Failure> {
     written.text = format!("# Imported from {from:?}.\n{}", written.text);
     let result = place.fill(&written).and_then(|()| {
         let file = place.staged.join(&place.file_name);
-        let again = Problem::load(&file).map_err(Failure::system)?;
+        let again = Problem::load_with(&file, &SceneOptions::default(), &Ledgers);
+        let again = again.map_err(Failure::system)?;
         if again.digest() != problem.digest() {
             return Err(Failure::system("what was written loads to another problem; not kept"));
         }
@@ -30,7 +34,7 @@ pub fn import(arguments: &ImportArguments) -> Result<Code, Failure> {
     let _ = fs::remove_dir_all(&place.staged);
     result?;
     problem.notes.iter().for_each(|note| eprintln!("{}: {note}", problem.name));
-    println!("problem digest   {}", problem.digest());
+    say(format_args!("problem digest   {}", problem.digest()));
     Ok(Code::Done)
 }
 

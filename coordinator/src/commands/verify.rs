@@ -1,4 +1,5 @@
 use super::crew::workers;
+use super::say;
 use crate::cli::VerifyArguments;
 use crate::exit::{Code, Failure};
 use crate::signals::Signals;
@@ -19,12 +20,12 @@ pub fn verify(arguments: &VerifyArguments) -> Result<Code, Failure> {
     };
     let run = Run::at(&arguments.run);
     let verified = run.verify(selection).workers(&workers).signals(&signals).check()?;
-    println!(
+    say(format_args!(
         "{} of {} sets and {} judgements recomputed: all as recorded",
         verified.sets, verified.sets_recorded, verified.judgements
-    );
+    ));
     if let Some(digest) = verified.digest {
-        println!("digest {digest}");
+        say(format_args!("digest {digest}"));
     }
     Ok(Code::Done)
 }

@@ -26,7 +26,7 @@ pub fn of_increments(space: &Space, left: &Increment, right: &Increment) -> Opti
         return Some(format!("value {index} of the nodes: {a:?} and {b:?}"));
     }
     of_edges("edge", &left.edges, &right.edges)
-        .or_else(|| of_edges("link", &left.root_edges, &right.root_edges))
+        .or_else(|| of_edges("root edge", &left.root_edges, &right.root_edges))
         .or_else(|| of_counts(left.asked, right.asked))
 }
 

@@ -24,17 +24,25 @@ pub(super) struct Interval {
     to: f64,
     halvings: u32,
     above: f64,
+    /// By how much rounding may have moved the bound.
+    rounding: f64,
 }
 
 impl Interval {
     /// One that could mislead.
     pub fn rubbish(rubbish: u64) -> Interval {
-        Interval { from: rubbish as f64, to: f64::NAN, halvings: 7, above: f64::INFINITY }
+        Interval {
+            from: rubbish as f64,
+            to: f64::NAN,
+            halvings: 7,
+            above: f64::INFINITY,
+            rounding: f64::NAN,
+        }
     }
 }
 
 /// A number that no energy on the way from one end to the other exceeds, and that is at most `tolerance` and
-/// the rounding above the highest of them. `open` is memory.
+/// three times the rounding above the highest of them. `open` is memory.
 pub(super) fn peak(
     terms: &[Term],
     ends: [[f64; 2]; 2],
@@ -46,8 +54,10 @@ pub(super) fn peak(
     open.clear();
     open.push(along.bounded(0.0, 1.0, 0, &mut below));
     while let Some(interval) = open.pop() {
-        // The energy is known to reach `below`.
-        if interval.above <= below + tolerance || interval.halvings == HALVINGS_MAX {
+        // The energy is known to reach `below`. Both bounds give way to rounding, so no halving brings them nearer
+        // to each other than twice that.
+        let near = tolerance + 2.0 * interval.rounding;
+        if interval.above <= below + near || interval.halvings == HALVINGS_MAX {
             above = above.max(interval.above);
             continue;
         }
@@ -100,7 +110,7 @@ impl Along<'_> {
         };
         let rounding = ROUNDING * size;
         *below = below.max(highest - rounding);
-        Interval { from, to, halvings, above: bound + rounding }
+        Interval { from, to, halvings, above: bound + rounding, rounding }
     }
 
     /// Bounds over the times from `from` to `to`.

@@ -73,6 +73,22 @@ fn costs_there_and_back_differ_as_the_energies_of_the_ends() {
     }
 }
 
+/// Energies so large that rounding exceeds the tolerance: the search ends where halving brings the bounds no nearer.
+#[test]
+fn the_search_for_a_peak_ends_at_rounding() {
+    let saddle = "[landscape]\nmin = [-4, -4]\nmax = [4, 4]\nenergy = { terms = [{ height = 1, \
+                  centre = [0, 0], xx = 1.5, yy = -1 }] }\n";
+    let cx = parse(saddle).unwrap().context();
+    let scratch = &mut Scratch::new();
+    // Across the ridge, whose top is between the ends.
+    let (a, b) = ([3.9, -3.0], [3.95, 3.5]);
+    let Some(Cost::Directed(cost)) = cx.model.motion(&a, &b, 20, scratch) else {
+        panic!("every motion in the bounds is valid");
+    };
+    let top = cx.model.energy(&[3.92, 0.0], scratch).unwrap();
+    assert!(cost.peak >= top && cost.peak < 2.0 * top, "{} for {top}", cost.peak);
+}
+
 #[test]
 fn what_is_above_the_highest_valid_energy_is_invalid() {
     let cx = parse(&format!("{FILE}highest = -60.0\n")).unwrap().context();

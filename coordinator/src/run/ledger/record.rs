@@ -156,8 +156,8 @@ pub struct Set {
     pub joined: Joined,
 }
 
-/// A set that grew from the roadmap, or whose nodes have values or whose edges directed costs, and how it is
-/// joined to what came before it.
+/// A set that grew from the roadmap or was made from a parent run, or whose nodes have values or whose edges directed
+/// costs, and how it is joined to what came before it.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct FullSet {
     /// Its place.
