@@ -56,7 +56,7 @@ fn a_run_answers_queries_and_goes_on_under_other_limits() {
     let folder = tempfile::tempdir().expect("a folder");
     let run = Run::at(folder.path().join("maze"));
     let problem = load("problems/maze.toml");
-    let ends = problem.query.clone().expect("the maze has a query");
+    let ends = problem.query().cloned().expect("the maze has a query");
     let begun = Run::begin(problem).folder(run.folder()).workers(&Workers::threads(2));
     let built = begun.grow().expect("it can be begun");
     assert_eq!(built.outcome().0, Code::Done);
@@ -72,7 +72,7 @@ fn a_run_answers_queries_and_goes_on_under_other_limits() {
     let nodes = recorded.roadmap().configs().len() as u64 + 1000;
     let longer = run.resume().max_nodes(nodes).grow().expect("it can go on");
     assert_eq!((longer.digest(), longer.rounds()), (built.digest(), built.rounds()));
-    assert_eq!(longer.problem().limits.nodes, nodes);
+    assert_eq!(longer.problem().limits().nodes, nodes);
 }
 
 #[test]

@@ -29,6 +29,17 @@ pub struct Coverage {
     pub planners: Vec<Planner>,
 }
 
+impl Default for Coverage {
+    fn default() -> Coverage {
+        Coverage {
+            samples: samples::default_samples(),
+            percent: default_percent(),
+            neighbors: samples::default_neighbors(),
+            planners: samples::default_planners(),
+        }
+    }
+}
+
 fn default_percent() -> f64 {
     95.0
 }

@@ -30,6 +30,13 @@ pub struct Share {
     pub sampler: SamplerKind,
 }
 
+impl Share {
+    /// A share of weight 1.
+    pub fn new(sampler: SamplerKind) -> Share {
+        Share { weight: default_weight(), sampler }
+    }
+}
+
 fn default_weight() -> f64 {
     1.0
 }

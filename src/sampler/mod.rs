@@ -10,10 +10,10 @@
 //!
 //! let cx = Problem::load("tests/problems/slide.toml".as_ref())?.context();
 //! let (seed, scratch) = (Seed::of_set(1, "uniform", 0), &mut Scratch::new());
-//! let mut milestones = Configs::new(cx.space.len());
+//! let mut milestones = Configs::new(cx.space().len());
 //! let sampled = Uniform::default().sample(&cx, &seed, 5, scratch, &mut milestones);
 //! assert!(sampled.is_ok() && milestones.len() == 5);
-//! assert!(milestones.iter().all(|q| cx.model.is_valid(q, scratch)));
+//! assert!(milestones.iter().all(|q| cx.model().is_valid(q, scratch)));
 //! # Ok::<(), roadmill::problem::ProblemError>(())
 //! ```
 

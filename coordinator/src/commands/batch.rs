@@ -14,7 +14,7 @@ use std::path::Path;
 pub(super) fn batch(asker: &Asker, file: &Path, folder: &Path) -> Result<Code, Failure> {
     let queries = read(asker, file)?;
     make_empty(folder)?;
-    let unit = asker.run.problem().model.description().cost_unit();
+    let unit = asker.run.problem().model().description().cost_unit();
     let mut summary =
         format!("index,solved,length [{unit}],configurations,dropped_edges,seconds\n");
     let (mut unsolved, mut whole) = (0, 0.0);
