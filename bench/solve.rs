@@ -19,7 +19,6 @@ mod support;
 use roadmill::connect::{AmongKind, ComponentPairs, NearestNodes, UntilJoined};
 use roadmill::img::Setup;
 use roadmill::local::Planner;
-use roadmill::problem::Problem;
 use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;

@@ -4,7 +4,9 @@ use roadmill::Build;
 use roadmill::connect::{
     AmongKind, ComponentPairs, Nearest, NearestNodes, UntilJoined, WithinKind,
 };
-use roadmill::evaluate::{All, Coverage, EvaluatorKind, LowestBarrier, MaxFlow, Not, Query};
+use roadmill::evaluate::{
+    All, Coverage, Drawn, EvaluatorKind, LowestBarrier, MaxFlow, Not, Query, Samples,
+};
 use roadmill::generator::{ExpansionStep, GeneratorKind};
 use roadmill::model::bodies::validity::{BoundsMeaning, MotionChecking};
 use roadmill::model::bodies::{
@@ -12,7 +14,7 @@ use roadmill::model::bodies::{
 };
 use roadmill::model::landscape::{Energy, LandscapeSpec, Term};
 use roadmill::problem::{Problem, ProblemBuilder, StrategySpec};
-use roadmill::sampler::{self, Gaussian, Halton, SamplerKind, Uniform};
+use roadmill::sampler::{self, Gaussian, Halton, Mix, SamplerKind, Share, Uniform};
 use roadmill::schedule::Adaptive;
 use roadmill::space::BaseJoint;
 use std::path::{Path, PathBuf};
@@ -523,6 +525,45 @@ fn wrong_values_have_the_error_of_the_file_without_its_line() {
     }
 }
 
+/// What is nested without end would overflow the stack of whoever looks at it.
+#[test]
+fn methods_nest_as_deep_as_a_file_can_say() {
+    let not = |depth: usize| {
+        let query = EvaluatorKind::Query(Query::default());
+        (0..depth).fold(query, |inner, _| EvaluatorKind::Not(Not(Box::new(inner))))
+    };
+    let all = |depth: usize| {
+        let query = EvaluatorKind::Query(Query::default());
+        (0..depth).fold(query, |inner, _| EvaluatorKind::All(All(vec![inner])))
+    };
+    let mix = |depth: usize| {
+        let mixed = |inner, _| SamplerKind::Mix(Mix(vec![Share::new(inner)]));
+        (0..depth).fold(SamplerKind::default(), mixed)
+    };
+    let sampled =
+        |depth| planar().strategies([StrategySpec::sampled("deep", mix(depth))]).default_schedule();
+    let drawn = |depth| {
+        let samples = Samples::Drawn(vec![Drawn { sampler: mix(depth), count: 2 }]);
+        planar().evaluator(EvaluatorKind::Coverage(Coverage { samples, ..Coverage::default() }))
+    };
+    let makers: [(&str, &dyn Fn(usize) -> ProblemBuilder); 4] = [
+        ("evaluators[0]", &|depth| planar().evaluator(not(depth))),
+        ("evaluators[0]", &|depth| planar().evaluator(all(depth))),
+        ("strategies[0].sampler", &sampled),
+        ("evaluators[0]", &drawn),
+    ];
+    for (key, maker) in makers {
+        let accepted = (0..100).take_while(|depth| maker(*depth).build().is_ok()).count();
+        assert!((20..100).contains(&accepted), "{key}: {accepted}");
+        let deepest = maker(accepted - 1).build().expect("accepted");
+        let written = deepest.to_toml("meshes").text;
+        let again = Problem::parse("deep.toml".as_ref(), &written);
+        assert_eq!(again.expect("it can be read").digest(), deepest.digest());
+        let error = maker(2000).build().map(|_| ()).expect_err("too deep").to_string();
+        assert!(error.starts_with(&format!("{key}: methods within methods found")), "{error}");
+    }
+}
+
 #[test]
 fn wrong_meshes_in_memory_name_the_item() {
     let mesh = |vertices: &[[f64; 3]], triangles: &[[u32; 3]], scale| {
@@ -579,4 +620,22 @@ fn a_built_problem_is_planned_for_like_that_of_its_file() {
         .build()
         .expect("a sound problem");
     assert_ne!(sampled.digest(), built.problem().digest());
+}
+
+#[test]
+fn the_example_of_the_documentation_is_that_of_its_file() {
+    let page = std::fs::read_to_string(path("docs/problems.md")).expect("it ships");
+    let (_, rest) = page.split_once("```toml\n").expect("an example");
+    let (example, _) = rest.split_once("```").expect("its end");
+    let of_file = Problem::parse("cart.toml".as_ref(), example).unwrap_or_else(|e| panic!("{e}"));
+
+    let space = SpaceSpec::new(BaseJoint::Rigid2d, [0.0, 0.0], [6.0, 4.0], BoundsMeaning::Body);
+    let robot = RobotSpec::new().body(ShapeSpec::Box { size: [1.0, 0.4, 0.4] });
+    let wall = BodySpec::new(ShapeSpec::Box { size: [0.2, 2.5, 1.0] }).at([3.0, 1.25, 0.0]);
+    let problem = Problem::builder("cart", BodiesSpec::new(space, robot).obstacle(wall))
+        .query([1.0, 1.0, 0.0], [5.0, 1.0, 1.57])
+        .build()
+        .expect("a sound problem");
+    assert_eq!(problem.digest(), of_file.digest());
+    assert_eq!(problem.describe(), of_file.describe());
 }

@@ -72,6 +72,10 @@ impl Evaluator for Coverage {
         Some(self.how())
     }
 
+    fn is_within(&self, brackets: u32) -> bool {
+        self.samples.is_within(brackets)
+    }
+
     fn complaint(&self) -> Option<Complaint> {
         samples::complaint(&self.samples, self.percent, &self.how())
     }

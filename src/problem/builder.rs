@@ -14,19 +14,21 @@ use std::path::PathBuf;
 /// way: it has the same digest and the same notes, and what is wrong has the same error, without a line.
 ///
 /// ```
-/// use roadmill::model::bodies::{BodiesSpec, RobotSpec, ShapeSpec, SpaceSpec, validity::BoundsMeaning};
+/// use roadmill::model::bodies::validity::BoundsMeaning;
+/// use roadmill::model::bodies::{BodiesSpec, BodySpec, RobotSpec, ShapeSpec, SpaceSpec};
 /// use roadmill::{Build, problem::Problem, space::BaseJoint};
 ///
 /// // A bar in the plane, which has to get past a ball.
 /// let space = SpaceSpec::new(BaseJoint::Rigid2d, [0.0, 0.0], [8.0, 8.0], BoundsMeaning::Body);
 /// let robot = RobotSpec::new().body(ShapeSpec::Box { size: [1.0, 0.2, 0.2] });
-/// let ball = roadmill::model::bodies::BodySpec::new(ShapeSpec::Sphere { radius: 2.0 }).at([4.0, 4.0, 0.0]);
-/// let bodies = BodiesSpec::new(space, robot).obstacle(ball);
-/// let problem = Problem::builder("ball", bodies)
+/// let ball = BodySpec::new(ShapeSpec::Sphere { radius: 2.0 }).at([4.0, 4.0, 0.0]);
+/// let problem = Problem::builder("ball", BodiesSpec::new(space, robot).obstacle(ball))
 ///     .query([1.0, 1.0, 0.0], [7.0, 7.0, 1.5])
 ///     .build()?;
 /// let built = Build::new(problem).run()?;
-/// assert!(built.path().is_some());
+/// for q in built.path().expect("there is a way round the ball") {
+///     println!("{q:?}");
+/// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]

@@ -5,6 +5,7 @@ use super::{Limits, StrategySpec};
 use crate::connect::WithinKind;
 use crate::evaluate::{self, EvaluatorKind};
 use crate::generator::{GeneratorKind, Sample};
+use crate::methods::{BRACKETS_MAX, too_deep};
 use crate::sampler::SamplerKind;
 use crate::schedule::Adaptive;
 use crate::source::ProblemError;
@@ -42,6 +43,14 @@ pub(super) fn strategies_of(
         if !(1..=SET_NODES_MAX).contains(&spec.nodes) {
             let message = format!("{} found; 1 to {SET_NODES_MAX} expected", spec.nodes);
             return fail(&["nodes"], message);
+        }
+        let sampler = spec
+            .sampler
+            .as_ref()
+            .or_else(|| spec.generator.as_ref()?.as_sample().map(|s| &s.sampler));
+        if sampler.is_some_and(|sampler| !sampler.method().is_within(BRACKETS_MAX - 2)) {
+            let key = if spec.sampler.is_some() { "sampler" } else { "generator" };
+            return fail(&[key], too_deep());
         }
         let generator = match spec.maker() {
             Ok(generator) => generator,
@@ -167,6 +176,11 @@ pub(super) fn evaluators_of(
     source: &Source,
     file: &File,
 ) -> Result<Vec<EvaluatorKind>, ProblemError> {
+    for (index, evaluator) in file.evaluators.iter().flatten().enumerate() {
+        if !evaluator.method().is_within(BRACKETS_MAX) {
+            return Err(source.error(&[Key("evaluators"), Index(index)], too_deep()));
+        }
+    }
     let evaluators = match &file.evaluators {
         Some(evaluators) => evaluators.clone(),
         None if file.query.is_some() => vec![EvaluatorKind::Query(evaluate::Query::default())],

@@ -16,8 +16,8 @@ mod strategy;
 mod write;
 
 pub use crate::source::ProblemError;
-pub use building::NODES_MAX;
 pub use builder::ProblemBuilder;
+pub use building::NODES_MAX;
 pub use chapter::Earlier;
 pub use configuration::configuration;
 pub use layout::Layout;

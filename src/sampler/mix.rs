@@ -81,6 +81,11 @@ impl Sampler for Mix {
         Ok(())
     }
 
+    fn is_within(&self, brackets: u32) -> bool {
+        // { mix = [{ sampler = …
+        brackets.checked_sub(3).is_some_and(|rest| self.methods().all(|each| each.is_within(rest)))
+    }
+
     fn complaint(&self) -> Option<Complaint> {
         if self.0.is_empty() {
             return Some(("mix", "[]".to_owned(), "at least one sampler"));

@@ -64,7 +64,7 @@ pub use uniform::Uniform;
 pub use uobprm::Uobprm;
 
 use crate::context::Context;
-use crate::methods::{Complaint, methods};
+use crate::methods::{BRACKETS_OF_SETTINGS, Complaint, methods};
 use crate::model::{Scratch, Validity};
 use crate::roadmap::Configs;
 use crate::seed::Seed;
@@ -88,6 +88,11 @@ pub trait Sampler {
     /// What is wrong with the settings.
     fn complaint(&self) -> Option<Complaint> {
         None
+    }
+
+    /// Whether the method, as a problem file writes it, has at most so many brackets within one another.
+    fn is_within(&self, brackets: u32) -> bool {
+        brackets >= BRACKETS_OF_SETTINGS
     }
 
     /// Whether the method is defined for the problem.

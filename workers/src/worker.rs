@@ -5,12 +5,10 @@ use crate::error::WorkerError;
 use crate::faults::{Faults, Slip};
 use crate::line::{Line, SharedData};
 use crate::message::{FromWorker, PROTOCOL, ToWorker};
-use roadmill::img::{Outcome, Replica, Setup, canary};
+use roadmill::img::{Replica, Setup, canary};
 use roadmill::internal::wire;
-use roadmill::model::Scratch;
 use roadmill::roadmap::Digest;
 use std::convert::Infallible;
-use std::sync::Arc;
 
 /// Works for the coordinator at the other end of `line` until it is gone. `build` says which program this
 /// is: see [`build_id`](crate::build_id).

@@ -374,12 +374,12 @@ impl Check<'_> {
     ) -> Result<(), Failure> {
         let name = format!("the judgement of round {}", judged.round);
         needs_bits(&name, &self.scan.chapters[chapter])?;
-        let evaluators = judge.problem.evaluators().iter().enumerate();
+        let evaluators = judge.problem().evaluators().iter().enumerate();
         let verdicts: Vec<_> = evaluators
             .map(|(index, evaluator)| {
                 let method = evaluator.method();
                 let scratch = &mut Scratch::new();
-                method.evaluate(&judge.cx, &index.to_string(), roadmap, scratch)
+                method.evaluate(judge.context(), &index.to_string(), roadmap, scratch)
             })
             .collect();
         self.counts.1 += 1;
