@@ -63,7 +63,7 @@ fn share_of_a_build(folder: &Path, seconds: u64) {
 fn opening(folder: &Path, nodes: u64) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../problems/walls.toml");
     let problem = Problem::load(&path).expect("it ships");
-    let problem = problem.to_builder().sets_per_round(SETS_PER_ROUND as u64).build();
+    let problem = problem.to_builder().sets_per_round(SETS_PER_ROUND).build();
     let problem = problem.expect("it ships");
     let run = folder.join("large");
     std::fs::create_dir(&run).expect("a folder");

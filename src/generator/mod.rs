@@ -113,14 +113,6 @@ impl GeneratorKind {
         }
     }
 
-    /// The same, to be changed.
-    pub fn as_sample_mut(&mut self) -> Option<&mut Sample> {
-        match self {
-            GeneratorKind::Sample(sample) => Some(sample),
-            _ => None,
-        }
-    }
-
     /// Whether the method reads the roadmap at the start of its sets' rounds.
     pub fn grows(&self) -> bool {
         self.method().reads() == Reads::Roadmap

@@ -88,6 +88,7 @@ macro_rules! models {
 
         /// A model as a problem asks for it, before anything is checked.
         #[derive(Clone, Debug, PartialEq)]
+        #[allow(clippy::large_enum_variant, reason = "there is one for a problem")]
         pub enum ModelSpec {
             $(#[allow(missing_docs)] $variant($spec),)+
         }
