@@ -27,7 +27,8 @@ use roadmill::problem::Problem;
 use roadmill::roadmap::Configs;
 use std::path::Path;
 use support::brute::Brute;
-use support::peer::{empty, pairs_text, run, scene_text, suits, surfaces, verdicts, with_edges};
+use support::edges::with_edges;
+use support::peer::{empty, pairs_text, run, scene_text, suits, surfaces, verdicts};
 use support::{cpu_seconds, lists, sample};
 
 /// How much finer motions are looked at than the resolution asks for.
@@ -70,7 +71,7 @@ fn check(path: &Path, count: usize) {
     let mut problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
     let judge = if suits(&problem) {
         let Ok(peer) = std::env::var("ROADMILL_PEER") else {
-            println!("| {} | skipped, ROADMILL_PEER is not set |", problem.name);
+            println!("| {} | skipped, ROADMILL_PEER is not set |", problem.name());
             return;
         };
         problem = surfaces(path);
@@ -78,15 +79,15 @@ fn check(path: &Path, count: usize) {
         std::fs::write(folder.path().join("scene"), scene_text(&problem)).expect("a file");
         Judge::Peer { peer, folder }
     } else {
-        empty(&mut problem);
+        problem = empty(&problem);
         Judge::Brute(Box::new(Brute::new(&problem)))
     };
     let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled]
-        .map(|edges| with_edges(problem.clone(), edges).context());
+        .map(|edges| with_edges(&problem, edges).context());
     let motions = motions(&problem, &swept, count);
     let scratch = &mut Scratch::new();
     let mut decide = |cx: &Context| -> Vec<bool> {
-        motions.iter().map(|(a, b)| cx.model.motion(a, b, 1, scratch).is_some()).collect()
+        motions.iter().map(|(a, b)| cx.model().motion(a, b, 1, scratch).is_some()).collect()
     };
     let (accepted, at_steps) = (decide(&swept), decide(&sampled));
     let coarse = judge.free(&swept, &motions, 1);
@@ -98,15 +99,16 @@ fn check(path: &Path, count: usize) {
     let refused: Vec<usize> = (0..motions.len()).filter(|i| finer[*i] && !accepted[*i]).collect();
     // The links of a pair may both move.
     let moving =
-        if problem.model.bodies().expect("bodies").robot.links.len() == 1 { 1.0 } else { 2.0 };
-    let tolerance = moving * problem.model.bodies().expect("bodies").resolution / TOLERANCE as f64;
+        if problem.model().bodies().expect("bodies").robot().links.len() == 1 { 1.0 } else { 2.0 };
+    let tolerance =
+        moving * problem.model().bodies().expect("bodies").resolution() / TOLERANCE as f64;
     let approaches: Vec<_> = refused
         .iter()
         .filter_map(|i| {
             let (a, b) = &motions[*i];
             let fastest = moving
-                * problem.model.bodies().expect("bodies").resolution
-                * BodyValidity::of(&*swept.model).expect("bodies").steps(a, b, 1) as f64;
+                * problem.model().bodies().expect("bodies").resolution()
+                * BodyValidity::of(swept.model()).expect("bodies").steps(a, b, 1) as f64;
             let apart = |q: &[f64]| judge.apart(&swept, q, scratch);
             nearest_approach(&swept, (a, b), fastest, tolerance, apart)
         })
@@ -115,11 +117,11 @@ fn check(path: &Path, count: usize) {
     let there: Vec<Vec<f64>> = approaches.into_iter().map(|(_, q)| q).collect();
     let steps: u64 = motions
         .iter()
-        .map(|(a, b)| BodyValidity::of(&*swept.model).expect("bodies").steps(a, b, 1))
+        .map(|(a, b)| BodyValidity::of(swept.model()).expect("bodies").steps(a, b, 1))
         .sum();
     println!(
         "| {} | {} | {} | {:.1} | {:.1} % | {} | {}, {} | {} | {:.3} % | {} | {:.2} | {} |",
-        problem.name,
+        problem.name(),
         judge.name(),
         motions.len(),
         steps as f64 / motions.len() as f64,
@@ -133,7 +135,7 @@ fn check(path: &Path, count: usize) {
         farthest / tolerance,
         judge.farthest(&there).map_or("–".to_owned(), |far| format!("{:.2}", far / tolerance)),
     );
-    eprintln!("{}: {:.0} CPU s of this process", problem.name, cpu_seconds());
+    eprintln!("{}: {:.0} CPU s of this process", problem.name(), cpu_seconds());
 }
 
 fn motions(problem: &Problem, cx: &Context, count: usize) -> Motions {
@@ -151,7 +153,7 @@ fn motions(problem: &Problem, cx: &Context, count: usize) -> Motions {
     for configs in &sets {
         take(configs, lists::nearest(cx, configs), near);
     }
-    let mut both = Configs::new(cx.space.len());
+    let mut both = Configs::new(cx.space().len());
     sets.iter().flat_map(Configs::iter).for_each(|q| both.push(q));
     take(&both, lists::any(&both, count - 2 * near), count - 2 * near);
     motions
@@ -170,7 +172,7 @@ impl Judge {
         let ends = motions.iter().map(|(a, b)| (&a[..], &b[..]));
         let steps = ends
             .clone()
-            .map(|(a, b)| finer * BodyValidity::of(&*cx.model).expect("bodies").steps(a, b, 1));
+            .map(|(a, b)| finer * BodyValidity::of(cx.model()).expect("bodies").steps(a, b, 1));
         match self {
             Judge::Peer { peer, folder } => {
                 let [scene, pairs, out] = ["scene", "pairs", "verdicts"]
@@ -187,7 +189,7 @@ impl Judge {
                     while stride > 1 {
                         stride /= 2;
                         for i in (stride..steps).step_by(2 * stride as usize) {
-                            cx.space.interpolate(a, b, i as f64 / steps as f64, &mut q);
+                            cx.space().interpolate(a, b, i as f64 / steps as f64, &mut q);
                             if !brute.is_free(&q) {
                                 return false;
                             }
@@ -202,7 +204,7 @@ impl Judge {
     fn apart(&self, cx: &Context, q: &[f64], scratch: &mut Scratch) -> f64 {
         match self {
             Judge::Peer { .. } => {
-                let clearance = cx.model.clearances().expect("bodies").clearance(q, scratch);
+                let clearance = cx.model().clearances().expect("bodies").clearance(q, scratch);
                 clearance.map_or(f64::INFINITY, |clearance| clearance.distance)
             }
             Judge::Brute(brute) => brute.apart(q),
@@ -233,7 +235,7 @@ fn nearest_approach(
 ) -> Option<(f64, Vec<f64>)> {
     let mut q = a.to_vec();
     let mut at = |t: f64, q: &mut Vec<f64>| {
-        cx.space.interpolate(a, b, t, q);
+        cx.space().interpolate(a, b, t, q);
         apart(q)
     };
     let mut open = vec![(0.0, 1.0)];

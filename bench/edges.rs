@@ -24,6 +24,7 @@ use roadmill::problem::Problem;
 use roadmill::roadmap::Configs;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
+use support::edges::with_edges;
 use support::lists::List;
 use support::{cpu_seconds, median};
 
@@ -89,11 +90,9 @@ fn main() {
 type Verdict<'a> = dyn Fn(&[f64], &[f64], &mut Scratch) -> bool + 'a;
 
 fn measure(path: &Path, list: List, mode: Mode) {
-    let mut problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
-    let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled].map(|edges| {
-        problem.model.bodies_mut().expect("bodies").edges = edges;
-        problem.context()
-    });
+    let problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
+    let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled]
+        .map(|edges| with_edges(&problem, edges).context());
     let (configs, pairs) = list.draw(&problem, &swept);
     let decide = |verdict: &Verdict| -> (f64, Vec<bool>) {
         let (scratch, begun) = (&mut Scratch::new(), cpu_seconds());
@@ -102,24 +101,24 @@ fn measure(path: &Path, list: List, mode: Mode) {
         (cpu_seconds() - begun, verdicts)
     };
     if mode == Mode::Counts {
-        return counted(&swept, &format!("{} | {}", problem.name, list.name()), &configs, &pairs);
+        return counted(&swept, &format!("{} | {}", problem.name(), list.name()), &configs, &pairs);
     }
     if mode == Mode::Swept {
-        let count = |_| decide(&|a, b, scratch| swept.model.motion(a, b, 1, scratch).is_some()).0;
+        let count = |_| decide(&|a, b, scratch| swept.model().motion(a, b, 1, scratch).is_some()).0;
         let mut times: Vec<f64> = (0..20).map(count).collect();
         let rate = pairs.len() as f64 / median(&mut times);
-        println!("| {} | {} | {} | | {rate:.0} |", problem.name, list.name(), pairs.len());
+        println!("| {} | {} | {} | | {rate:.0} |", problem.name(), list.name(), pairs.len());
         return;
     }
     let mut seconds = [const { Vec::new() }; 3];
     let (mut free, mut sampled_free, mut stepped) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
         let (time, verdicts) =
-            decide(&|a, b, scratch| swept.model.motion(a, b, 1, scratch).is_some());
+            decide(&|a, b, scratch| swept.model().motion(a, b, 1, scratch).is_some());
         seconds[0].push(time);
         free = verdicts;
         let (time, verdicts) =
-            decide(&|a, b, scratch| sampled.model.motion(a, b, 1, scratch).is_some());
+            decide(&|a, b, scratch| sampled.model().motion(a, b, 1, scratch).is_some());
         seconds[1].push(time);
         sampled_free = verdicts;
         let (time, verdicts) = decide(&|a, b, scratch| step_by_step(&sampled, a, b, 1, scratch));
@@ -137,7 +136,7 @@ fn measure(path: &Path, list: List, mode: Mode) {
     let share = |count: usize, of: usize| 100.0 * count as f64 / of as f64;
     println!(
         "| {} | {} | {} | {:.1} % | {:.0} | {:.0} | {:.0} | {:.1} | {:.2} % | {missed} |",
-        problem.name,
+        problem.name(),
         list.name(),
         pairs.len(),
         share(count(&|swept, _| swept), pairs.len()),
@@ -154,7 +153,7 @@ fn measure(path: &Path, list: List, mode: Mode) {
 fn counted(cx: &Context, name: &str, configs: &Configs, pairs: &[(usize, usize)]) {
     let scratch = &mut Scratch::new();
     let motion = |(a, b): &(usize, usize), scratch: &mut Scratch| {
-        cx.model.motion(configs.get(*a), configs.get(*b), 1, scratch).is_some()
+        cx.model().motion(configs.get(*a), configs.get(*b), 1, scratch).is_some()
     };
     let mut classes: [Vec<(usize, usize)>; 3] = [const { Vec::new() }; 3];
     let mut work = [Work::default(); 3];
@@ -193,14 +192,14 @@ fn step_by_step(
     refinement: u32,
     scratch: &mut Scratch,
 ) -> bool {
-    let steps = BodyValidity::of(&*cx.model).expect("bodies").steps(a, b, refinement);
+    let steps = BodyValidity::of(cx.model()).expect("bodies").steps(a, b, refinement);
     let mut q = vec![0.0; a.len()];
     let mut stride = steps.next_power_of_two();
     while stride > 1 {
         stride /= 2;
         for i in (stride..steps).step_by(2 * stride as usize) {
-            cx.space.interpolate(a, b, i as f64 / steps as f64, &mut q);
-            if cx.model.validity(&q, scratch) != Validity::Valid {
+            cx.space().interpolate(a, b, i as f64 / steps as f64, &mut q);
+            if cx.model().validity(&q, scratch) != Validity::Valid {
                 return false;
             }
         }

@@ -16,12 +16,12 @@ mod support;
 
 use roadmill::generator::GeneratorKind;
 use roadmill::img::Setup;
-use roadmill::problem::Problem;
+use roadmill::problem::{Problem, StrategySpec};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use support::{Solved, median, solve};
 
-const NODES: u32 = 50;
+const NODES: u64 = 50;
 
 fn main() {
     let (mut seeds, mut seconds) = (10, 60.0);
@@ -56,7 +56,7 @@ fn main() {
             };
             println!(
                 "| {} | {} | {} of {seeds} | {} | {:.2} |",
-                problem.name,
+                problem.name(),
                 if with { "uniform, expansion" } else { "uniform" },
                 built.iter().filter(|solved| solved.satisfied).count(),
                 middle(&|solved| solved.nodes as f64),
@@ -68,25 +68,18 @@ fn main() {
 
 /// The problem with uniform sets, or with uniform and expanding sets in turn.
 fn changed(problem: &Problem, with: bool, seed: u64) -> Problem {
-    let mut problem = problem.clone();
     let step = problem.space().diameter() / 200.0;
-    problem.seed = seed;
-    problem.limits.nodes = 1_000_000;
-    problem.strategies.truncate(1);
-    problem.adaptive = None;
-    problem.sets_per_round = 4;
-    let uniform = &mut problem.strategies[0];
-    uniform.nodes = NODES;
-    uniform.generator = kind("sample = { sampler = { uniform = {} } }");
-    problem.schedule = vec![0];
-    if with {
-        let mut growing = problem.strategies[0].clone();
-        growing.label = "expansion".to_owned();
-        growing.generator = kind(&format!("expansion = {{ step = {step:?} }}"));
-        problem.strategies.push(growing);
-        problem.schedule = vec![0, 1];
-    }
-    problem
+    let uniform = StrategySpec::from(&problem.strategies()[0])
+        .nodes(NODES)
+        .generator(kind("sample = { sampler = { uniform = {} } }"));
+    let growing = uniform
+        .clone()
+        .label("expansion")
+        .generator(kind(&format!("expansion = {{ step = {step:?} }}")));
+    let strategies = if with { vec![uniform, growing] } else { vec![uniform] };
+    let builder = problem.to_builder().seed(seed).most_nodes(1_000_000).sets_per_round(4);
+    let problem = builder.strategies(strategies).default_schedule().build();
+    problem.unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A generator as a problem file names it.

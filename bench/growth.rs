@@ -15,7 +15,6 @@
 
 mod support;
 
-use roadmill::Context;
 use roadmill::img::{Job, Joined, Outcome, Replica, Setup};
 use roadmill::model::{Cost, Model, Scratch, Validity};
 use roadmill::problem::Problem;
@@ -80,10 +79,11 @@ fn main() {
     let problems = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
     let walls = Problem::load(&problems.join("walls.toml")).expect("walls ship");
     if wanted("sparse") {
-        let mut sparse = walls.clone();
-        sparse.name = "sparse".to_owned();
-        sparse.model.bodies_mut().expect("bodies").resolution *= 20.0;
-        grow(sparse, nodes, set);
+        let resolution = 20.0 * walls.model().bodies().expect("bodies").resolution();
+        let sparse = walls.to_builder().name("sparse").change_model(|model| {
+            model.change_bodies(|bodies| bodies.change_space(|space| space.resolution(resolution)))
+        });
+        grow(sparse.build().expect("a sound problem"), nodes, set);
     }
     if wanted("walls") {
         grow(walls, nodes, set);
@@ -108,17 +108,14 @@ struct Spent {
     fold: f64,
 }
 
-fn grow(mut problem: Problem, nodes: u64, set: u64) {
-    for strategy in &mut problem.strategies {
-        strategy.nodes = set as u32;
-    }
-    println!("{}: sets of {set} nodes", problem.name);
+fn grow(problem: Problem, nodes: u64, set: u64) {
+    let problem = problem.to_builder().change_strategies(|strategy| strategy.nodes(set)).build();
+    let problem = problem.unwrap_or_else(|error| panic!("{error}"));
+    println!("{}: sets of {set} nodes", problem.name());
     println!(
         "   nodes  µs/node  validity  generate   join   fold  neighbours  components  edges/node  bytes/node"
     );
-    let mut setup = Setup::new(problem);
-    let plain: Context = setup.problem.context();
-    setup.cx.model = Box::new(Timed(std::mem::replace(&mut setup.cx, plain).model));
+    let setup = Setup::new(problem).wrap_model(|model| Box::new(Timed(model)));
     let before = resident_bytes();
     let mut replica = Replica::new(&setup);
     let mut scratch = Scratch::new();
@@ -183,7 +180,7 @@ fn grow_by_one(
         now
     };
     let (mut generate, mut join, mut fold) = (0.0, 0.0, 0.0);
-    let (strategy, ordinal) = setup.plan.set_at(place).expect("the schedule does not adapt");
+    let (strategy, ordinal) = setup.plan().set_at(place).expect("the schedule does not adapt");
     let generate_set = Job::Generate { place, strategy, ordinal };
     let task = replica.task(setup, generate_set).expect("sets can be generated");
     let Outcome::Increment(Ok(increment)) = task.run(setup, scratch) else {
@@ -209,7 +206,7 @@ fn grow_by_one(
 
 /// Microseconds per search for a random configuration's ten nearest milestones.
 fn neighbours(setup: &Setup, replica: &Replica) -> f64 {
-    let (space, roadmap) = (&setup.cx.space, replica.roadmap());
+    let (space, roadmap) = (setup.context().space(), replica.roadmap());
     let mut stream = Seed::of_set(1, "growth", 0).stream(Purpose::Sampling);
     let mut q = vec![0.0; space.len()];
     let (mut seconds, searches) = (0.0, 100);

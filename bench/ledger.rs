@@ -62,8 +62,9 @@ fn share_of_a_build(folder: &Path, seconds: u64) {
 
 fn opening(folder: &Path, nodes: u64) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../problems/walls.toml");
-    let mut problem = Problem::load(&path).expect("it ships");
-    problem.sets_per_round = SETS_PER_ROUND as u32;
+    let problem = Problem::load(&path).expect("it ships");
+    let problem = problem.to_builder().sets_per_round(SETS_PER_ROUND as u64).build();
+    let problem = problem.expect("it ships");
     let run = folder.join("large");
     std::fs::create_dir(&run).expect("a folder");
     let begun = Instant::now();

@@ -52,7 +52,7 @@ fn measure(links: usize) {
     assert!(!described.is_empty());
     let time = clock_gettime(ClockId::ProcessCPUTime);
     let seconds = time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9;
-    let pairs = problem.model.bodies().expect("bodies").robot.self_pairs().count();
+    let pairs = problem.model().bodies().expect("bodies").robot().self_pairs().count();
     println!("{links:>6} {pairs:>8} {seconds:>8.3} {:>8.1}", peak_bytes() as f64 / 1e6);
 }
 

@@ -50,17 +50,21 @@ fn main() {
         for (name, way) in &ways {
             let mut sum = Watch::default();
             for seed in SEEDS {
-                let mut problem = Problem::load(&path).unwrap_or_else(|error| panic!("{error}"));
-                problem.seed = seed;
-                problem.limits.sets = sets;
-                problem.limits.nodes = u64::from(u32::MAX / 2);
-                problem.strategies.iter_mut().for_each(|strategy| strategy.among = way.clone());
+                let problem = Problem::load(&path).unwrap_or_else(|error| panic!("{error}"));
                 // Never satisfied, so that the build goes on to its limit.
                 let query = EvaluatorKind::Query(Query::default());
                 let not = EvaluatorKind::Not(Not(Box::new(query.clone())));
-                problem.evaluators = vec![query, not];
+                let problem = problem
+                    .to_builder()
+                    .seed(seed)
+                    .most_sets(sets)
+                    .most_nodes(u64::from(u32::MAX / 2))
+                    .change_strategies(|strategy| strategy.among(way.clone()))
+                    .evaluators([query, not])
+                    .build();
+                let problem = problem.unwrap_or_else(|error| panic!("{error}"));
                 let setup = Arc::new(Setup::new(problem));
-                let build = Some((setup.clone(), Roadmap::new(&setup.cx.space)));
+                let build = Some((setup.clone(), Roadmap::new(setup.context().space())));
                 let mut watch = Watch { build, ..sum };
                 let mut serial = Serial::new(setup.clone());
                 let Ok(_) = drive(&mut Core::new(&setup, 0), &mut serial, &mut watch);
@@ -120,7 +124,7 @@ impl Observer for Watch {
 
     fn folded(&mut self, round: &Round, _: &Tally) -> Result<(), Self::Error> {
         let (setup, roadmap) = self.build.as_mut().expect("a build");
-        let space = &setup.cx.space;
+        let space = setup.context().space();
         let mut before = self.now.0;
         for set in &round.sets {
             self.tried += set.joined.asked.motions;

@@ -29,8 +29,9 @@ use roadmill::problem::Problem;
 use roadmill::seed::Seed;
 use std::collections::BTreeMap;
 use std::path::Path;
+use support::edges::with_edges;
 use support::lists::{List, NEIGHBORS, coarse, refinement};
-use support::peer::{pairs_text, run, scene_text, surfaces, verdicts, with_edges};
+use support::peer::{changed, pairs_text, run, scene_text, surfaces, verdicts};
 use support::{cpu_seconds, median, sample};
 
 const ROUNDS: usize = 5;
@@ -129,7 +130,7 @@ struct Track<'a> {
 
 impl Track<'_> {
     fn new<'a>(path: &Path, peer: &'a str) -> Track<'a> {
-        let problem = with_edges(surfaces(path), MotionChecking::Swept);
+        let problem = with_edges(&surfaces(path), MotionChecking::Swept);
         let folder = tempfile::tempdir().expect("a temporary folder");
         let track = Track { peer, problem, folder };
         track.write("scene", scene_text(&track.problem));
@@ -147,19 +148,20 @@ impl Track<'_> {
     /// Prints a line; how many times faster swept motions are than FCL's.
     fn edges(&self, list: List, counted: Steps) -> f64 {
         let resolution = match counted {
-            Steps::Resolution => self.problem.model.bodies().expect("bodies").resolution,
+            Steps::Resolution => self.problem.model().bodies().expect("bodies").resolution(),
             Steps::Ompl => coarse(&self.problem),
         };
         let [swept_cx, sampled_cx] =
             [MotionChecking::Swept, MotionChecking::Sampled].map(|edges| {
-                let mut problem = with_edges(self.problem.clone(), edges);
-                problem.model.bodies_mut().expect("bodies").resolution = resolution;
+                let problem = changed(&self.problem, |bodies| {
+                    bodies.change_space(|space| space.edges(edges).resolution(resolution))
+                });
                 problem.context()
             });
         let (configs, pairs) = list.draw(&self.problem, &self.problem.context());
         let ends = || pairs.iter().map(|(a, b)| (configs.get(*a), configs.get(*b)));
         let steps_of = |a: &[f64], b: &[f64]| {
-            BodyValidity::of(&*swept_cx.model).expect("bodies").steps(a, b, 1)
+            BodyValidity::of(swept_cx.model()).expect("bodies").steps(a, b, 1)
         };
         let mut steps: Vec<u64> = ends().map(|(a, b)| steps_of(a, b)).collect();
         let mut refinements = vec![1; steps.len()];
@@ -167,7 +169,7 @@ impl Track<'_> {
             self.write("pairs", pairs_text(ends(), steps.iter().copied()));
             let counts = run(self.peer, &["count", &self.file("scene"), &self.file("pairs")]);
             steps = counts.iter().map(|count| *count as u64).collect();
-            let refine = |((a, b), count): (_, &u64)| refinement(&*swept_cx.model, a, b, *count);
+            let refine = |((a, b), count): (_, &u64)| refinement(swept_cx.model(), a, b, *count);
             refinements = ends().zip(&steps).map(refine).collect();
         }
         self.write("pairs", pairs_text(ends(), steps.iter().copied()));
@@ -176,7 +178,7 @@ impl Track<'_> {
             let begun = cpu_seconds();
             let scratch = &mut Scratch::new();
             let motion = |((a, b), refinement): (_, &u32)| {
-                cx.model.motion(a, b, *refinement, scratch).is_some()
+                cx.model().motion(a, b, *refinement, scratch).is_some()
             };
             let verdicts = ends().zip(&refinements).map(motion).collect();
             seconds.push(cpu_seconds() - begun);
@@ -212,7 +214,7 @@ impl Track<'_> {
         };
         println!(
             "| {} | {} | {} | {:.1} | {} | {:.1} % | {swept:.0} | {sampled:.0} | {theirs:.0} | {coal_rate} | {:.1} | {:.1} | {coal_ratio} | {} | {} | {coal_differ} |",
-            self.problem.name,
+            self.problem.name(),
             list.name(),
             counted.name(),
             steps.iter().sum::<u64>() as f64 / pairs.len() as f64,
@@ -243,6 +245,6 @@ impl Track<'_> {
             theirs.push(run(self.peer, &["grow", &scene, nodes, neighbors, seed])[0]);
         }
         let [ours, theirs] = [&mut ours, &mut theirs].map(|seconds| NODES as f64 / median(seconds));
-        format!("| {} | {ours:.0} | {theirs:.0} | {:.1} |", self.problem.name, ours / theirs)
+        format!("| {} | {ours:.0} | {theirs:.0} | {:.1} |", self.problem.name(), ours / theirs)
     }
 }

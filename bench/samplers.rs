@@ -33,16 +33,16 @@ fn main() {
     );
     println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
     for path in problems {
-        let mut problem = Problem::load(Path::new(path)).unwrap_or_else(|error| panic!("{error}"));
+        let loaded = Problem::load(Path::new(path)).unwrap_or_else(|error| panic!("{error}"));
         for text in &samplers {
             let sampler: SamplerKind = method(text);
-            let cost = cost(&problem.context(), &sampler);
-            for strategy in &mut problem.strategies {
-                strategy.generator.as_sample_mut().expect("it samples").sampler = sampler.clone();
-            }
+            let cost = cost(&loaded.context(), &sampler);
+            let builder = loaded.to_builder();
+            let problem = builder.change_strategies(|s| s.sampler(sampler.clone())).build();
+            let problem = problem.unwrap_or_else(|error| panic!("{error}"));
             let builds: Vec<Solved> = (1..=arguments.seeds)
                 .map(|seed| {
-                    let setup = Setup::new(Problem { seed, ..problem.clone() });
+                    let setup = Setup::new(problem.clone().with_seed(seed));
                     solve(&Arc::new(setup), arguments.seconds)
                 })
                 .collect();
@@ -53,7 +53,7 @@ fn main() {
             };
             println!(
                 "| {} | `{text}` | {cost} | {solved} of {} | {} | {} | {} |",
-                problem.name,
+                problem.name(),
                 arguments.seeds,
                 nodes.join(" "),
                 middle(|build| build.asked.motions),
@@ -67,7 +67,7 @@ fn main() {
 fn cost(cx: &Context, sampler: &SamplerKind) -> String {
     let method = sampler.method();
     assert_eq!((method.complaint(), method.suits(cx)), (None, Ok(())));
-    let (mut scratch, mut configs) = (Scratch::new(), Configs::new(cx.space.len()));
+    let (mut scratch, mut configs) = (Scratch::new(), Configs::new(cx.space().len()));
     let begun = cpu_seconds();
     let seed = Seed::of_set(1, "cost", 0);
     let done = method.sample(cx, &seed, 1000, &mut scratch, &mut configs);

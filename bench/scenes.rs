@@ -24,18 +24,22 @@ fn main() {
     println!("| scene | solved | nodes | configurations | motions | CPU s |");
     println!("| --- | --- | --- | --- | --- | --- |");
     for scene in &arguments.scenes {
-        let mut problem = Problem::load(Path::new(scene)).unwrap_or_else(|error| panic!("{error}"));
-        problem.limits.nodes = u64::from(u32::MAX / 2);
-        problem.limits.sets = problem.limits.nodes;
-        for strategy in &mut problem.strategies {
+        let problem = Problem::load(Path::new(scene)).unwrap_or_else(|error| panic!("{error}"));
+        let most = u64::from(u32::MAX / 2);
+        let builder = problem.to_builder().most_nodes(most).most_sets(most);
+        let builder = builder.change_strategies(|mut strategy| {
             if let Some(sampler) = &arguments.sampler {
-                strategy.generator.as_sample_mut().expect("it samples").sampler = sampler.clone();
+                strategy = strategy.sampler(sampler.clone());
             }
-            strategy.among = arguments.among.clone().unwrap_or(strategy.among.clone());
-        }
+            match &arguments.among {
+                Some(among) => strategy.among(among.clone()),
+                None => strategy,
+            }
+        });
+        let problem = builder.build().unwrap_or_else(|error| panic!("{error}"));
         let builds: Vec<Solved> = (1..=seeds)
             .map(|seed| {
-                let setup = Setup::new(Problem { seed, ..problem.clone() });
+                let setup = Setup::new(problem.clone().with_seed(seed));
                 solve(&Arc::new(setup), arguments.seconds)
             })
             .collect();
@@ -48,7 +52,7 @@ fn main() {
         };
         println!(
             "| {} | {solved} of {seeds} | {} | {} | {} | {} |",
-            problem.name,
+            problem.name(),
             spread(0, |build| build.nodes as f64),
             spread(0, |build| build.asked.configurations as f64),
             spread(0, |build| build.asked.motions as f64),

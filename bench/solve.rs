@@ -19,7 +19,6 @@ mod support;
 use roadmill::connect::{AmongKind, ComponentPairs, NearestNodes, UntilJoined};
 use roadmill::img::Setup;
 use roadmill::local::Planner;
-use roadmill::problem::Problem;
 use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
@@ -91,12 +90,12 @@ fn main() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let file = |name: &str| folder.path().join(name).display().to_string();
         std::fs::write(file("scene"), scene_text(&problem)).expect("the scene can be written");
-        let ends = problem.query.as_ref().expect("a scene with a query");
+        let ends = problem.query().expect("a scene with a query");
         let values: Vec<_> = ends.start.iter().chain(&ends.goal).map(f64::to_string).collect();
         std::fs::write(file("query"), values.join(" ")).expect("the query can be written");
 
         let builds = |program: &str| Builds {
-            scene: problem.name.clone(),
+            scene: problem.name().to_owned(),
             program: program.to_owned(),
             ..Builds::default()
         };
@@ -104,10 +103,9 @@ fn main() {
         let mut ours: Vec<_> = ways.iter().map(|(name, _)| builds(name)).collect();
         for seed in 1..=arguments.seeds {
             for (builds, (_, among)) in ours.iter_mut().zip(&ways) {
-                let mut problem = Problem { seed, ..problem.clone() };
-                for strategy in &mut problem.strategies {
-                    strategy.among = among.clone();
-                }
+                let builder = problem.to_builder().seed(seed);
+                let problem = builder.change_strategies(|s| s.among(among.clone())).build();
+                let problem = problem.unwrap_or_else(|error| panic!("{error}"));
                 let built = solve(&Arc::new(Setup::new(problem)), arguments.seconds);
                 let (solved, nodes) = (built.satisfied, built.nodes as f64);
                 builds.add(solved, nodes, built.seconds);

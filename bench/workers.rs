@@ -30,9 +30,10 @@ mod virtual_pool;
 
 use roadmill::img::{Core, Job, Joined, Observer, Outcome, Replica, Setup, Task, drive};
 use roadmill::internal::wire;
-use roadmill::model::Scratch;
-use roadmill::problem::{Limits, Problem};
+use roadmill::model::{ModelSpec, Scratch};
+use roadmill::problem::{NODES_MAX, Problem};
 use roadmill::roadmap::Increment;
+use roadmill::sampler::SamplerKind;
 use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
@@ -95,16 +96,17 @@ fn main() {
         println!("workers: skipped, no scene given");
         return;
     };
-    let mut problem = Problem::load(Path::new(&scene)).unwrap_or_else(|error| panic!("{error}"));
-    for strategy in &mut problem.strategies {
-        strategy.nodes = set.unwrap_or(strategy.nodes);
-    }
+    let problem = Problem::load(Path::new(&scene)).and_then(|problem| match set {
+        Some(set) => problem.to_builder().change_strategies(|s| s.nodes(set.into())).build(),
+        None => Ok(problem),
+    });
+    let problem = problem.unwrap_or_else(|error| panic!("{error}"));
     let costs = measure(&problem, nodes);
     let mean = |values: &[f64]| 1e6 * values.iter().sum::<f64>() / values.len() as f64;
     println!(
         "{}: sets of {} nodes: generate {:.0} µs, take in {:.0}, join {:.0} and {:.2} for every earlier set of the round, fold {:.0}; evaluate {:.0} µs",
-        problem.name,
-        problem.strategies[0].nodes,
+        problem.name(),
+        problem.strategies()[0].nodes(),
         mean(&costs.generate),
         1e6 * costs.take_in,
         mean(&costs.join),
@@ -137,18 +139,19 @@ fn main() {
             slower => format!(", sets {slower} times slower"),
         };
         let shared = if machine.shared { ", one taking sets in for all" } else { "" };
-        let title = format!("{}{slower}: efficiency of workers{shared}", problem.name);
+        let title = format!("{}{slower}: efficiency of workers{shared}", problem.name());
         std::fs::write(file, picture(&title, &curves)).expect("the file can be written");
     }
 }
 
 /// The real jobs, once each.
 fn measure(problem: &Problem, nodes: u64) -> Costs {
-    let setup = Setup::new(Problem { sets_per_round: 1, ..problem.clone() });
+    let single = problem.to_builder().sets_per_round(1).build();
+    let setup = Setup::new(single.expect("a sound problem"));
     let (mut replica, scratch) = (Replica::new(&setup), &mut Scratch::new());
     let mut costs = Costs::default();
     let (mut take_in, mut fold) = (Vec::new(), Vec::new());
-    let (mut place, mut met) = (0, problem.evaluators.is_empty());
+    let (mut place, mut met) = (0, problem.evaluators().is_empty());
     while (replica.roadmap().configs().len() as u64) < nodes {
         let (bytes, generate) = timed(|| generate(&setup, &replica, place, scratch));
         let ((), taking) = timed(|| take(&setup, &mut replica, &bytes));
@@ -194,7 +197,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
 }
 
 fn generate(setup: &Setup, replica: &Replica, place: u64, scratch: &mut Scratch) -> Vec<u8> {
-    let (strategy, ordinal) = setup.plan.set_at(place).expect("the schedule does not adapt");
+    let (strategy, ordinal) = setup.plan().set_at(place).expect("the schedule does not adapt");
     let job = Job::Generate { place, strategy, ordinal };
     let task = replica.task(setup, job).expect("sets can be generated");
     let Outcome::Increment(Ok(increment)) = task.run(setup, scratch) else {
@@ -209,7 +212,7 @@ fn take(setup: &Setup, replica: &mut Replica, bytes: &[u8]) {
 }
 
 fn join(setup: &Setup, replica: &Replica, place: u64, scratch: &mut Scratch) -> Joined {
-    let (strategy, ordinal) = setup.plan.set_at(place).expect("the schedule does not adapt");
+    let (strategy, ordinal) = setup.plan().set_at(place).expect("the schedule does not adapt");
     let job = Job::Join { place, strategy, ordinal };
     let task = replica.task(setup, job).expect("the set is published");
     let Outcome::Joined(joined) = task.run(setup, scratch) else { panic!("joins give edges") };
@@ -223,12 +226,18 @@ fn run(
     workers: usize,
     sets_per_round: u32,
 ) -> (f64, &'static str) {
-    let mut problem = Problem { sets_per_round, ..problem.clone() };
-    problem.model.bodies_mut().expect("bodies").obstacles.clear();
-    problem.evaluators.truncate(1);
-    problem.limits = Limits { nodes: u64::MAX, sets: u64::MAX, seconds: None };
-    problem.strategies.iter_mut().for_each(|strategy| strategy.nodes = 1);
-    let setup = Setup::new(problem);
+    // No job is done: a scene of nothing is ready at once, and uniform sampling suits it.
+    let cleared = |model: ModelSpec| model.change_bodies(|bodies| bodies.obstacles([]));
+    let endless = problem
+        .to_builder()
+        .sets_per_round(sets_per_round.into())
+        .change_model(cleared)
+        .evaluators(problem.evaluators().iter().take(1).cloned())
+        .most_nodes(NODES_MAX)
+        .most_sets(u64::MAX)
+        .change_strategies(|strategy| strategy.nodes(1).sampler(SamplerKind::default()))
+        .build();
+    let setup = Setup::new(endless.unwrap_or_else(|error| panic!("{error}")));
     let sets = (12 * workers as u64).max(6 * u64::from(sets_per_round)).max(1000);
     let mut core = Core::new(&setup, LOOKAHEAD_PER_WORKER * workers as u64);
     let mut pool = VirtualPool::new(&setup, (costs, machine), workers, sets);

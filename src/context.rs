@@ -5,16 +5,36 @@ use bincode::{Decode, Encode};
 /// A problem made ready for work: what everything that samples, joins and evaluates shares.
 pub struct Context {
     /// The configuration space.
-    pub space: Space,
+    pub(crate) space: Space,
     /// What is valid, and what motions cost.
-    pub model: Box<dyn Model>,
+    pub(crate) model: Box<dyn Model>,
     /// The base seed of the program's random numbers.
-    pub base_seed: u64,
+    pub(crate) base_seed: u64,
     /// The query to be solved, if there is one.
-    pub query: Option<Ends>,
+    pub(crate) query: Option<Ends>,
 }
 
 impl Context {
+    /// The configuration space.
+    pub fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// What is valid, and what motions cost.
+    pub fn model(&self) -> &dyn Model {
+        &*self.model
+    }
+
+    /// The base seed of the program's random numbers.
+    pub fn base_seed(&self) -> u64 {
+        self.base_seed
+    }
+
+    /// The query to be solved, if there is one: valid configurations in stored form.
+    pub fn query(&self) -> Option<&Ends> {
+        self.query.as_ref()
+    }
+
     /// Brings a configuration that came from outside into stored form, and checks it.
     ///
     /// # Errors

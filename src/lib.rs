@@ -19,6 +19,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! The problem of these lines is read from a file; [`problem::ProblemBuilder`] makes one from values.
+//!
 //! [`Build`] also tells how far it is and can be cancelled. What it comes to is a [`Built`]: the roadmap, the path
 //! of the problem's query, what each evaluator said, answers to [other queries](Built::query), and the way to
 //! [go on](Built::resume).

@@ -10,16 +10,36 @@ use crate::seed::Seed;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strategy {
     /// Its name, unique in the problem: part of the seed of each of its sets.
-    pub label: String,
+    pub(crate) label: String,
     /// Milestones per set (TR05-007: *n*).
-    pub nodes: u32,
+    pub(crate) nodes: u32,
     /// What makes its sets.
-    pub generator: GeneratorKind,
+    pub(crate) generator: GeneratorKind,
     /// How a set is connected with what came before it.
-    pub among: AmongKind,
+    pub(crate) among: AmongKind,
 }
 
 impl Strategy {
+    /// Its name, unique in the problem: part of the seed of each of its sets.
+    pub fn label(&self) -> &str {
+        &self.label
+    }
+
+    /// Milestones per set (TR05-007: *n*), at least one.
+    pub fn nodes(&self) -> u32 {
+        self.nodes
+    }
+
+    /// What makes its sets.
+    pub fn generator(&self) -> &GeneratorKind {
+        &self.generator
+    }
+
+    /// How a set is connected with what came before it.
+    pub fn among(&self) -> &AmongKind {
+        &self.among
+    }
+
     /// Makes the set `ordinal` of this strategy: a pure function of the problem, the base seed, the label, the
     /// ordinal and, where the generator grows the roadmap, the roadmap at the start of the set's round,
     /// `frozen`.

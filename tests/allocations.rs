@@ -1,5 +1,9 @@
 //! Once a scratch is warm, what decides configurations and motions asks for no memory.
 
+#[path = "../bench/support/edges.rs"]
+mod edges;
+
+use edges::with_edges;
 use roadmill::model::Scratch;
 use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::problem::Problem;
@@ -42,27 +46,26 @@ static COUNTING: Counting = Counting;
 fn nothing_is_allocated_once_the_scratch_is_warm() {
     for name in ["cage", "hook", "walls", "gantry"] {
         let path = Path::new("problems").join(name).with_extension("toml");
-        let mut problem = Problem::load(&path).unwrap();
+        let problem = Problem::load(&path).unwrap();
         for edges in [MotionChecking::Swept, MotionChecking::Sampled] {
-            problem.model.bodies_mut().expect("bodies").edges = edges;
-            let cx = problem.context();
+            let cx = with_edges(&problem, edges).context();
             let scratch = &mut Scratch::new();
             let mut stream = Seed::of_set(5, name, 0).stream(Purpose::Sampling);
             let mut valid = Vec::new();
             while valid.len() < 40 {
-                let mut q = vec![0.0; cx.space.len()];
-                cx.space.sample_uniform(&mut stream, &mut q);
-                if cx.model.is_valid(&q, scratch) {
+                let mut q = vec![0.0; cx.space().len()];
+                cx.space().sample_uniform(&mut stream, &mut q);
+                if cx.model().is_valid(&q, scratch) {
                     valid.push(q);
                 }
             }
             let mut verdicts = || -> [usize; 3] {
                 let mut counts = [0; 3];
                 for (a, b) in valid.iter().zip(valid.iter().cycle().skip(1)) {
-                    counts[0] += usize::from(cx.model.motion(a, b, 1, scratch).is_some());
-                    counts[1] += usize::from(cx.model.is_valid(a, scratch));
+                    counts[0] += usize::from(cx.model().motion(a, b, 1, scratch).is_some());
+                    counts[1] += usize::from(cx.model().is_valid(a, scratch));
                     counts[2] += usize::from(
-                        cx.model.clearances().expect("bodies").clearance(a, scratch).is_some(),
+                        cx.model().clearances().expect("bodies").clearance(a, scratch).is_some(),
                     );
                 }
                 counts

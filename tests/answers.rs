@@ -29,10 +29,10 @@ fn check(name: &str) {
     let answer = judgement.verdicts[0].answer.as_ref().expect("the query evaluator answers");
     let path = answer.path.as_ref().expect("a satisfied query has its path");
     let configs: Vec<&[f64]> = path.configs.iter().collect();
-    let ends = setup.problem.query.as_ref().expect("the problem has a query");
+    let ends = setup.problem().query().expect("the problem has a query");
     assert_eq!((configs[0], configs[configs.len() - 1]), (&ends.start[..], &ends.goal[..]));
 
-    let judge = Judge::new(&setup.problem);
+    let judge = Judge::new(setup.problem());
     let length = judge.length(&configs);
     assert!((length - path.length).abs() < 1e-6 * length, "{name}: {length}, not {}", path.length);
     let steps = judge.walk(&configs).unwrap_or_else(|fault| panic!("{name}: {fault}"));
@@ -68,7 +68,7 @@ fn the_angle_leaves_the_cage() {
 fn a_sealed_room_is_never_entered() {
     let (setup, build) = build("sealed.toml");
     assert_eq!(build.stop, Stop::NodeLimit);
-    assert!(build.roadmap.configs().len() as u64 >= setup.problem.limits.nodes);
+    assert!(build.roadmap.configs().len() as u64 >= setup.problem().limits().nodes);
     let judgement = build.judgement.expect("a round was judged");
     assert!(!judgement.satisfied());
     let answer = judgement.verdicts[0].answer.as_ref().expect("the query evaluator answers");
@@ -82,12 +82,12 @@ fn a_sealed_room_is_never_entered() {
 fn the_straight_way_is_found_out() {
     for name in ["walls.toml", "maze.toml", "maze3d.toml", "hook.toml", "cage.toml"] {
         let problem = load(name);
-        let ends = problem.query.clone().expect("the problem has a query");
+        let ends = problem.query().cloned().expect("the problem has a query");
         let fault = Judge::new(&problem).walk(&[&ends.start, &ends.goal]).unwrap_err();
         assert!(fault.contains("meets obstacle"), "{name}: {fault}");
     }
     let problem = load("walls.toml");
-    let start = problem.query.clone().expect("the problem has a query").start;
+    let start = problem.query().cloned().expect("the problem has a query").start;
     let mut outside = start.clone();
     outside[2] = 3.9;
     let fault = Judge::new(&problem).walk(&[&start, &outside]).unwrap_err();

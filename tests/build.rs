@@ -1,7 +1,7 @@
 //! `roadmill::Build`, as a program uses it.
 
 use roadmill::img::{Cut, Stop};
-use roadmill::problem::Problem;
+use roadmill::problem::{Limits, Problem};
 use roadmill::{Build, Cancel};
 use std::path::Path;
 
@@ -56,15 +56,16 @@ fn a_build_that_is_cancelled_before_it_begins_is_empty() {
 #[test]
 fn a_build_goes_on_under_other_limits_and_not_with_another_seed() {
     let problem = load("tests/problems/slide.toml");
-    let mut longer = problem.clone();
-    longer.limits.nodes *= 2;
+    let limits = Limits { nodes: 2 * problem.limits().nodes, ..problem.limits() };
+    let longer = problem.clone().with_limits(limits).expect("sound limits");
     let short = Build::new(problem.clone()).run().expect("it runs");
     let continued = short.resume_with(&longer).expect("only a limit differs");
     let continued = continued.threads(2).run().expect("it runs");
     let at_once = Build::new(longer).run().expect("it runs");
     assert_eq!(continued.digest(), at_once.digest());
 
-    let other = Problem { seed: problem.seed + 1, ..problem };
+    let seed = problem.seed() + 1;
+    let other = problem.with_seed(seed);
     let refused = short.resume_with(&other).map(|_| ()).expect_err("the seed differs");
     assert!(refused.contains("seed"), "{refused}");
 }
@@ -74,7 +75,7 @@ fn paths_and_verdicts_are_at_hand() {
     let built = Build::new(load("problems/maze.toml")).run().expect("it runs");
     assert!(built.is_satisfied());
     let path = built.path().expect("the maze has a way through");
-    let ends = built.problem().query.clone().expect("the maze has a query");
+    let ends = built.problem().query().cloned().expect("the maze has a query");
     let configs: Vec<&[f64]> = path.into_iter().collect();
     assert_eq!((configs[0], configs[configs.len() - 1]), (&ends.start[..], &ends.goal[..]));
     assert!(built.verdict("query").expect("it is asked").satisfied);

@@ -96,7 +96,7 @@ fn scenes_are_problems_with_valid_starts_and_goals() {
     for name in scenes::ALL {
         let folder = if name.ends_with(".cfg") { "scenes/ompl" } else { "scenes/parasol" };
         match Problem::load(&data.join(folder).join(name)) {
-            Ok(problem) => assert!(problem.query.is_some(), "{name}"),
+            Ok(problem) => assert!(problem.query().is_some(), "{name}"),
             Err(error) => wrong.push(error.to_string()),
         }
     }

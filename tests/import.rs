@@ -26,9 +26,11 @@ fn assert_same(path: &Path) {
     let problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
     let again = again(&problem);
     assert_eq!(again.digest(), problem.digest(), "{}", path.display());
-    // The digest leaves out the query, the criteria and the limits. Notes and files are others.
-    let Problem { notes, sources, .. } = problem.clone();
-    assert_eq!(Problem { notes, sources, ..again }, problem, "{}", path.display());
+    // The digest leaves out the query, the criteria and the limits.
+    assert_eq!(again.name(), problem.name(), "{}", path.display());
+    assert_eq!(again.query(), problem.query(), "{}", path.display());
+    assert_eq!(again.evaluators(), problem.evaluators(), "{}", path.display());
+    assert_eq!(again.limits(), problem.limits(), "{}", path.display());
 }
 
 fn problems_in(folder: &str) -> Vec<PathBuf> {

@@ -20,7 +20,7 @@ fn problem(seed: u64, nodes: u64, evaluators: &str) -> Arc<Setup> {
     let begin = begin.replace("seed = 1", &format!("seed = {seed}"));
     let text = format!("evaluators = [{evaluators}]\n{begin}\n[limits]\nnodes = {nodes}\n");
     let problem = Problem::parse(&path, &text).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!((problem.seed, problem.limits.nodes), (seed, nodes));
+    assert_eq!((problem.seed(), problem.limits().nodes), (seed, nodes));
     Arc::new(Setup::new(problem))
 }
 
@@ -86,7 +86,8 @@ fn minima_and_saddles_are_those_of_the_literature() {
         // Half of the last digit that is given.
         assert!((0..2).all(|i| (found[i] - at[i]).abs() <= 5e-4), "{found:?}, not {at:?}");
         assert!((energy - expected).abs() <= 5e-4, "{energy}, not {expected}");
-        let of_model = setup.cx.model.energy(&found, &mut Scratch::new()).expect("it has energies");
+        let of_model =
+            setup.context().model().energy(&found, &mut Scratch::new()).expect("it has energies");
         assert!((of_model - energy).abs() < 1e-10, "{of_model}, not {energy}");
     }
 }
@@ -154,11 +155,11 @@ fn no_flow_falls_and_no_barrier_rises_from_round_to_round() {
 fn edges_cost_what_energies_say_and_peaks_are_above_all_energies() {
     let setup = problem(301, 1000, BARRIER);
     let Grown { roadmap, .. } = build_in_threads(&setup, 2);
-    let (cx, scratch) = (&setup.cx, &mut Scratch::new());
+    let (cx, scratch) = (setup.context(), &mut Scratch::new());
     let tolerance = 0.001;
     for (index, edge) in roadmap.edges().iter().enumerate() {
         let ends = [edge.low, edge.high].map(|node| roadmap.configs().get(node as usize));
-        let energies = ends.map(|q| cx.model.energy(q, scratch).expect("it has energies"));
+        let energies = ends.map(|q| cx.model().energy(q, scratch).expect("it has energies"));
         let values = [edge.low, edge.high].map(|node| roadmap.values_of(node as usize, 1)[0]);
         assert_eq!(energies, values, "a milestone carries its energy");
         let Directed { forward, backward, peak } = edge.cost.directed().expect("a directed cost");
@@ -173,8 +174,8 @@ fn edges_cost_what_energies_say_and_peaks_are_above_all_energies() {
             let mut highest = f64::NEG_INFINITY;
             let mut q = [0.0; 2];
             for i in 0..=POINTS {
-                cx.space.interpolate(ends[0], ends[1], f64::from(i) / f64::from(POINTS), &mut q);
-                highest = highest.max(cx.model.energy(&q, scratch).expect("it has energies"));
+                cx.space().interpolate(ends[0], ends[1], f64::from(i) / f64::from(POINTS), &mut q);
+                highest = highest.max(cx.model().energy(&q, scratch).expect("it has energies"));
             }
             assert!(highest <= peak, "{highest} on an edge with the peak {peak}");
             // Between two of the points the energy may be a little higher.

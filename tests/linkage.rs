@@ -58,7 +58,7 @@ fn peak_of<T>(work: impl FnOnce() -> T) -> (T, usize) {
 fn a_chain_of_a_thousand_links_takes_few_bytes_per_pair_of_links() {
     let text = chain::serial_chain(1000);
     let (problem, peak) = peak_of(|| Problem::parse(Path::new("chain.toml"), &text).unwrap());
-    assert!(problem.query.is_some(), "start and goal were tested");
+    assert!(problem.query().is_some(), "start and goal were tested");
     // A pair takes 8 bytes, and while their list grows old and new are held at once. The rest, 32 MB in all, is the
     // text as tables, and what bodies become for tests. Lists of joints per pair would take gigabytes.
     let pairs = 998 * 999 / 2;

@@ -4,8 +4,10 @@ use roadmill::img::{
     Core, Cut, Executor, Grown, Judgement, Memo, Observer, Past, Progress, Round, Serial, Setup,
     Simulated, Stop, build, drive, resume_with,
 };
-use roadmill::model::bodies::validity::MotionChecking;
-use roadmill::problem::Problem;
+use roadmill::model::ModelSpec;
+use roadmill::model::bodies::SpaceSpec;
+use roadmill::model::bodies::validity::{BoundsMeaning, MotionChecking};
+use roadmill::problem::{Limits, Problem, ProblemBuilder, StrategySpec};
 use roadmill::roadmap::Tally;
 use roadmill::schedule::Adaptive;
 use std::convert::Infallible;
@@ -153,17 +155,24 @@ fn further() -> Problem {
 }
 
 fn further_than(name: &str, adaptive: Option<Adaptive>) -> Problem {
-    let mut changed = load(name);
-    let mut strategy = changed.strategies[0].clone();
-    strategy.label = "further".to_owned();
-    strategy.nodes += 3;
-    changed.strategies.push(strategy);
-    changed.schedule = vec![changed.strategies.len() as u32 - 1, 0];
-    changed.adaptive = adaptive;
-    changed.sets_per_round += 1;
-    changed.limits.nodes *= 2;
-    changed.limits.sets = changed.limits.sets.saturating_mul(2);
-    changed
+    let known = load(name);
+    let first = &known.strategies()[0];
+    let further = StrategySpec::from(first).label("further").nodes(u64::from(first.nodes()) + 3);
+    let limits = known.limits();
+    let changed = known
+        .to_builder()
+        .sets_per_round(u64::from(known.sets_per_round()) + 1)
+        .most_nodes(2 * limits.nodes)
+        .most_sets(limits.sets.saturating_mul(2));
+    let changed = match adaptive {
+        Some(adaptive) => changed.strategy(further).adaptive(adaptive),
+        // The strategies that are not named get no more sets.
+        None => {
+            let schedule = ["further", first.label()];
+            changed.strategies([first.into(), further]).schedule(schedule)
+        }
+    };
+    changed.build().unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]
@@ -182,7 +191,7 @@ fn a_chapter_adds(name: &str, further: &Problem) {
     let mut kept = Keeper::default();
     kept.go_on(&begun, &mut Serial::new(begun.clone()), 0);
     let before = kept.rounds.len();
-    let problem = begun.problem.continued(further, before as u64).unwrap();
+    let problem = begun.problem().continued(further, before as u64).unwrap();
     let setup = Arc::new(Setup::new(problem));
     let whole = resume_with(&setup, Serial::new(setup.clone()), 0, &kept.rounds, None);
 
@@ -199,7 +208,7 @@ fn a_chapter_adds(name: &str, further: &Problem) {
         cut.go_on(&setup, &mut simulated, 2);
         assert_eq!(simulated.tally().digest(), whole.roadmap.digest(), "{seed}");
 
-        let mut next = vec![0; setup.problem.strategies.len()];
+        let mut next = vec![0; setup.problem().strategies().len()];
         for set in cut.rounds.iter().flat_map(|round| &round.sets) {
             assert_eq!(set.ordinal, next[set.strategy as usize]);
             next[set.strategy as usize] += 1;
@@ -214,34 +223,40 @@ fn a_chapter_adds(name: &str, further: &Problem) {
 #[test]
 fn a_chapter_changes_nothing_that_sets_depend_on() {
     let problem = load("slide");
-    let refused = |change: fn(&mut Problem)| {
-        let mut changed = load("slide");
-        change(&mut changed);
+    let refused = |change: fn(ProblemBuilder) -> ProblemBuilder| {
+        let changed =
+            change(problem.to_builder()).build().unwrap_or_else(|error| panic!("{error}"));
         problem.continued(&changed, 3).unwrap_err()
     };
-    assert!(refused(|p| p.seed += 1).contains("the seed is"));
+    let space = |change: fn(SpaceSpec) -> SpaceSpec| {
+        let builder = problem
+            .to_builder()
+            .change_model(|model| model.change_bodies(|bodies| bodies.change_space(change)));
+        let changed = builder.build().unwrap_or_else(|error| panic!("{error}"));
+        problem.continued(&changed, 3).unwrap_err()
+    };
+    assert!(refused(|p| p.seed(2)).contains("the seed is"));
+    assert!(space(|space| space.resolution(0.5)).contains("resolution"));
     assert!(
-        refused(|p| p.model.bodies_mut().expect("bodies").resolution *= 2.0).contains("resolution")
+        space(|space| space.edges(MotionChecking::Sampled)).contains("what is promised of edges")
     );
-    assert!(
-        refused(|p| p.model.bodies_mut().expect("bodies").edges = MotionChecking::Sampled)
-            .contains("what is promised of edges")
-    );
-    assert!(
-        refused(|p| p.model.bodies_mut().expect("bodies").bounds.max[0] += 1.0).contains("bounds")
-    );
-    assert!(
-        refused(|p| p.model.bodies_mut().expect("bodies").obstacles.clear()).contains("obstacle")
-    );
-    let label = &problem.strategies[0].label;
-    assert!(refused(|p| p.strategies[0].nodes += 1).contains(&format!("`{label}` is not what")));
+    assert!(space(|space| space.bounds(BoundsMeaning::Reference)).contains("bounds"));
+    let clear = |model: ModelSpec| model.change_bodies(|bodies| bodies.obstacles([]));
+    let cleared = problem.to_builder().change_model(clear).build().expect("nothing in the way");
+    assert!(problem.continued(&cleared, 3).unwrap_err().contains("obstacle"));
+    let label = problem.strategies()[0].label();
+    let larger = refused(|p| p.change_strategies(|strategy| strategy.nodes(21)));
+    assert!(larger.contains(&format!("`{label}` is not what")));
 
     // The same schedule goes on where it was: nothing is to be remembered.
-    let mut limits = load("slide");
-    limits.limits.nodes += 1;
-    let next = problem.continued(&limits, 3).unwrap();
-    assert_eq!((next.digest(), next.limits), (problem.digest(), limits.limits));
+    let limits = Limits { nodes: problem.limits().nodes + 1, ..problem.limits() };
+    let next = problem.continued(&problem.clone().with_limits(limits).unwrap(), 3).unwrap();
+    assert_eq!((next.digest(), next.limits()), (problem.digest(), limits));
     // Another one before the first round replaces the first.
+    let labels = |problem: &Problem| -> Vec<String> {
+        let of = |strategy: &u32| problem.strategies()[*strategy as usize].label().to_owned();
+        problem.schedule().iter().map(of).collect()
+    };
     let next = problem.continued(&further(), 0).unwrap();
-    assert_eq!(next.digest(), further().digest());
+    assert_eq!((labels(&next), next.earlier()), (labels(&further()), &[][..]));
 }

@@ -6,11 +6,14 @@
 #[path = "../bench/support/brute.rs"]
 #[allow(dead_code, reason = "a bench asks for distances too")]
 mod brute;
+#[path = "../bench/support/edges.rs"]
+mod edges;
 #[path = "support/scenes.rs"]
 #[allow(dead_code, reason = "only the folder is of interest")]
 mod scenes;
 
 use brute::Brute;
+use edges::with_edges;
 use roadmill::Context;
 use roadmill::model::bodies::BodyValidity;
 use roadmill::model::bodies::validity::{MotionChecking, TOLERANCE};
@@ -34,7 +37,7 @@ fn at_steps(
 ) -> bool {
     let mut q = a.to_vec();
     (1..steps).all(|i| {
-        cx.space.interpolate(a, b, i as f64 / steps as f64, &mut q);
+        cx.space().interpolate(a, b, i as f64 / steps as f64, &mut q);
         holds(&q)
     })
 }
@@ -43,45 +46,44 @@ fn at_steps(
 fn real_scenes_are_judged_as_step_by_step() {
     let Some(data) = data() else { return };
     for (scene, count) in [("ompl/cubicles.cfg", 1200), ("parasol/SerialWalls/serial.env", 1200)] {
-        let mut problem = Problem::load(&data.join("scenes").join(scene)).unwrap();
-        let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled].map(|edges| {
-            problem.model.bodies_mut().expect("bodies").edges = edges;
-            problem.context()
-        });
+        let problem = Problem::load(&data.join("scenes").join(scene)).unwrap();
+        let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled]
+            .map(|edges| with_edges(&problem, edges).context());
         let scratch = &mut Scratch::new();
         let mut stream = Seed::of_set(5, "real scenes", 0).stream(Purpose::Sampling);
-        let (mut a, mut b) = (vec![0.0; swept.space.len()], vec![0.0; swept.space.len()]);
+        let (mut a, mut b) = (vec![0.0; swept.space().len()], vec![0.0; swept.space().len()]);
         let (mut motions, mut free, mut refused) = (0, 0, 0);
         while motions < count {
-            swept.space.sample_uniform(&mut stream, &mut a);
-            let far = 40.0 * problem.model.bodies().expect("bodies").resolution * stream.unit();
-            swept.space.step(&a, far, &mut stream, &mut b);
-            if !(swept.model.is_valid(&a, scratch) && swept.model.is_valid(&b, scratch)) {
+            swept.space().sample_uniform(&mut stream, &mut a);
+            let far = 40.0 * problem.model().bodies().expect("bodies").resolution() * stream.unit();
+            swept.space().step(&a, far, &mut stream, &mut b);
+            if !(swept.model().is_valid(&a, scratch) && swept.model().is_valid(&b, scratch)) {
                 continue;
             }
             motions += 1;
-            let accepted = swept.model.motion(&a, &b, 1, scratch).is_some();
+            let accepted = swept.model().motion(&a, &b, 1, scratch).is_some();
             let mut look = |refinement: u32| {
                 let steps =
-                    BodyValidity::of(&*swept.model).expect("bodies").steps(&a, &b, refinement);
-                let free = |q: &[f64]| swept.model.validity(q, scratch) == Validity::Valid;
+                    BodyValidity::of(swept.model()).expect("bodies").steps(&a, &b, refinement);
+                let free = |q: &[f64]| swept.model().validity(q, scratch) == Validity::Valid;
                 at_steps(&swept, (&a, &b), steps, free)
             };
             let (coarse, finer) = (look(1), look(FINER));
             assert!(!accepted || coarse && finer, "{scene}: {a:?} to {b:?} is not free");
-            assert_eq!(sampled.model.motion(&a, &b, 1, scratch).is_some(), coarse, "{scene}");
+            assert_eq!(sampled.model().motion(&a, &b, 1, scratch).is_some(), coarse, "{scene}");
             free += usize::from(finer);
             if finer && !accepted {
                 refused += 1;
                 // Between two looks nothing moves farther than half of their distance from one of them.
                 let steps =
-                    BodyValidity::of(&*swept.model).expect("bodies").steps(&a, &b, 1) * LOOKS;
+                    BodyValidity::of(swept.model()).expect("bodies").steps(&a, &b, 1) * LOOKS;
                 let between =
-                    problem.model.bodies().expect("bodies").resolution / (2 * LOOKS) as f64;
-                let near =
-                    between + problem.model.bodies().expect("bodies").resolution / TOLERANCE as f64;
+                    problem.model().bodies().expect("bodies").resolution() / (2 * LOOKS) as f64;
+                let near = between
+                    + problem.model().bodies().expect("bodies").resolution() / TOLERANCE as f64;
                 let away = at_steps(&swept, (&a, &b), steps, |q| {
-                    let clearance = swept.model.clearances().expect("bodies").clearance(q, scratch);
+                    let clearance =
+                        swept.model().clearances().expect("bodies").clearance(q, scratch);
                     clearance.is_some_and(|clearance| clearance.distance > near)
                 });
                 assert!(!away, "{scene}: {a:?} to {b:?} keeps away from everything");
@@ -97,38 +99,36 @@ fn real_scenes_are_judged_as_step_by_step() {
 fn linkages_are_judged_as_by_every_pair_of_bodies() {
     let problems = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
     for name in ["stick2.toml", "stick4.toml", "gantry.toml"] {
-        let mut problem = Problem::load(&problems.join(name)).unwrap();
-        let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled].map(|edges| {
-            problem.model.bodies_mut().expect("bodies").edges = edges;
-            problem.context()
-        });
+        let problem = Problem::load(&problems.join(name)).unwrap();
+        let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled]
+            .map(|edges| with_edges(&problem, edges).context());
         let brute = Brute::new(&problem);
         let scratch = &mut Scratch::new();
         let mut stream = Seed::of_set(5, "linkages", 0).stream(Purpose::Sampling);
-        let (mut a, mut b) = (vec![0.0; swept.space.len()], vec![0.0; swept.space.len()]);
+        let (mut a, mut b) = (vec![0.0; swept.space().len()], vec![0.0; swept.space().len()]);
         let (mut motions, mut free) = (0, 0);
         while motions < 150 {
-            swept.space.sample_uniform(&mut stream, &mut a);
-            let far = 60.0 * problem.model.bodies().expect("bodies").resolution * stream.unit();
-            swept.space.step(&a, far, &mut stream, &mut b);
+            swept.space().sample_uniform(&mut stream, &mut a);
+            let far = 60.0 * problem.model().bodies().expect("bodies").resolution() * stream.unit();
+            swept.space().step(&a, far, &mut stream, &mut b);
             for q in [&a, &b] {
                 assert_eq!(
-                    swept.model.is_valid(q, scratch),
-                    swept.space.within_bounds(q) && brute.is_free(q)
+                    swept.model().is_valid(q, scratch),
+                    swept.space().within_bounds(q) && brute.is_free(q)
                 );
             }
-            if !(swept.model.is_valid(&a, scratch) && swept.model.is_valid(&b, scratch)) {
+            if !(swept.model().is_valid(&a, scratch) && swept.model().is_valid(&b, scratch)) {
                 continue;
             }
             motions += 1;
-            let steps = BodyValidity::of(&*swept.model).expect("bodies").steps(&a, &b, 1);
+            let steps = BodyValidity::of(swept.model()).expect("bodies").steps(&a, &b, 1);
             let coarse = at_steps(&swept, (&a, &b), steps, |q| brute.is_free(q));
             assert_eq!(
-                sampled.model.motion(&a, &b, 1, scratch).is_some(),
+                sampled.model().motion(&a, &b, 1, scratch).is_some(),
                 coarse,
                 "{name}: {a:?}, {b:?}"
             );
-            if swept.model.motion(&a, &b, 1, scratch).is_some() {
+            if swept.model().motion(&a, &b, 1, scratch).is_some() {
                 free += 1;
                 let finer = at_steps(&swept, (&a, &b), 4 * steps, |q| brute.is_free(q));
                 assert!(coarse && finer, "{name}: {a:?} to {b:?} is not free");

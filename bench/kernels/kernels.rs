@@ -1,5 +1,6 @@
 //! What is measured: inputs are made once, and every run does the same with them.
 
+use super::support::edges::with_edges;
 use super::support::sample;
 use roadmill::Context;
 use roadmill::connect::{Nearest, Within};
@@ -68,18 +69,12 @@ fn problem(name: &str) -> Problem {
 /// Configurations drawn uniformly, valid or not.
 fn uniform(cx: &Context, count: usize) -> Configs {
     let mut stream = Seed::of_set(1, "kernels", 0).stream(roadmill::seed::Purpose::Sampling);
-    let (mut configs, mut q) = (Configs::new(cx.space.len()), vec![0.0; cx.space.len()]);
+    let (mut configs, mut q) = (Configs::new(cx.space().len()), vec![0.0; cx.space().len()]);
     for _ in 0..count {
-        cx.space.sample_uniform(&mut stream, &mut q);
+        cx.space().sample_uniform(&mut stream, &mut q);
         configs.push(&q);
     }
     configs
-}
-
-/// The problem with other promises of its edges.
-fn with_edges(mut problem: Problem, edges: MotionChecking) -> Problem {
-    problem.model.bodies_mut().expect("bodies").edges = edges;
-    problem
 }
 
 fn states(name: &str) -> Work {
@@ -88,26 +83,26 @@ fn states(name: &str) -> Work {
     let mut scratch = Scratch::new();
     Box::new(move || {
         (0..configs.len()).for_each(|i| {
-            std::hint::black_box(cx.model.validity(configs.get(i), &mut scratch));
+            std::hint::black_box(cx.model().validity(configs.get(i), &mut scratch));
         });
         configs.len()
     })
 }
 
 fn motions(name: &str, edges: MotionChecking) -> Work {
-    let cx = with_edges(problem(name), edges).context();
+    let cx = with_edges(&problem(name), edges).context();
     let configs = sample(&cx, 300, 0);
     let mut pairs = Vec::new();
     for i in 0..configs.len() {
         let others = (0..configs.len() as u32).filter(|other| *other as usize != i);
-        let near = k_nearest(&cx.space, &configs, others, configs.get(i), 5);
+        let near = k_nearest(cx.space(), &configs, others, configs.get(i), 5);
         pairs.extend(near.iter().map(|near| (i, near.id as usize)));
     }
     let mut scratch = Scratch::new();
     Box::new(move || {
         for (a, b) in &pairs {
             let (a, b) = (configs.get(*a), configs.get(*b));
-            std::hint::black_box(cx.model.motion(a, b, 1, &mut scratch).is_some());
+            std::hint::black_box(cx.model().motion(a, b, 1, &mut scratch).is_some());
         }
         pairs.len()
     })
@@ -120,7 +115,7 @@ fn clearances() -> Work {
     Box::new(move || {
         (0..configs.len()).for_each(|i| {
             std::hint::black_box(
-                cx.model.clearances().expect("bodies").clearance(configs.get(i), &mut scratch),
+                cx.model().clearances().expect("bodies").clearance(configs.get(i), &mut scratch),
             );
         });
         configs.len()
@@ -132,7 +127,7 @@ fn samples(sampler: &str) -> Work {
     let sampler: SamplerKind = toml::from_str(sampler).expect("a sampler");
     let mut scratch = Scratch::new();
     Box::new(move || {
-        let mut configs = Configs::new(cx.space.len());
+        let mut configs = Configs::new(cx.space().len());
         let seed = Seed::of_set(1, "kernels", 0);
         let sampled = sampler.method().sample(&cx, &seed, 50, &mut scratch, &mut configs);
         sampled.expect("the cage has room");
@@ -153,7 +148,7 @@ fn index_built() -> Work {
     let cx = problem("walls").context();
     let configs = uniform(&cx, 5000);
     Box::new(move || {
-        let mut index = Index::new(&cx.space);
+        let mut index = Index::new(cx.space());
         // As sets come in.
         for end in (50..=configs.len() as u32).step_by(50) {
             index.extend(end, |id| configs.get(id as usize), |_| 0);
@@ -167,12 +162,12 @@ const QUERIES: usize = 200;
 fn index_searched() -> Work {
     let cx = problem("walls").context();
     let all = All(uniform(&cx, 10_000));
-    let mut index = Index::new(&cx.space);
+    let mut index = Index::new(cx.space());
     let end = all.0.len() as u32;
     index.extend(end, |id| all.config(id), |_| 0);
     Box::new(move || {
         for i in 0..QUERIES {
-            let found = index.k_nearest(&cx.space, &all, end, all.0.get(i), 10);
+            let found = index.k_nearest(cx.space(), &all, end, all.0.get(i), 10);
             assert_eq!(found.len(), 10);
         }
         QUERIES
@@ -184,7 +179,7 @@ fn brute_searched() -> Work {
     let configs = uniform(&cx, 1000);
     Box::new(move || {
         for i in 0..QUERIES {
-            let found = k_nearest(&cx.space, &configs, 0..1000, configs.get(i), 10);
+            let found = k_nearest(cx.space(), &configs, 0..1000, configs.get(i), 10);
             assert_eq!(found.len(), 10);
         }
         QUERIES
@@ -195,7 +190,7 @@ fn neighbors_of_a_set() -> Work {
     let cx = problem("walls").context();
     let configs = uniform(&cx, 5000);
     Box::new(move || {
-        let pairs = k_nearest_graph(&cx.space, &configs, 10);
+        let pairs = k_nearest_graph(cx.space(), &configs, 10);
         assert!(pairs.len() > 5 * configs.len());
         configs.len()
     })
@@ -207,13 +202,13 @@ const RADIUS: f64 = 1.0;
 fn radius_searched() -> Work {
     let cx = problem("walls").context();
     let all = All(uniform(&cx, 10_000));
-    let mut index = Index::new(&cx.space);
+    let mut index = Index::new(cx.space());
     let end = all.0.len() as u32;
     index.extend(end, |id| all.config(id), |_| 0);
     Box::new(move || {
         let mut found = 0;
         for i in 0..QUERIES {
-            found += index.in_radius(&cx.space, &all, end, all.0.get(i), RADIUS, None).len();
+            found += index.in_radius(cx.space(), &all, end, all.0.get(i), RADIUS, None).len();
         }
         assert!(found > QUERIES);
         QUERIES
@@ -224,7 +219,7 @@ fn radius_graph_of_a_set() -> Work {
     let cx = problem("walls").context();
     let configs = uniform(&cx, 5000);
     Box::new(move || {
-        let pairs = radius_graph(&cx.space, &configs, RADIUS);
+        let pairs = radius_graph(cx.space(), &configs, RADIUS);
         assert!(pairs.len() > configs.len());
         configs.len()
     })
@@ -257,7 +252,7 @@ fn grown(sets: u64) -> (Setup, Replica, Arc<Increment>) {
 }
 
 fn generate(setup: &Setup, replica: &Replica, place: u64, scratch: &mut Scratch) -> Arc<Increment> {
-    let (strategy, ordinal) = setup.plan.set_at(place).expect("the schedule does not adapt");
+    let (strategy, ordinal) = setup.plan().set_at(place).expect("the schedule does not adapt");
     let task = replica.task(setup, Job::Generate { place, strategy, ordinal });
     match task.expect("sets can be generated").run(setup, scratch) {
         Outcome::Increment(Ok(increment)) => Arc::new(increment),
@@ -271,7 +266,7 @@ fn join(
     place: u64,
     scratch: &mut Scratch,
 ) -> Vec<roadmill::roadmap::Edge> {
-    let (strategy, ordinal) = setup.plan.set_at(place).expect("the schedule does not adapt");
+    let (strategy, ordinal) = setup.plan().set_at(place).expect("the schedule does not adapt");
     let task = replica.task(setup, Job::Join { place, strategy, ordinal });
     match task.expect("the set is published").run(setup, scratch) {
         Outcome::Joined(joined) => joined.edges,
@@ -313,10 +308,16 @@ fn queried() -> Work {
     let (setup, replica, _) = grown(SETS);
     let mut scratch = Scratch::new();
     Box::new(move || {
-        let ends = setup.cx.query.as_ref().expect("the walls have a query");
+        let ends = setup.context().query().expect("the walls have a query");
         let ends = (&ends.start[..], &ends.goal[..]);
         let attachment = Attachment::default();
-        std::hint::black_box(solve(&setup.cx, replica.roadmap(), ends, &attachment, &mut scratch));
+        std::hint::black_box(solve(
+            setup.context(),
+            replica.roadmap(),
+            ends,
+            &attachment,
+            &mut scratch,
+        ));
         1
     })
 }

@@ -40,14 +40,12 @@ pub struct Study {
 impl Study {
     /// The problem with all strategies in turn: a round has one set of each.
     pub fn problem(&self, environment: &Environment, seed: u64) -> Problem {
-        let mut problem = self.choices.problem(environment);
-        problem.seed = seed;
         let labels = self.choices.tests.iter();
         let strategies = labels.map(|label| self.choices.strategy(environment, label, 50));
-        problem.strategies = strategies.map(|each| each.expect("a sampler")).collect();
-        problem.schedule = (0..problem.strategies.len() as u32).collect();
-        problem.sets_per_round = problem.schedule.len() as u32;
-        problem
+        let strategies: Vec<_> = strategies.map(|each| each.expect("a sampler")).collect();
+        let builder = self.choices.problem(environment).to_builder().seed(seed);
+        let builder = builder.sets_per_round(strategies.len() as u64).strategies(strategies);
+        builder.default_schedule().build().unwrap_or_else(|error| panic!("{error}"))
     }
 }
 

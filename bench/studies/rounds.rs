@@ -13,16 +13,17 @@ pub fn run(study: &Study) {
     for environment in &study.environments {
         let setup = Arc::new(Setup::new(study.problem(environment, 1)));
         let how = study.choices.attaching();
-        let tests = study.choices.hundred(environment, &setup.cx, (0, "tests"));
+        let tests = study.choices.hundred(environment, setup.context(), (0, "tests"));
         let [expansion, gain] = ["expansion = {}", "information-gain = {}"]
             .map(|text| toml::from_str::<EvaluatorKind>(text).expect("an evaluator"));
         let solved = how.connectivity(tests, 75.0);
-        let diameter = setup.cx.space.diameter();
+        let diameter = setup.context().space().diameter();
         let mut scratch = Scratch::new();
         let mut lines: [Vec<[f64; 2]>; 5] = Default::default();
         let mut each = |roadmap: &roadmill::roadmap::Roadmap| {
-            let [expansion, gain, solved] = [&expansion, &gain, &solved]
-                .map(|kind| kind.method().evaluate(&setup.cx, "tests", roadmap, &mut scratch));
+            let [expansion, gain, solved] = [&expansion, &gain, &solved].map(|kind| {
+                kind.method().evaluate(setup.context(), "tests", roadmap, &mut scratch)
+            });
             let (widths, shares) = (&expansion.measures, &gain.measures);
             let now = [
                 widths[0] / diameter,

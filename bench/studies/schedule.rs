@@ -21,7 +21,10 @@ pub fn run(study: &Study) {
             let mut noted: Vec<Noted> = Vec::new();
             for seed in 1..=study.seeds {
                 let mut problem = study.problem(environment, seed);
-                problem.adaptive = adaptive;
+                if let Some(adaptive) = adaptive {
+                    let adapting = problem.to_builder().adaptive(adaptive).build();
+                    problem = adapting.unwrap_or_else(|error| panic!("{error}"));
+                }
                 let setup = Arc::new(Setup::new(problem));
                 let cap = study.choices.cap();
                 noted.extend(note(&setup, std::slice::from_ref(&query), None, cap, &mut |_| ()).0);

@@ -24,11 +24,11 @@ pub struct Brute {
 
 impl Brute {
     pub fn new(problem: &Problem) -> Brute {
-        let robot = problem.model.bodies().expect("bodies").robot.clone();
+        let robot = problem.model().bodies().expect("bodies").robot().clone();
         Brute {
-            bounds: problem.model.bodies().expect("bodies").bounds,
+            bounds: problem.model().bodies().expect("bodies").bounds(),
             links: robot.links.iter().map(|link| convex(&link.bodies)).collect(),
-            obstacles: convex(&problem.model.bodies().expect("bodies").obstacles),
+            obstacles: convex(problem.model().bodies().expect("bodies").obstacles()),
             self_pairs: robot.self_pairs().collect(),
             robot,
         }

@@ -1,6 +1,6 @@
 //! A build as long as wanted.
 
-use roadmill::problem::{Limits, Problem};
+use roadmill::problem::{Problem, StrategySpec};
 use std::path::{Path, PathBuf};
 
 /// Writes the cage without its query, to be built up to so many nodes in sets of `set`, into a folder.
@@ -16,13 +16,12 @@ pub fn endless(
     (nodes, set): (u64, u32),
     sampler: Option<&str>,
 ) -> PathBuf {
-    let mut problem = Problem::load(scene).unwrap_or_else(|error| panic!("{error}"));
-    problem.query = None;
-    problem.evaluators.clear();
-    problem.strategies.truncate(1);
-    problem.strategies[0].nodes = set;
-    problem.schedule = vec![0];
-    problem.limits = Limits { nodes, sets: u64::MAX >> 1, seconds: None };
+    let problem = Problem::load(scene).unwrap_or_else(|error| panic!("{error}"));
+    let first = StrategySpec::from(&problem.strategies()[0]).nodes(set.into());
+    let builder = problem.to_builder().without_query().evaluators([]);
+    let builder = builder.strategies([first]).default_schedule().most_nodes(nodes);
+    let problem = builder.most_sets(u64::MAX >> 1).build();
+    let problem = problem.unwrap_or_else(|error| panic!("{error}"));
     let mut written = problem.to_toml("meshes");
     if let Some(sampler) = sampler {
         let line = |line: &str| match line.starts_with("sampler = ") {

@@ -65,9 +65,9 @@ impl List {
 
 /// Gaussian milestones, half the robot's radius as deviation.
 pub fn near_obstacles(problem: &Problem, cx: &Context, count: usize) -> Configs {
-    let deviation = problem.model.bodies().expect("bodies").robot.reach() / 2.0;
+    let deviation = problem.model().bodies().expect("bodies").robot().reach() / 2.0;
     let sampler = Gaussian { deviation, bounds: false, attempts: 1_000_000 };
-    let mut configs = Configs::new(cx.space.len());
+    let mut configs = Configs::new(cx.space().len());
     let seed = Seed::of_set(1, "near obstacles", 0);
     let sampled = sampler.sample(cx, &seed, count, &mut Scratch::new(), &mut configs);
     sampled.expect("the scene has obstacles");
@@ -76,10 +76,10 @@ pub fn near_obstacles(problem: &Problem, cx: &Context, count: usize) -> Configs 
 
 /// Each of the configurations with its nearest.
 pub fn nearest(cx: &Context, configs: &Configs) -> Vec<(usize, usize)> {
-    let alone = Components::of(&cx.space, configs, &[]);
+    let alone = Components::of(cx.space(), configs, &[]);
     let mut pairs = BTreeSet::new();
     for (i, q) in configs.iter().enumerate() {
-        let near = alone.k_nearest(&cx.space, configs, q, NEIGHBORS + 1);
+        let near = alone.k_nearest(cx.space(), configs, q, NEIGHBORS + 1);
         let others = near.iter().map(|near| near.id as usize).filter(|j| *j != i);
         pairs.extend(others.take(NEIGHBORS).map(|j| (i.min(j), i.max(j))));
     }
@@ -103,11 +103,11 @@ pub fn any(configs: &Configs, count: usize) -> Vec<(usize, usize)> {
 /// A resolution so coarse that refining it can cut a motion into any number of steps.
 pub fn coarse(problem: &Problem) -> f64 {
     let [min, max] = [
-        problem.model.bodies().expect("bodies").bounds.min,
-        problem.model.bodies().expect("bodies").bounds.max,
+        problem.model().bodies().expect("bodies").bounds().min,
+        problem.model().bodies().expect("bodies").bounds().max,
     ];
     let across: f64 = (0..3).map(|i| max[i] - min[i]).sum();
-    1000.0 * (across + 4.0 * problem.model.bodies().expect("bodies").robot.reach())
+    1000.0 * (across + 4.0 * problem.model().bodies().expect("bodies").robot().reach())
 }
 
 /// The refinement of that resolution that cuts a motion into so many steps.

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each bench uses its part")]
 
 pub mod brute;
+pub mod edges;
 pub mod lists;
 pub mod noting;
 pub mod panels;
@@ -137,7 +138,7 @@ impl Observer for Watch {
 
 /// Valid uniform configurations.
 pub fn sample(cx: &Context, count: usize, ordinal: u64) -> Configs {
-    let mut configs = Configs::new(cx.space.len());
+    let mut configs = Configs::new(cx.space().len());
     let seed = Seed::of_set(1, "race", ordinal);
     let sampled = Uniform::default().sample(cx, &seed, count, &mut Scratch::new(), &mut configs);
     sampled.expect("the scene has free configurations");
@@ -150,7 +151,7 @@ pub fn pairs(cx: &Context, neighbors: usize) -> (Configs, Vec<(usize, usize)>) {
     let mut pairs = BTreeSet::new();
     for i in 0..configs.len() {
         let others = (0..configs.len() as u32).filter(|other| *other as usize != i);
-        for near in k_nearest(&cx.space, &configs, others, configs.get(i), neighbors) {
+        for near in k_nearest(cx.space(), &configs, others, configs.get(i), neighbors) {
             let j = near.id as usize;
             pairs.insert((i.min(j), i.max(j)));
         }

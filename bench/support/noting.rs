@@ -43,7 +43,7 @@ pub fn listed(
     (seed, label): (u64, &str),
     drawn: &[(&SamplerKind, usize)],
 ) -> Samples {
-    let mut configs = Configs::new(cx.space.len());
+    let mut configs = Configs::new(cx.space().len());
     for (ordinal, (sampler, count)) in drawn.iter().enumerate() {
         let seed = Seed::of_set(seed, label, ordinal as u64);
         let _ = sampler.method().sample(cx, &seed, *count, &mut Scratch::new(), &mut configs);
@@ -85,10 +85,8 @@ pub fn note(
     cap: Cap,
     each: &mut dyn FnMut(&Roadmap),
 ) -> (Vec<Noted>, Stop) {
-    let mut problem = setup.problem.clone();
-    problem.evaluators.clear();
-    problem.limits.nodes = cap.nodes;
-    let setup = Arc::new(Setup::new(problem));
+    let problem = setup.problem().to_builder().evaluators([]).most_nodes(cap.nodes).build();
+    let setup = Arc::new(Setup::new(problem.unwrap_or_else(|error| panic!("{error}"))));
     let tests = tests.map(|(samples, how)| {
         [how.coverage(samples.clone(), 100.0), how.connectivity(samples.clone(), 100.0)]
     });
@@ -102,12 +100,12 @@ pub fn note(
         noted: vec![None; criteria.len()],
         cost: 0,
         scratch: Scratch::new(),
-        roadmap: Roadmap::new(&setup.cx.space),
+        roadmap: Roadmap::new(setup.context().space()),
         each,
     };
     let mut serial = Serial::new(setup.clone());
     let Ok(stop) = drive(&mut Core::new(&setup, 0), &mut serial, &mut watch);
-    let roadmap = std::mem::replace(&mut watch.roadmap, Roadmap::new(&setup.cx.space));
+    let roadmap = std::mem::replace(&mut watch.roadmap, Roadmap::new(setup.context().space()));
     let last = watch.now(&roadmap, false);
     (watch.noted.into_iter().map(|noted| noted.unwrap_or_else(|| last.clone())).collect(), stop)
 }
@@ -127,7 +125,7 @@ struct Watch<'a> {
 
 impl Watch<'_> {
     fn judge(&mut self, criterion: &EvaluatorKind, path: &str, roadmap: &Roadmap) -> Verdict {
-        criterion.method().evaluate(&self.setup.cx, path, roadmap, &mut self.scratch)
+        criterion.method().evaluate(self.setup.context(), path, roadmap, &mut self.scratch)
     }
 
     fn now(&mut self, roadmap: &Roadmap, satisfied: bool) -> Noted {
@@ -155,7 +153,7 @@ impl Observer for Watch<'_> {
     type Error = Infallible;
 
     fn folded(&mut self, round: &Round, _: &Tally) -> Result<(), Infallible> {
-        let space = &self.setup.cx.space;
+        let space = self.setup.context().space();
         let mut roadmap = std::mem::replace(&mut self.roadmap, Roadmap::new(space));
         roadmap.fold_round(space, round.parts());
         for asked in round.sets.iter().flat_map(|set| [set.increment.asked, set.joined.asked]) {

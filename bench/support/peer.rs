@@ -1,6 +1,7 @@
 //! The other side of a race: a program that works on scenes of surfaces.
 
-use roadmill::model::bodies::validity::{BoundsMeaning, MotionChecking};
+use roadmill::model::bodies::validity::BoundsMeaning;
+use roadmill::model::bodies::{BodiesSpec, BodySpec, ShapeSpec};
 use roadmill::problem::Problem;
 use roadmill::scene::{Body, Shape};
 use roadmill::space::BaseJoint;
@@ -11,63 +12,47 @@ use std::process::Command;
 /// The problem as the peer sees it: OMPL and FCL know no solids and no bounds of bodies, so both sides
 /// race with surfaces and with bounds that hold the reference point.
 pub fn surfaces(path: &Path) -> Problem {
-    let mut problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
-    problem.model.bodies_mut().expect("bodies").bounds.meaning = BoundsMeaning::Reference;
-    empty(&mut problem);
-    problem
+    let problem = Problem::load(path).unwrap_or_else(|error| panic!("{error}"));
+    empty(&changed(&problem, |bodies| {
+        bodies.change_space(|space| space.bounds(BoundsMeaning::Reference))
+    }))
 }
 
-/// The problem with other promises of its edges.
-pub fn with_edges(mut problem: Problem, edges: MotionChecking) -> Problem {
-    problem.model.bodies_mut().expect("bodies").edges = edges;
-    problem
+/// The problem with other bodies.
+pub fn changed(problem: &Problem, change: impl FnOnce(BodiesSpec) -> BodiesSpec) -> Problem {
+    let builder = problem.to_builder().change_model(|model| model.change_bodies(change));
+    builder.build().unwrap_or_else(|error| panic!("{}: {error}", problem.name()))
 }
 
 /// Makes mere surfaces of all meshes.
-pub fn empty(problem: &mut Problem) {
-    let bodies = problem.model.bodies_mut().expect("bodies");
-    let robot = bodies.robot.links.iter_mut().flat_map(|link| &mut link.bodies);
-    robot.chain(&mut bodies.obstacles).for_each(|body| body.solid = false);
+pub fn empty(problem: &Problem) -> Problem {
+    let surface = |body: BodySpec| match body.shape() {
+        ShapeSpec::Triangles { .. } => body.solid(false),
+        _ => body,
+    };
+    changed(problem, |bodies| bodies.change_each_body(surface))
 }
 
 /// Whether the peer knows robots and obstacles of this kind: meshes, of which one moves freely.
 pub fn suits(problem: &Problem) -> bool {
-    let mut bodies = problem
-        .model
-        .bodies()
-        .expect("bodies")
-        .robot
-        .bodies()
-        .chain(&problem.model.bodies().expect("bodies").obstacles);
-    problem.model.bodies().expect("bodies").robot.links.len() == 1
-        && problem.model.bodies().expect("bodies").robot.motion == BaseJoint::Rigid3d
+    let described = problem.model().bodies().expect("bodies");
+    let mut bodies = described.robot().bodies().chain(described.obstacles());
+    described.robot().links.len() == 1
+        && described.robot().motion == BaseJoint::Rigid3d
         && bodies.all(|body| matches!(body.shape, Shape::Mesh(_)))
 }
 
 /// The scene as text for the peer.
 pub fn scene_text(problem: &Problem) -> String {
     let mut text = String::new();
-    for value in problem
-        .model
-        .bodies()
-        .expect("bodies")
-        .bounds
-        .min
-        .iter()
-        .chain(&problem.model.bodies().expect("bodies").bounds.max)
-    {
+    let described = problem.model().bodies().expect("bodies");
+    let bounds = described.bounds();
+    for value in bounds.min.iter().chain(&bounds.max) {
         write!(text, "{value} ").expect("memory");
     }
-    writeln!(
-        text,
-        "{} {}",
-        problem.model.bodies().expect("bodies").resolution,
-        problem.model.bodies().expect("bodies").robot.reach()
-    )
-    .expect("memory");
-    let robot: Vec<Body> =
-        problem.model.bodies().expect("bodies").robot.bodies().cloned().collect();
-    for bodies in [&problem.model.bodies().expect("bodies").obstacles, &robot] {
+    writeln!(text, "{} {}", described.resolution(), described.robot().reach()).expect("memory");
+    let robot: Vec<Body> = described.robot().bodies().cloned().collect();
+    for bodies in [described.obstacles(), &robot] {
         let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
         for body in bodies {
             let Shape::Mesh(mesh) = &body.shape else { panic!("a scene of meshes expected") };

@@ -96,8 +96,8 @@ impl<'a> VirtualPool<'a> {
         VirtualPool {
             costs,
             machine,
-            sets_per_round: u64::from(setup.problem.sets_per_round),
-            dofs: setup.cx.space.len(),
+            sets_per_round: u64::from(setup.problem().sets_per_round()),
+            dofs: setup.context().space().len(),
             sets_max,
             places: vec![0; workers],
             idle: (0..workers).collect(),
@@ -105,7 +105,7 @@ impl<'a> VirtualPool<'a> {
             answers: BinaryHeap::new(),
             heard: VecDeque::new(),
             log: vec![[0.0; 2]],
-            roadmap: Roadmap::new(&setup.cx.space),
+            roadmap: Roadmap::new(setup.context().space()),
             spent: Spent::default(),
             warm: None,
         }

@@ -2,13 +2,12 @@
 
 use super::environments::{Environment, STRATEGIES};
 use crate::support::noting::{Attaching, Cap, listed};
+use roadmill::Context;
 use roadmill::connect::{AmongKind, ComponentPairs, Nearest, WithinKind};
 use roadmill::evaluate::Samples;
-use roadmill::generator::{GeneratorKind, Sample};
 use roadmill::local::{Planner, RotateAt};
-use roadmill::problem::Problem;
+use roadmill::problem::{Problem, StrategySpec};
 use roadmill::sampler::SamplerKind;
-use roadmill::{Context, Strategy};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -81,18 +80,19 @@ impl Choices {
         listed(cx, of, &samplers.iter().map(|sampler| (sampler, share)).collect::<Vec<_>>())
     }
 
-    pub fn strategy(&self, environment: &Environment, label: &str, nodes: u32) -> Option<Strategy> {
+    /// `None` as of [`Choices::sampler`].
+    pub fn strategy(
+        &self,
+        environment: &Environment,
+        label: &str,
+        nodes: u32,
+    ) -> Option<StrategySpec> {
         let planners = self.planners.clone();
         let pairs = ComponentPairs { planners: planners.clone(), ..ComponentPairs::default() };
-        Some(Strategy {
-            label: label.to_owned(),
-            nodes,
-            generator: GeneratorKind::Sample(Sample {
-                sampler: self.sampler(environment, label)?,
-                within: WithinKind::Nearest(Nearest { planners, ..Nearest::default() }),
-            }),
-            among: self.among.clone().unwrap_or(AmongKind::ComponentPairs(pairs)),
-        })
+        let within = WithinKind::Nearest(Nearest { planners, ..Nearest::default() });
+        let strategy = StrategySpec::sampled(label, self.sampler(environment, label)?);
+        let among = self.among.clone().unwrap_or(AmongKind::ComponentPairs(pairs));
+        Some(strategy.nodes(nodes.into()).within(within).among(among))
     }
 
     /// Runs measured with other choices, or against other tests, must not stand in one file.

@@ -136,16 +136,17 @@ impl Experiment<'_> {
     }
 
     fn measure(&self, run: Run) -> Measured {
-        let mut problem = self.choices.problem(self.environment);
-        problem.seed = run.seed;
-        problem.sets_per_round = run.k;
         let strategy = self.choices.strategy(self.environment, &run.strategy, run.n);
-        problem.strategies = vec![strategy.expect("a strategy that is available")];
-        problem.schedule = vec![0];
+        let builder = self.choices.problem(self.environment).to_builder();
+        let builder = builder.seed(run.seed).sets_per_round(run.k.into()).default_schedule();
+        let strategy = strategy.expect("a strategy that is available");
+        let problem = builder.strategies([strategy]).build();
+        let problem = problem.unwrap_or_else(|error| panic!("{error}"));
         let setup = Arc::new(Setup::new(problem));
 
         let how = self.choices.attaching();
-        let samples = self.choices.hundred(self.environment, &setup.cx, (run.seed, "samples"));
+        let samples =
+            self.choices.hundred(self.environment, setup.context(), (run.seed, "samples"));
         let query = Query { neighbors: how.neighbors, planners: how.planners.clone() };
         let criteria = [
             EvaluatorKind::Query(query),

@@ -46,7 +46,7 @@ impl Observer for Clerk {
     type Error = Failure;
 
     fn folded(&mut self, round: &Round, tally: &Tally) -> Result<(), Failure> {
-        self.ledger.round(round, &self.setup.problem, tally)
+        self.ledger.round(round, self.setup.problem(), tally)
     }
 
     fn judged(&mut self, judgement: &Judgement) -> Result<(), Failure> {

@@ -8,7 +8,7 @@
 //! use roadmill::{model::Scratch, problem::Problem, roadmap::Configs, seed::Seed};
 //!
 //! let cx = Problem::load("tests/problems/slide.toml".as_ref())?.context();
-//! let mut milestones = Configs::new(cx.space.len());
+//! let mut milestones = Configs::new(cx.space().len());
 //! for z in [-3.0, 0.0, 3.0] {
 //!     milestones.push(&[-3.0, -3.0, z]);
 //! }

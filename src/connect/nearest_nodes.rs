@@ -24,6 +24,12 @@ pub struct NearestNodes {
     pub planners: Vec<Planner>,
 }
 
+impl Default for NearestNodes {
+    fn default() -> NearestNodes {
+        NearestNodes { neighbors: default_neighbors(), planners: default_planners() }
+    }
+}
+
 pub(super) fn default_neighbors() -> u32 {
     10
 }

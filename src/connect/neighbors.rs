@@ -24,6 +24,12 @@ pub struct Neighbors {
     pub planners: Vec<Planner>,
 }
 
+impl Default for Neighbors {
+    fn default() -> Neighbors {
+        Neighbors { finder: FinderKind::default(), planners: default_planners() }
+    }
+}
+
 impl Neighbors {
     fn complaint(&self) -> Option<Complaint> {
         self.finder.method().complaint().or_else(|| local::complaint(&self.planners))

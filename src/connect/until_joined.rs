@@ -27,6 +27,12 @@ pub struct UntilJoined {
     pub planners: Vec<Planner>,
 }
 
+impl Default for UntilJoined {
+    fn default() -> UntilJoined {
+        UntilJoined { neighbors: default_neighbors(), planners: default_planners() }
+    }
+}
+
 impl Among for UntilJoined {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
         let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };

@@ -29,6 +29,17 @@ pub struct Connectivity {
     pub planners: Vec<Planner>,
 }
 
+impl Default for Connectivity {
+    fn default() -> Connectivity {
+        Connectivity {
+            samples: samples::default_samples(),
+            percent: default_percent(),
+            neighbors: samples::default_neighbors(),
+            planners: samples::default_planners(),
+        }
+    }
+}
+
 fn default_percent() -> f64 {
     75.0
 }
@@ -63,6 +74,10 @@ impl Evaluator for Connectivity {
 
     fn attachment(&self) -> Option<Attachment> {
         Some(self.how())
+    }
+
+    fn is_within(&self, brackets: u32) -> bool {
+        self.samples.is_within(brackets)
     }
 
     fn complaint(&self) -> Option<Complaint> {

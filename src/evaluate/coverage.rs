@@ -29,6 +29,17 @@ pub struct Coverage {
     pub planners: Vec<Planner>,
 }
 
+impl Default for Coverage {
+    fn default() -> Coverage {
+        Coverage {
+            samples: samples::default_samples(),
+            percent: default_percent(),
+            neighbors: samples::default_neighbors(),
+            planners: samples::default_planners(),
+        }
+    }
+}
+
 fn default_percent() -> f64 {
     95.0
 }
@@ -59,6 +70,10 @@ impl Evaluator for Coverage {
 
     fn attachment(&self) -> Option<Attachment> {
         Some(self.how())
+    }
+
+    fn is_within(&self, brackets: u32) -> bool {
+        self.samples.is_within(brackets)
     }
 
     fn complaint(&self) -> Option<Complaint> {

@@ -39,6 +39,16 @@ pub struct Expansion {
     pub components: u32,
 }
 
+impl Default for Expansion {
+    fn default() -> Expansion {
+        Expansion {
+            rounds: default_rounds(),
+            percent: default_percent(),
+            components: default_components(),
+        }
+    }
+}
+
 fn default_rounds() -> u32 {
     3
 }

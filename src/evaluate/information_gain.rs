@@ -31,6 +31,12 @@ pub struct InformationGain {
     pub percent: f64,
 }
 
+impl Default for InformationGain {
+    fn default() -> InformationGain {
+        InformationGain { rounds: default_rounds(), percent: default_percent() }
+    }
+}
+
 fn default_rounds() -> u32 {
     1
 }

@@ -29,6 +29,17 @@ pub struct LowestBarrier {
 }
 
 impl LowestBarrier {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(energy: f64) -> LowestBarrier {
+        LowestBarrier {
+            energy,
+            neighbors: samples::default_neighbors(),
+            planners: samples::default_planners(),
+        }
+    }
+}
+
+impl LowestBarrier {
     fn how(&self) -> Attachment {
         Attachment { neighbors: self.neighbors, planners: self.planners.clone() }
     }

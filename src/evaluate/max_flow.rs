@@ -40,6 +40,20 @@ pub struct MaxFlow {
     pub planners: Vec<Planner>,
 }
 
+impl MaxFlow {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(flow: f64) -> MaxFlow {
+        MaxFlow {
+            flow,
+            from: Vec::new(),
+            to: Vec::new(),
+            least_weight: None,
+            neighbors: samples::default_neighbors(),
+            planners: samples::default_planners(),
+        }
+    }
+}
+
 /// The largest capacity as a whole number.
 const SCALE: f64 = (1u64 << 32) as f64;
 const ENDS_MAX: usize = 10_000;

@@ -60,7 +60,7 @@ pub use samples::{Drawn, Samples};
 pub use verdict::{Bound, CutEdge, Verdict};
 
 use crate::context::Context;
-use crate::methods::{Complaint, methods};
+use crate::methods::{BRACKETS_OF_SETTINGS, Complaint, methods};
 use crate::model::{Asked, Scratch};
 use crate::query::Attachment;
 use crate::roadmap::Roadmap;
@@ -88,6 +88,14 @@ pub trait Evaluator {
     /// The criteria that a combined criterion is made of.
     fn parts(&self) -> &[EvaluatorKind] {
         &[]
+    }
+
+    /// Whether the criterion, as a problem file writes it, has at most so many brackets within one another.
+    fn is_within(&self, brackets: u32) -> bool {
+        // { all = [ …
+        let rest = brackets.checked_sub(2);
+        let parts = |rest| self.parts().iter().all(|part| part.method().is_within(rest));
+        brackets >= BRACKETS_OF_SETTINGS && rest.is_some_and(parts)
     }
 
     /// Whether the criterion needs the problem to have a query.

@@ -35,6 +35,11 @@ impl Evaluator for Not {
         std::slice::from_ref(&*self.0)
     }
 
+    fn is_within(&self, brackets: u32) -> bool {
+        // { not = …
+        brackets.checked_sub(1).is_some_and(|rest| self.0.method().is_within(rest))
+    }
+
     fn accept(&mut self, cx: &Context) -> Result<(), String> {
         self.0.method_mut().accept(cx)
     }

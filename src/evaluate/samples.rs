@@ -3,7 +3,7 @@
 use super::Verdict;
 use crate::context::Context;
 use crate::local::{self, Planner};
-use crate::methods::Complaint;
+use crate::methods::{BRACKETS_OF_SETTINGS, Complaint};
 use crate::model::{Asked, Scratch};
 use crate::query::Attachment;
 use crate::roadmap::{Configs, Roadmap};
@@ -54,6 +54,15 @@ pub struct Drawn {
 }
 
 impl Samples {
+    /// Whether a criterion with these samples, as a problem file writes it, has at most so many brackets within one
+    /// another.
+    pub(super) fn is_within(&self, brackets: u32) -> bool {
+        let Samples::Drawn(parts) = self else { return brackets >= BRACKETS_OF_SETTINGS };
+        // { coverage = { samples = { drawn = [{ sampler = …
+        let rest = brackets.checked_sub(5);
+        rest.is_some_and(|rest| parts.iter().all(|part| part.sampler.method().is_within(rest)))
+    }
+
     pub(super) fn complaint(&self) -> Option<Complaint> {
         match self {
             Samples::Random(count) if !(2..=SAMPLES_MAX).contains(count) => {

@@ -19,6 +19,13 @@ pub struct Radius {
     pub most: Option<u32>,
 }
 
+impl Radius {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(radius: f64) -> Radius {
+        Radius { radius, most: None }
+    }
+}
+
 impl Finder for Radius {
     fn near(
         &self,

@@ -42,6 +42,19 @@ pub struct ExpansionStep {
     pub attempts: u64,
 }
 
+impl ExpansionStep {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(step: f64) -> ExpansionStep {
+        ExpansionStep {
+            step,
+            steps: default_steps(),
+            halvings: default_halvings(),
+            bounces: default_bounces(),
+            attempts: default_attempts(),
+        }
+    }
+}
+
 fn default_steps() -> u32 {
     50
 }

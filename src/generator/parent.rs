@@ -70,11 +70,26 @@ impl Runs for NoRuns {
 }
 
 impl Parent {
-    /// Takes in the roadmap of the run, for problems over `space`. `folder` is that of the problem file.
+    /// The run in a folder, and the hash that its ledger must have, if it is said. The run is read when a problem is
+    /// built that names it.
+    pub fn new(run: impl Into<String>, ledger: Option<Digest>) -> Parent {
+        Parent { run: run.into(), ledger, roadmap: Arc::default() }
+    }
+
+    /// Takes in the roadmap of the run, for problems over `space`. `folder` is that of the problem file. A roadmap
+    /// that is taken in already stays.
     ///
     /// # Errors
     /// Says what is wrong with the run: it cannot be read, has another ledger than was said, or another space.
     pub fn take_in(&mut self, runs: &dyn Runs, folder: &Path, space: &Space) -> Result<(), String> {
+        if !self.roadmap.is_empty() {
+            let (found, expected) = (self.roadmap.dofs(), space.len());
+            return if found == expected {
+                Ok(())
+            } else {
+                Err(format!("configurations of {found} values found; {expected} expected"))
+            };
+        }
         let run = runs.read(&folder.join(&self.run))?;
         if let Some(expected) = self.ledger.filter(|expected| *expected != run.ledger) {
             return Err(format!(

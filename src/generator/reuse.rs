@@ -32,6 +32,13 @@ pub struct Reuse {
     pub attempts: u64,
 }
 
+impl Reuse {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(parent: Parent, spread: f64) -> Reuse {
+        Reuse { parent, spread, attempts: default_attempts() }
+    }
+}
+
 fn default_attempts() -> u64 {
     10_000
 }

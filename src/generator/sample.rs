@@ -20,6 +20,13 @@ pub struct Sample {
     pub within: WithinKind,
 }
 
+impl Sample {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(sampler: SamplerKind) -> Sample {
+        Sample { sampler, within: WithinKind::default() }
+    }
+}
+
 impl Generator for Sample {
     fn generate(
         &self,

@@ -6,6 +6,7 @@
 //! together. Programs that want a roadmap and no more use [`Build`](crate::Build), which is made of this.
 //! Whatever the executor does (reorder, repeat, lose), the roadmap is the same.
 
+mod canary;
 mod core;
 mod drive;
 mod job;
@@ -19,6 +20,7 @@ pub use self::core::{
 };
 pub use crate::roadmap::{Joined, Round, RoundSet};
 pub use crate::schedule::Plan;
+pub use canary::canary;
 pub use drive::{Executor, InProcess, Observer, TICK, drive};
 pub use job::{Finished, Job, Outcome, Task};
 pub use replica::{Front, Replica};
@@ -27,6 +29,7 @@ pub use simulated::{Memo, Simulated};
 pub use threads::Threads;
 
 use crate::context::Context;
+use crate::model::Model;
 use crate::problem::Problem;
 use crate::roadmap::Roadmap;
 use std::sync::Arc;
@@ -34,11 +37,11 @@ use std::sync::Arc;
 /// A problem set up for building.
 pub struct Setup {
     /// The problem.
-    pub problem: Problem,
+    pub(crate) problem: Problem,
     /// The problem made ready for work.
-    pub cx: Context,
+    pub(crate) cx: Context,
     /// Which set comes where.
-    pub plan: Plan,
+    pub(crate) plan: Plan,
 }
 
 impl Setup {
@@ -47,6 +50,28 @@ impl Setup {
         let cx = problem.context();
         let plan = Plan::new(&problem);
         Setup { problem, cx, plan }
+    }
+
+    /// The problem.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// The problem made ready for work.
+    pub fn context(&self) -> &Context {
+        &self.cx
+    }
+
+    /// Which set comes where.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Puts the model into another that answers as it does, one that counts or times what is asked, say. A model that
+    /// answers otherwise makes a roadmap that is none of the problem.
+    pub fn wrap_model(mut self, wrap: impl FnOnce(Box<dyn Model>) -> Box<dyn Model>) -> Setup {
+        self.cx.model = wrap(self.cx.model);
+        self
     }
 
     /// Whether the sets of a strategy grow from the roadmap at the start of their round.

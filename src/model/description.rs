@@ -75,14 +75,28 @@ pub struct Imported {
     pub sources: Vec<SourceFile>,
 }
 
-/// How a description is read from a problem file.
-pub(crate) trait ReadTables: Sized {
+/// How a description comes from what a problem asks for.
+pub(crate) trait Resolve: Sized {
+    /// What a problem asks for, before anything is checked: the tables of a problem file, or what a program gives
+    /// instead.
+    type Spec;
+
     /// The keys of the tables of the file that describe the model, first the one that it cannot do without; no
     /// other model has one of them.
     const TABLES: &'static [&'static str];
 
-    /// Reads and checks these tables. `notes` gets what was chosen where the file leaves a choice.
-    fn read(source: &Source, notes: &mut Vec<String>) -> Result<Self, ProblemError>;
+    /// Reads these tables.
+    fn spec(source: &Source) -> Result<Self::Spec, ProblemError>;
+
+    /// Checks what is asked for. `notes` gets what was chosen where that leaves a choice.
+    fn resolve(
+        spec: &Self::Spec,
+        source: &Source,
+        notes: &mut Vec<String>,
+    ) -> Result<Self, ProblemError>;
+
+    /// What asks for this description.
+    fn to_spec(&self) -> Self::Spec;
 }
 
 /// Reads the file of another program, told apart by its extension; `None` for any other file.

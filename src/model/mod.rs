@@ -11,7 +11,7 @@
 //!
 //! // A ball among obstacles, which only translates.
 //! let problem = Problem::load("tests/problems/slide.toml".as_ref())?;
-//! let model = problem.model.description().prepare();
+//! let model = problem.model().description().prepare();
 //! let scratch = &mut Scratch::new();
 //! let (corner, slab) = ([-3.0, -3.0, -3.0], [2.0, 0.0, 0.0]);
 //! assert!(model.is_valid(&corner, scratch));
@@ -37,16 +37,16 @@ pub use description::{Description, Documents, Imported};
 pub use figure::{Figure, Placement};
 pub use scratch::{Asked, ModelScratch, Scratch};
 
-pub(crate) use description::{ReadTables, import};
+pub(crate) use description::{Resolve, import};
 
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
 use bincode::{Decode, Encode};
 use std::any::Any;
 
-/// The models' enum, with what follows from their list.
+/// The models' enums, with what follows from their list: each model's description and its spec, what is asked for.
 macro_rules! models {
-    ($($variant:ident($description:ty),)+) => {
+    ($($variant:ident($description:ty, $spec:ty),)+) => {
         /// The models, each by its description.
         #[derive(Clone, Debug, PartialEq, Encode, Decode)]
         pub enum ModelKind {
@@ -61,24 +61,59 @@ macro_rules! models {
                 }
             }
 
+            /// Checks what is asked for. `notes` gets what was chosen where that leaves a choice.
+            pub(crate) fn resolve(
+                spec: &ModelSpec,
+                source: &Source,
+                notes: &mut Vec<String>,
+            ) -> Result<ModelKind, ProblemError> {
+                match spec {
+                    $(ModelSpec::$variant(spec) => {
+                        Resolve::resolve(spec, source, notes).map(ModelKind::$variant)
+                    })+
+                }
+            }
+        }
+
+        impl ModelKind {
+            /// What asks for this model, so that something of it can be changed and checked again.
+            pub fn to_spec(&self) -> ModelSpec {
+                match self {
+                    $(ModelKind::$variant(description) => {
+                        ModelSpec::$variant(Resolve::to_spec(description))
+                    })+
+                }
+            }
+        }
+
+        /// A model as a problem asks for it, before anything is checked.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum ModelSpec {
+            $(#[allow(missing_docs)] $variant($spec),)+
+        }
+
+        $(impl From<$spec> for ModelSpec {
+            fn from(spec: $spec) -> ModelSpec {
+                ModelSpec::$variant(spec)
+            }
+        })+
+
+        impl ModelSpec {
             /// The keys of the tables of the model that a problem file describes: the model whose first table it
             /// has, or else any, or else the first model.
             pub(crate) fn tables_in(source: &Source) -> &'static [&'static str] {
-                let listed = [$(<$description as ReadTables>::TABLES),+];
+                let listed = [$(<$description as Resolve>::TABLES),+];
                 let has_first = |keys: &&&[&str]| source.has(keys[0]);
                 let has_any = |keys: &&&[&str]| keys.iter().any(|key| source.has(key));
                 let described = listed.iter().find(has_first).or_else(|| listed.iter().find(has_any));
                 described.unwrap_or(&listed[0])
             }
 
-            /// Reads the tables of that model. `notes` gets what was chosen where the file leaves a choice.
-            pub(crate) fn read(
-                source: &Source,
-                notes: &mut Vec<String>,
-            ) -> Result<ModelKind, ProblemError> {
-                let tables = ModelKind::tables_in(source);
-                $(if tables == <$description as ReadTables>::TABLES {
-                    return ReadTables::read(source, notes).map(ModelKind::$variant);
+            /// Reads the tables of that model.
+            pub(crate) fn read(source: &Source) -> Result<ModelSpec, ProblemError> {
+                let tables = ModelSpec::tables_in(source);
+                $(if tables == <$description as Resolve>::TABLES {
+                    return <$description as Resolve>::spec(source).map(ModelSpec::$variant);
                 })+
                 unreachable!("the tables are those of a listed model")
             }
@@ -87,8 +122,8 @@ macro_rules! models {
 }
 
 models! {
-    Bodies(bodies::Bodies),
-    Landscape(landscape::Landscape), // new ones at the end, since ledgers know models by number
+    Bodies(bodies::Bodies, bodies::BodiesSpec),
+    Landscape(landscape::Landscape, landscape::LandscapeSpec), // new ones at the end, since ledgers know models by number
 }
 
 impl ModelKind {
@@ -100,11 +135,25 @@ impl ModelKind {
         }
     }
 
-    /// The same, to be changed.
-    pub fn bodies_mut(&mut self) -> Option<&mut bodies::Bodies> {
+    /// The same, to be changed by tests.
+    #[cfg(test)]
+    pub(crate) fn bodies_mut(&mut self) -> Option<&mut bodies::Bodies> {
         match self {
             ModelKind::Bodies(bodies) => Some(bodies),
             _ => None,
+        }
+    }
+}
+
+impl ModelSpec {
+    /// Changes what is asked of bodies; what is asked of another model stays as it is.
+    pub fn change_bodies(
+        self,
+        change: impl FnOnce(bodies::BodiesSpec) -> bodies::BodiesSpec,
+    ) -> ModelSpec {
+        match self {
+            ModelSpec::Bodies(bodies) => ModelSpec::Bodies(change(bodies)),
+            other => other,
         }
     }
 }

@@ -1,10 +1,11 @@
 //! How the roadmap is built: strategies, schedule, limits and evaluators.
 
-use super::Limits;
-use super::file::{File, PolicyTable, ScheduleTable, StrategyTable};
+use super::file::{File, PolicyTable, ScheduleTable};
+use super::{Limits, StrategySpec};
 use crate::connect::WithinKind;
 use crate::evaluate::{self, EvaluatorKind};
 use crate::generator::{GeneratorKind, Sample};
+use crate::methods::{BRACKETS_MAX, too_deep};
 use crate::sampler::SamplerKind;
 use crate::schedule::Adaptive;
 use crate::source::ProblemError;
@@ -23,49 +24,57 @@ pub(super) fn strategies_of(
     source: &Source,
     file: &File,
 ) -> Result<(Vec<Strategy>, Vec<u32>, u32), ProblemError> {
-    let default = [StrategyTable::uniform()];
-    let tables = if file.strategies.is_empty() { &default[..] } else { &file.strategies };
+    let default = [StrategySpec::uniform()];
+    let specs = if file.strategies.is_empty() { &default[..] } else { &file.strategies };
     let mut strategies: Vec<Strategy> = Vec::new();
-    for (index, table) in tables.iter().enumerate() {
+    for (index, spec) in specs.iter().enumerate() {
         let fail = |keys: &[&str], message: String| {
             let mut place = vec![Key("strategies"), Index(index)];
             place.extend(keys.iter().map(|key| Key(key)));
             Err(source.error(&place, message))
         };
-        if table.label.is_empty() || table.label.len() > 100 {
+        if spec.label.is_empty() || spec.label.len() > 100 {
             return fail(&["label"], "1 to 100 bytes expected".to_owned());
         }
-        if strategies.iter().any(|other| other.label == table.label) {
-            let message = format!("`{}` found twice; labels of their own expected", table.label);
+        if strategies.iter().any(|other| other.label == spec.label) {
+            let message = format!("`{}` found twice; labels of their own expected", spec.label);
             return fail(&["label"], message);
         }
-        if !(1..=SET_NODES_MAX).contains(&table.nodes) {
-            let message = format!("{} found; 1 to {SET_NODES_MAX} expected", table.nodes);
+        if !(1..=SET_NODES_MAX).contains(&spec.nodes) {
+            let message = format!("{} found; 1 to {SET_NODES_MAX} expected", spec.nodes);
             return fail(&["nodes"], message);
         }
-        let generator = match table.generator() {
+        let sampler = spec
+            .sampler
+            .as_ref()
+            .or_else(|| spec.generator.as_ref()?.as_sample().map(|s| &s.sampler));
+        if sampler.is_some_and(|sampler| !sampler.method().is_within(BRACKETS_MAX - 2)) {
+            let key = if spec.sampler.is_some() { "sampler" } else { "generator" };
+            return fail(&[key], too_deep());
+        }
+        let generator = match spec.maker() {
             Ok(generator) => generator,
             Err((key, message)) => return fail(&[key], message.to_owned()),
         };
         let complaints = match generator.as_sample() {
             // The keys of the short form.
-            Some(Sample { sampler, within }) if table.generator.is_none() => vec![
+            Some(Sample { sampler, within }) if spec.generator.is_none() => vec![
                 ("sampler", sampler.method().complaint()),
                 ("within", within.method().complaint()),
             ],
             _ => vec![("generator", generator.method().complaint())],
         };
-        let among = ("among", table.among.method().complaint());
+        let among = ("among", spec.among.method().complaint());
         for (role, complaint) in complaints.into_iter().chain([among]) {
             if let Some((key, found, expected)) = complaint {
                 return fail(&[role], format!("{key} = {found} found; {expected} expected"));
             }
         }
         strategies.push(Strategy {
-            label: table.label.clone(),
-            nodes: table.nodes as u32,
+            label: spec.label.clone(),
+            nodes: spec.nodes as u32,
             generator,
-            among: table.among.clone(),
+            among: spec.among.clone(),
         });
     }
 
@@ -116,13 +125,13 @@ pub(super) fn adaptive_of(source: &Source, file: &File) -> Result<Option<Adaptiv
 
 /// What a problem that says nothing of it is built with: strategies, schedule, sets per round.
 pub(super) fn defaults() -> (Vec<Strategy>, Vec<u32>, u32) {
-    let table = StrategyTable::uniform();
+    let spec = StrategySpec::uniform();
     let sample = Sample { sampler: SamplerKind::default(), within: WithinKind::default() };
     let strategy = Strategy {
-        label: table.label,
-        nodes: table.nodes as u32,
+        label: spec.label,
+        nodes: spec.nodes as u32,
         generator: GeneratorKind::Sample(sample),
-        among: table.among,
+        among: spec.among,
     };
     (vec![strategy], vec![0], DEFAULT_SETS_PER_ROUND as u32)
 }
@@ -133,11 +142,11 @@ pub(super) fn default_limits() -> Limits {
 }
 
 pub(super) fn limits_of(source: &Source, file: &File) -> Result<Limits, ProblemError> {
-    let table = &file.limits;
+    let asked = &file.limits;
     let limits = Limits {
-        nodes: table.nodes.unwrap_or(DEFAULT_NODES_MAX),
-        sets: table.sets.unwrap_or(u64::MAX),
-        seconds: table.seconds,
+        nodes: asked.nodes.unwrap_or(DEFAULT_NODES_MAX),
+        sets: asked.sets.unwrap_or(u64::MAX),
+        seconds: asked.seconds,
     };
     limits
         .complaint()
@@ -167,6 +176,11 @@ pub(super) fn evaluators_of(
     source: &Source,
     file: &File,
 ) -> Result<Vec<EvaluatorKind>, ProblemError> {
+    for (index, evaluator) in file.evaluators.iter().flatten().enumerate() {
+        if !evaluator.method().is_within(BRACKETS_MAX) {
+            return Err(source.error(&[Key("evaluators"), Index(index)], too_deep()));
+        }
+    }
     let evaluators = match &file.evaluators {
         Some(evaluators) => evaluators.clone(),
         None if file.query.is_some() => vec![EvaluatorKind::Query(evaluate::Query::default())],

@@ -100,7 +100,7 @@ impl Problem {
         }
         let what = model.description().difference(&other.model)?;
         // A changed mesh shows in the file that it comes from.
-        let file = other.sources.iter().skip(1).find(|file| !self.sources.contains(file));
+        let file = other.other_sources().iter().find(|file| !self.sources.contains(file));
         let file = file.map_or_else(String::new, |file| format!(" ({} has changed)", file.path));
         Some(format!("{what} is not what it was{file}"))
     }

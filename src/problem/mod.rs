@@ -1,7 +1,9 @@
-//! Problems: what is to be planned and how, read from TOML and checked before any work starts.
+//! Problems: what is to be planned and how, read from TOML or made from a program's values, and checked before any work
+//! starts.
 //!
-//! `docs/problems.md` describes the file format.
+//! `docs/problems.md` describes the file format; [`ProblemBuilder`] takes values.
 
+mod builder;
 mod building;
 mod chapter;
 mod configuration;
@@ -10,12 +12,16 @@ mod file;
 mod import;
 mod layout;
 mod resolve;
+mod strategy;
 mod write;
 
 pub use crate::source::ProblemError;
+pub use builder::ProblemBuilder;
+pub use building::NODES_MAX;
 pub use chapter::Earlier;
 pub use configuration::configuration;
 pub use layout::Layout;
+pub use strategy::StrategySpec;
 pub use write::Written;
 
 use crate::context::{Context, Ends};
@@ -24,6 +30,7 @@ use crate::evaluate::EvaluatorKind;
 use crate::generator::{NoRuns, Runs};
 use crate::model::{self, ModelKind, SceneOptions};
 use crate::query::Attachment;
+use crate::scene::is_mesh_file;
 use crate::schedule::Adaptive;
 use crate::space::Space;
 use crate::strategy::Strategy;
@@ -34,35 +41,36 @@ use std::path::Path;
 pub const DEFAULT_SEED: u64 = 1;
 
 /// A checked problem: plain data, complete in itself (meshes included), so that every process that
-/// has its bytes computes the same.
+/// has its bytes computes the same. It comes from a file ([`Problem::load`]) or from values ([`Problem::builder`]), and
+/// what would not pass their checks cannot be said.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// Its name: that of its file unless it says otherwise.
-    pub name: String,
+    pub(crate) name: String,
     /// The base seed.
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// What is planned for.
-    pub model: ModelKind,
+    pub(crate) model: ModelKind,
     /// Start and goal.
-    pub query: Option<Ends>,
+    pub(crate) query: Option<Ends>,
     /// The strategies.
-    pub strategies: Vec<Strategy>,
+    pub(crate) strategies: Vec<Strategy>,
     /// Indices of strategies; set by set, over and over.
-    pub schedule: Vec<u32>,
+    pub(crate) schedule: Vec<u32>,
     /// Where the schedule adapts: how sets are given out among those of `schedule`.
-    pub adaptive: Option<Adaptive>,
+    pub(crate) adaptive: Option<Adaptive>,
     /// Sets per round (TR05-007: *k*).
-    pub sets_per_round: u32,
+    pub(crate) sets_per_round: u32,
     /// The criteria that a finished roadmap meets, all of them.
-    pub evaluators: Vec<EvaluatorKind>,
+    pub(crate) evaluators: Vec<EvaluatorKind>,
     /// Bounds on the build.
-    pub limits: Limits,
+    pub(crate) limits: Limits,
     /// What was chosen where the file leaves a choice, for people to read.
-    pub notes: Vec<String>,
-    /// The files that it was read from, its own first.
-    pub sources: Vec<SourceFile>,
+    pub(crate) notes: Vec<String>,
+    /// The files that were read, first its own, if it came from one.
+    pub(crate) sources: Vec<SourceFile>,
     /// Of a build that was continued with another schedule: what came before, in order.
-    pub earlier: Vec<Earlier>,
+    pub(crate) earlier: Vec<Earlier>,
 }
 
 /// Bounds on a build. It stops at the end of the first round that reaches one.
@@ -102,7 +110,7 @@ impl Problem {
         let text = std::fs::read_to_string(path).map_err(|error| {
             ProblemError::file(path, format!("cannot read the problem: {error}"))
         })?;
-        resolve::resolve(path, &text, runs)
+        resolve::resolve_text(path, &text, runs)
     }
 
     /// Reads and checks a problem's text, which names no run, as if it stood in the file `path`.
@@ -110,7 +118,7 @@ impl Problem {
     /// # Errors
     /// The first thing that is wrong, with its place in the file.
     pub fn parse(path: &Path, text: &str) -> Result<Problem, ProblemError> {
-        resolve::resolve(path, text, &NoRuns)
+        resolve::resolve_text(path, text, &NoRuns)
     }
 
     /// The digest of all that determines the entries of a ledger: two problems with the same
@@ -118,6 +126,94 @@ impl Problem {
     /// limits do not count.
     pub fn digest(&self) -> Digest {
         layout::digest(self)
+    }
+
+    /// Its name: that of its file unless the file says otherwise.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The base seed.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// What is planned for.
+    pub fn model(&self) -> &ModelKind {
+        &self.model
+    }
+
+    /// Start and goal.
+    pub fn query(&self) -> Option<&Ends> {
+        self.query.as_ref()
+    }
+
+    /// The strategies, at least one.
+    pub fn strategies(&self) -> &[Strategy] {
+        &self.strategies
+    }
+
+    /// Indices of strategies; set by set, over and over.
+    pub fn schedule(&self) -> &[u32] {
+        &self.schedule
+    }
+
+    /// Where the schedule adapts: how sets are given out among those of the schedule.
+    pub fn adaptive(&self) -> Option<Adaptive> {
+        self.adaptive
+    }
+
+    /// Sets per round (TR05-007: *k*), at least one.
+    pub fn sets_per_round(&self) -> u32 {
+        self.sets_per_round
+    }
+
+    /// The criteria that a finished roadmap meets, all of them.
+    pub fn evaluators(&self) -> &[EvaluatorKind] {
+        &self.evaluators
+    }
+
+    /// Bounds on the build.
+    pub fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    /// What was chosen where the problem leaves a choice, for people to read.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// The files that were read, first the problem's own, if it came from one.
+    pub fn sources(&self) -> &[SourceFile] {
+        &self.sources
+    }
+
+    /// The files that were read beside the problem's own: what its meshes and robots come from. A file is taken for
+    /// the problem's own if it comes first and is no mesh.
+    pub fn other_sources(&self) -> &[SourceFile] {
+        let own = self.sources.first().is_some_and(|file| !is_mesh_file(Path::new(&file.path)));
+        &self.sources[usize::from(own)..]
+    }
+
+    /// Of a build that was continued with another schedule: what came before, in order.
+    pub fn earlier(&self) -> &[Earlier] {
+        &self.earlier
+    }
+
+    /// The problem with another base seed.
+    pub fn with_seed(self, seed: u64) -> Problem {
+        Problem { seed, ..self }
+    }
+
+    /// The problem with other bounds on the build.
+    ///
+    /// # Errors
+    /// When a limit is none, as [`Limits::complaint`] says.
+    pub fn with_limits(self, limits: Limits) -> Result<Problem, ProblemError> {
+        match limits.complaint() {
+            Some((key, message)) => Err(ProblemError::pathless(format!("limits.{key}: {message}"))),
+            None => Ok(Problem { limits, ..self }),
+        }
     }
 
     /// The configuration space.

@@ -1,30 +1,45 @@
-//! From the file as written to a checked problem.
+//! From what a problem asks for to a checked problem.
 
 use super::building::{adaptive_of, evaluators_of, limits_of, strategies_of};
 use super::file::{File, KEYS};
 use super::{DEFAULT_SEED, Problem};
 use crate::context::Ends;
 use crate::generator::Runs;
-use crate::model::ModelKind;
+use crate::model::{ModelKind, ModelSpec};
 use crate::source::Step::{Index, Key};
 use crate::source::{ProblemError, Source, fits};
 use crate::space::Space;
 use crate::strategy::Strategy;
 use std::path::Path;
 
-pub(super) fn resolve(path: &Path, text: &str, runs: &dyn Runs) -> Result<Problem, ProblemError> {
-    let source = Source::new(path, text)?;
-    source.expect_keys(&[ModelKind::tables_in(&source), &KEYS].concat())?;
-    let file: File = source.tables()?;
+/// Reads and checks the text of the problem file `path`.
+pub(super) fn resolve_text(
+    path: &Path,
+    text: &str,
+    runs: &dyn Runs,
+) -> Result<Problem, ProblemError> {
+    let source = Source::of_text(path, text)?;
+    source.expect_keys(&[ModelSpec::tables_in(&source), &KEYS].concat())?;
+    let (file, model) = (source.tables()?, ModelSpec::read(&source)?);
+    resolve(source, &file, &model, runs)
+}
+
+/// Checks what is asked for and makes the problem.
+pub(super) fn resolve(
+    source: Source,
+    file: &File,
+    model: &ModelSpec,
+    runs: &dyn Runs,
+) -> Result<Problem, ProblemError> {
     let mut notes = Vec::new();
 
-    let name = name_of(&source, &file)?;
-    let model = ModelKind::read(&source, &mut notes)?;
-    let (mut strategies, schedule, sets_per_round) = strategies_of(&source, &file)?;
+    let name = name_of(&source, file)?;
+    let model = ModelKind::resolve(model, &source, &mut notes)?;
+    let (mut strategies, schedule, sets_per_round) = strategies_of(&source, file)?;
     take_in_parents(&source, runs, &model.description().space(), &mut strategies)?;
-    let adaptive = adaptive_of(&source, &file)?;
-    let limits = limits_of(&source, &file)?;
-    let evaluators = evaluators_of(&source, &file)?;
+    let adaptive = adaptive_of(&source, file)?;
+    let limits = limits_of(&source, file)?;
+    let evaluators = evaluators_of(&source, file)?;
     let seed = file.seed.unwrap_or(DEFAULT_SEED);
 
     let problem = Problem {
@@ -42,7 +57,7 @@ pub(super) fn resolve(path: &Path, text: &str, runs: &dyn Runs) -> Result<Proble
         sources: Vec::new(),
         earlier: Vec::new(),
     };
-    let problem = accepted(&source, &file, problem)?;
+    let problem = accepted(&source, file, problem)?;
     Ok(Problem { sources: source.files.into_inner(), ..problem })
 }
 
@@ -53,23 +68,19 @@ fn take_in_parents(
     space: &Space,
     strategies: &mut [Strategy],
 ) -> Result<(), ProblemError> {
-    let folder = source.path.parent().unwrap_or(Path::new(""));
     for (index, strategy) in strategies.iter_mut().enumerate() {
         if let Some(parent) = strategy.generator.method_mut().parent_mut() {
             let place = [Key("strategies"), Index(index), Key("generator")];
-            parent.take_in(runs, folder, space).map_err(|message| source.error(&place, message))?;
+            parent
+                .take_in(runs, source.folder, space)
+                .map_err(|message| source.error(&place, message))?;
         }
     }
     Ok(())
 }
 
 fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {
-    let name = match &file.name {
-        Some(name) => name.clone(),
-        None => {
-            source.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into())
-        }
-    };
+    let name = file.name.clone().unwrap_or_else(|| source.stem());
     if !fits(&name) || name.starts_with('.') || name.len() > 100 {
         let expected = "letters, digits, `-`, `_` and `.` expected, at most 100, not led by `.`";
         return Err(source.error(&[Key("name")], format!("`{name}` found; {expected}")));

@@ -73,10 +73,10 @@ fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
     }
     for evaluator in &problem.evaluators {
         writeln!(out, "\n[[evaluators]]")?;
-        let method = toml::Table::try_from(evaluator).expect("a method is a table");
-        for (name, settings) in method {
-            writeln!(out, "{name} = {settings}")?;
-        }
+        // A method is an inline table of one key, which stands in a table of its own here.
+        let method = value(evaluator);
+        let method = method.strip_prefix('{').and_then(|rest| rest.strip_suffix('}'));
+        writeln!(out, "{}", method.expect("a method is a table").trim())?;
     }
     let limits = &problem.limits;
     writeln!(out, "\n[limits]\nnodes = {}", limits.nodes)?;

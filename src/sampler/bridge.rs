@@ -29,6 +29,13 @@ pub struct Bridge {
     pub attempts: u64,
 }
 
+impl Bridge {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(deviation: f64) -> Bridge {
+        Bridge { deviation, bounds: false, attempts: default_attempts() }
+    }
+}
+
 impl Sampler for Bridge {
     fn sample(
         &self,

@@ -23,6 +23,13 @@ pub struct Energy {
     pub attempts: u64,
 }
 
+impl Energy {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(always: f64, never: f64) -> Energy {
+        Energy { always, never, attempts: default_attempts() }
+    }
+}
+
 impl Sampler for Energy {
     fn sample(
         &self,

@@ -27,6 +27,13 @@ pub struct Gaussian {
     pub attempts: u64,
 }
 
+impl Gaussian {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(deviation: f64) -> Gaussian {
+        Gaussian { deviation, bounds: false, attempts: default_attempts() }
+    }
+}
+
 impl Sampler for Gaussian {
     fn sample(
         &self,

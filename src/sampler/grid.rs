@@ -30,6 +30,13 @@ pub struct Grid {
     pub attempts: u64,
 }
 
+impl Grid {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(cells: u32) -> Grid {
+        Grid { cells, block: default_block(), attempts: default_attempts() }
+    }
+}
+
 /// The most cells: a roadmap never has as many nodes, so that a grid of more is never completed.
 const CELLS_MAX: u64 = u32::MAX as u64;
 

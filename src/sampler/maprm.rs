@@ -54,6 +54,20 @@ pub struct Maprm {
     pub attempts: u64,
 }
 
+impl Maprm {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(step: f64, tolerance: f64) -> Maprm {
+        Maprm {
+            step,
+            tolerance,
+            directions: default_directions(),
+            steps: default_steps(),
+            bounds: false,
+            attempts: default_attempts(),
+        }
+    }
+}
+
 fn default_directions() -> u32 {
     16
 }

@@ -30,6 +30,13 @@ pub struct Share {
     pub sampler: SamplerKind,
 }
 
+impl Share {
+    /// A share of weight 1.
+    pub fn new(sampler: SamplerKind) -> Share {
+        Share { weight: default_weight(), sampler }
+    }
+}
+
 fn default_weight() -> f64 {
     1.0
 }
@@ -72,6 +79,11 @@ impl Sampler for Mix {
             sampler.sample(cx, &seed.part(index as u64), count, scratch, out)?;
         }
         Ok(())
+    }
+
+    fn is_within(&self, brackets: u32) -> bool {
+        // { mix = [{ sampler = …
+        brackets.checked_sub(3).is_some_and(|rest| self.methods().all(|each| each.is_within(rest)))
     }
 
     fn complaint(&self) -> Option<Complaint> {

@@ -10,10 +10,10 @@
 //!
 //! let cx = Problem::load("tests/problems/slide.toml".as_ref())?.context();
 //! let (seed, scratch) = (Seed::of_set(1, "uniform", 0), &mut Scratch::new());
-//! let mut milestones = Configs::new(cx.space.len());
+//! let mut milestones = Configs::new(cx.space().len());
 //! let sampled = Uniform::default().sample(&cx, &seed, 5, scratch, &mut milestones);
 //! assert!(sampled.is_ok() && milestones.len() == 5);
-//! assert!(milestones.iter().all(|q| cx.model.is_valid(q, scratch)));
+//! assert!(milestones.iter().all(|q| cx.model().is_valid(q, scratch)));
 //! # Ok::<(), roadmill::problem::ProblemError>(())
 //! ```
 
@@ -64,7 +64,7 @@ pub use uniform::Uniform;
 pub use uobprm::Uobprm;
 
 use crate::context::Context;
-use crate::methods::{Complaint, methods};
+use crate::methods::{BRACKETS_OF_SETTINGS, Complaint, methods};
 use crate::model::{Scratch, Validity};
 use crate::roadmap::Configs;
 use crate::seed::Seed;
@@ -88,6 +88,11 @@ pub trait Sampler {
     /// What is wrong with the settings.
     fn complaint(&self) -> Option<Complaint> {
         None
+    }
+
+    /// Whether the method, as a problem file writes it, has at most so many brackets within one another.
+    fn is_within(&self, brackets: u32) -> bool {
+        brackets >= BRACKETS_OF_SETTINGS
     }
 
     /// Whether the method is defined for the problem.

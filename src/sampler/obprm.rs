@@ -42,6 +42,20 @@ pub struct Obprm {
     pub attempts: u64,
 }
 
+impl Obprm {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(step: f64) -> Obprm {
+        Obprm {
+            start: Start::default(),
+            step,
+            halvings: default_halvings(),
+            steps: default_steps(),
+            bounds: false,
+            attempts: default_attempts(),
+        }
+    }
+}
+
 /// Which configurations the walks of [`Obprm`] start from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
 #[serde(rename_all = "kebab-case")]

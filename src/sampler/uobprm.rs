@@ -35,6 +35,13 @@ pub struct Uobprm {
     pub attempts: u64,
 }
 
+impl Uobprm {
+    /// The method with the settings that have no defaults; the others have theirs.
+    pub fn new(length: f64, step: f64) -> Uobprm {
+        Uobprm { length, step, bounds: false, attempts: default_attempts() }
+    }
+}
+
 /// The most steps of a segment.
 const STEPS_MAX: f64 = 1e6;
 

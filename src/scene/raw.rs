@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 /// The most vertices or triangles a mesh may have.
 pub const MESH_ITEMS_MAX: usize = 1 << 26;
 
-/// A mesh file that cannot be used.
+/// A mesh that cannot be used.
 #[derive(Debug, thiserror::Error)]
-#[error("{}{place}: {message}", path.display())]
+#[error("{}{message}", prefix(path, place))]
 pub struct MeshError {
-    /// The file.
+    /// The file; empty for triangles in memory.
     pub path: PathBuf,
     /// `:LINE` of a text file, ` byte N` of a binary one, or nothing for the file as a whole.
     pub place: String,
@@ -29,6 +29,11 @@ impl MeshError {
     pub(super) fn line(path: &Path, line: usize, message: impl Into<String>) -> MeshError {
         MeshError { path: path.to_owned(), place: format!(":{line}"), message: message.into() }
     }
+}
+
+/// What an error begins with: the file and the place in it, where there is a file.
+fn prefix(path: &Path, place: &str) -> String {
+    if path.as_os_str().is_empty() { String::new() } else { format!("{}{place}: ", path.display()) }
 }
 
 /// Which axis of a file's coordinates points upwards.

@@ -1,4 +1,4 @@
-use super::raw::{MeshError, RawMesh, UpAxis};
+use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh, UpAxis};
 use super::weld::Surface;
 use super::{LENGTH_MAX, Mesh, byu, collada, obj, ply, stl};
 use crate::digest::Digest;
@@ -83,21 +83,70 @@ pub fn read_mesh(path: &Path, scale: f64) -> Result<Mesh, MeshError> {
 /// # Errors
 /// As [`read_mesh`].
 pub fn read_mesh_with(path: &Path, options: &MeshOptions) -> Result<ReadMesh, MeshError> {
-    let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-    let read = match extension.as_deref() {
-        Some("obj") => obj::read,
-        Some("stl") => stl::read,
-        Some("ply") => ply::read,
-        Some("dae") => collada::read,
-        Some("g") => byu::read,
-        _ => {
-            let message = "unknown kind of mesh; .obj, .stl, .ply, .dae or .g expected";
-            return Err(MeshError::whole(path, message));
-        }
-    };
+    let read = reader_of(path).ok_or_else(|| {
+        MeshError::whole(path, "unknown kind of mesh; .obj, .stl, .ply, .dae or .g expected")
+    })?;
     let bytes = std::fs::read(path)
         .map_err(|error| MeshError::whole(path, format!("cannot read the mesh: {error}")))?;
     finish(path, read(path, &bytes)?, options, Digest::of(&bytes))
+}
+
+impl Mesh {
+    /// The mesh that a file with these triangles, whose corners are indices of `vertices`, would be read as.
+    ///
+    /// # Errors
+    /// Says what is wrong: a coordinate that is not finite, an index out of range, no triangle at all, or none with an
+    /// area.
+    pub fn of_triangles(
+        vertices: Vec<[f64; 3]>,
+        triangles: Vec<[u32; 3]>,
+        options: &MeshOptions,
+    ) -> Result<Mesh, MeshError> {
+        // What the readers of files check of what they store.
+        let fail = |message: String| Err(MeshError::whole(Path::new(""), message));
+        let most = vertices.len().max(triangles.len());
+        if most > MESH_ITEMS_MAX {
+            return fail(format!(
+                "{most} vertices or triangles found; at most {MESH_ITEMS_MAX} expected"
+            ));
+        }
+        let finite = |vertex: &[f64; 3]| vertex.iter().all(|value| value.is_finite());
+        if let Some(index) = vertices.iter().position(|vertex| !finite(vertex)) {
+            let found = vertices[index];
+            return fail(format!(
+                "vertices[{index}]: {found:?} found; finite coordinates expected"
+            ));
+        }
+        let exists = |corner: &u32| (*corner as usize) < vertices.len();
+        if let Some(index) = triangles.iter().position(|corners| !corners.iter().all(exists)) {
+            let (found, count) = (triangles[index], vertices.len());
+            return fail(format!(
+                "triangles[{index}]: corners {found:?} found; indices below {count}, the number of vertices, expected"
+            ));
+        }
+        let raw = RawMesh { vertices, triangles, ..RawMesh::default() };
+        finish(Path::new(""), raw, options, Digest::of(&[])).map(|read| read.mesh)
+    }
+}
+
+/// Whether the name of a file is that of a mesh that can be read.
+pub fn is_mesh_file(path: &Path) -> bool {
+    reader_of(path).is_some()
+}
+
+/// How a file of some format is read.
+type Reader = fn(&Path, &[u8]) -> Result<RawMesh, MeshError>;
+
+fn reader_of(path: &Path) -> Option<Reader> {
+    let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+    match extension.as_deref() {
+        Some("obj") => Some(obj::read),
+        Some("stl") => Some(stl::read),
+        Some("ply") => Some(ply::read),
+        Some("dae") => Some(collada::read),
+        Some("g") => Some(byu::read),
+        _ => None,
+    }
 }
 
 fn finish(

@@ -22,6 +22,12 @@ pub struct Adaptive {
     pub rounds: u32,
 }
 
+impl Default for Adaptive {
+    fn default() -> Adaptive {
+        Adaptive { rounds: default_rounds() }
+    }
+}
+
 fn default_rounds() -> u32 {
     10
 }

@@ -10,8 +10,8 @@ pub struct ProblemError {
 }
 
 impl ProblemError {
-    /// An error that names its own place.
-    pub(crate) fn foreign(message: String) -> ProblemError {
+    /// An error whose message says where it is, or one in values that come from no file.
+    pub(crate) fn pathless(message: String) -> ProblemError {
         ProblemError { path: PathBuf::new(), line: None, message }
     }
 

@@ -1,4 +1,5 @@
-//! The text of a problem file, and errors that say where in it something is wrong.
+//! Where a problem comes from, the text of a file or the values of a program, and errors that say where in it
+//! something is wrong.
 
 mod error;
 mod names;
@@ -12,6 +13,7 @@ use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
+use toml::ser::ValueSerializer;
 
 /// One step on the way to a value in the file.
 #[derive(Clone, Copy)]
@@ -19,42 +21,68 @@ pub(crate) enum Step<'a> {
     Key(&'a str),
     Index(usize),
 }
-/// The file at hand, for saying where something is wrong.
+/// What a problem comes from, for saying where something is wrong: a problem file, or a program that gives values.
 pub(crate) struct Source<'a> {
-    pub path: &'a Path,
-    text: &'a str,
-    tree: DeTable<'a>,
-    /// The files read so far, this one first.
+    /// Where the relative paths of other files start.
+    pub folder: &'a Path,
+    /// The problem file, if there is one.
+    file: Option<File<'a>>,
+    /// The files read so far, first the problem's own.
     pub files: RefCell<Vec<SourceFile>>,
 }
 
+/// A problem file.
+struct File<'a> {
+    path: &'a Path,
+    text: &'a str,
+    tree: DeTable<'a>,
+}
+
 impl<'a> Source<'a> {
-    /// Parses the file's text.
-    pub fn new(path: &'a Path, text: &'a str) -> Result<Source<'a>, ProblemError> {
+    /// Parses the text of a problem file.
+    pub fn of_text(path: &'a Path, text: &'a str) -> Result<Source<'a>, ProblemError> {
         let tree = DeTable::parse(text).map_err(|error| syntax_error(path, text, &error))?;
         let files = RefCell::new(vec![SourceFile::named(path, text.as_bytes())]);
-        Ok(Source { path, text, tree: tree.into_inner(), files })
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let file = Some(File { path, text, tree: tree.into_inner() });
+        Ok(Source { folder, file, files })
     }
 
-    /// Reads the tables that `T` describes; others are not looked at.
+    /// A program that gives values, and no problem file.
+    pub fn of_values(folder: &'a Path) -> Source<'a> {
+        Source { folder, file: None, files: RefCell::new(Vec::new()) }
+    }
+
+    /// Reads the tables of the file that `T` describes; others are not looked at.
     pub fn tables<T: DeserializeOwned>(&self) -> Result<T, ProblemError> {
-        toml::from_str(self.text).map_err(|error| syntax_error(self.path, self.text, &error))
+        let (path, text) = match &self.file {
+            Some(file) => (file.path, file.text),
+            None => (Path::new(""), ""),
+        };
+        toml::from_str(text).map_err(|error| syntax_error(path, text, &error))
+    }
+
+    /// The name of the file without folder and extension; empty where there is no file.
+    pub fn stem(&self) -> String {
+        let stem = self.file.as_ref().and_then(|file| file.path.file_stem());
+        stem.map_or_else(String::new, |stem| stem.to_string_lossy().into())
     }
 
     /// Whether the file has this key at its top.
     pub fn has(&self, key: &str) -> bool {
-        self.tree.contains_key(key)
+        self.file.as_ref().is_some_and(|file| file.tree.contains_key(key))
     }
 
     /// Complains of the first key at the top of the file that is none of these.
     pub fn expect_keys(&self, keys: &[&str]) -> Result<(), ProblemError> {
-        let unknown = self.tree.keys().filter(|key| !keys.contains(&&**key.get_ref()));
+        let Some(File { path, text, tree }) = &self.file else { return Ok(()) };
+        let unknown = tree.keys().filter(|key| !keys.contains(&&**key.get_ref()));
         let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
-        let line = line_of(self.text, key.span().start);
+        let line = line_of(text, key.span().start);
         let listed: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
         let message =
             format!("unknown field `{}`, expected one of {}", key.get_ref(), listed.join(", "));
-        Err(ProblemError::line(self.path, line, message))
+        Err(ProblemError::line(path, line, message))
     }
 
     /// Notes that a file was read.
@@ -65,7 +93,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// An error at the deepest step of `place` that the file has.
+    /// An error at `place`: where there is a file, with the line of the deepest step that the file has.
     pub fn error(&self, place: &[Step], message: String) -> ProblemError {
         let mut key = String::new();
         for step in place {
@@ -76,12 +104,16 @@ impl<'a> Source<'a> {
             }
         }
         let message = format!("{key}: {message}");
-        match self.find(place) {
-            Some(offset) => ProblemError::line(self.path, line_of(self.text, offset), message),
-            None => ProblemError::file(self.path, message),
+        let Some(file) = &self.file else { return ProblemError::pathless(message) };
+        match file.find(place) {
+            Some(offset) => ProblemError::line(file.path, line_of(file.text, offset), message),
+            None => ProblemError::file(file.path, message),
         }
     }
+}
 
+impl File<'_> {
+    /// Where in the text the deepest step of `place` is that the file has.
     fn find(&self, place: &[Step]) -> Option<usize> {
         let (first, rest) = place.split_first()?;
         let Step::Key(name) = first else { return None };
@@ -115,5 +147,8 @@ fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> ProblemErro
 
 /// A value as TOML writes it, within one line.
 pub(crate) fn value<T: Serialize + ?Sized>(of: &T) -> String {
-    toml::Value::try_from(of).expect("problems hold what TOML can write").to_string()
+    let mut text = String::new();
+    // Not by way of `toml::Value`, which holds no integer above 2⁶³.
+    of.serialize(ValueSerializer::new(&mut text)).expect("problems hold what TOML can write");
+    text
 }

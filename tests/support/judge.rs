@@ -50,12 +50,12 @@ impl<'a> Judge<'a> {
                 })
                 .collect()
         };
-        let robot = parts(&problem.model.bodies().expect("bodies").robot.links[0].bodies);
+        let robot = parts(&problem.model().bodies().expect("bodies").robot().links[0].bodies);
         let lengths = robot.iter().flat_map(|part| &part.vertices).map(|v| dot(*v, *v).sqrt());
         let reach = lengths.fold(0.0, f64::max);
         Judge {
             problem,
-            obstacles: parts(&problem.model.bodies().expect("bodies").obstacles),
+            obstacles: parts(problem.model().bodies().expect("bodies").obstacles()),
             robot,
             reach,
         }
@@ -63,7 +63,7 @@ impl<'a> Judge<'a> {
 
     /// Length of a path in the metric: translation and weighted rotation, root of squares.
     pub fn length(&self, path: &[&[f64]]) -> f64 {
-        let weight = self.problem.model.bodies().expect("bodies").rotation_length;
+        let weight = self.problem.model().bodies().expect("bodies").rotation_length();
         path.windows(2)
             .map(|pair| {
                 let (shift, angle) = self.change(pair[0], pair[1]);
@@ -75,7 +75,7 @@ impl<'a> Judge<'a> {
     /// Walks a path in steps of at most a twentieth of the resolution for any robot point and
     /// returns how many configurations it looked at.
     pub fn walk(&self, path: &[&[f64]]) -> Result<usize, String> {
-        let finest = self.problem.model.bodies().expect("bodies").resolution / REFINEMENT;
+        let finest = self.problem.model().bodies().expect("bodies").resolution() / REFINEMENT;
         let mut looked = 0;
         let mut last: Option<Vec<Vec<Point>>> = None;
         for pair in path.windows(2) {
@@ -99,7 +99,7 @@ impl<'a> Judge<'a> {
     }
 
     fn translations(&self) -> usize {
-        match self.problem.model.bodies().expect("bodies").robot.motion {
+        match self.problem.model().bodies().expect("bodies").robot().motion {
             BaseJoint::Fixed => unreachable!("only rigid bodies are judged"),
             BaseJoint::Translation2d | BaseJoint::Rigid2d => 2,
             BaseJoint::Translation3d | BaseJoint::Rigid3d => 3,
@@ -110,7 +110,7 @@ impl<'a> Judge<'a> {
     fn change(&self, a: &[f64], b: &[f64]) -> (f64, f64) {
         let axes = self.translations();
         let shift = (0..axes).map(|i| (b[i] - a[i]) * (b[i] - a[i])).sum::<f64>().sqrt();
-        let angle = match self.problem.model.bodies().expect("bodies").robot.motion {
+        let angle = match self.problem.model().bodies().expect("bodies").robot().motion {
             BaseJoint::Fixed => unreachable!("only rigid bodies are judged"),
             BaseJoint::Translation2d | BaseJoint::Translation3d => 0.0,
             BaseJoint::Rigid2d => shortest_turn(a[2], b[2]).abs(),
@@ -128,7 +128,7 @@ impl<'a> Judge<'a> {
     fn between(&self, a: &[f64], b: &[f64], t: f64) -> Vec<f64> {
         let axes = self.translations();
         let mut q: Vec<f64> = (0..axes).map(|i| (1.0 - t) * a[i] + t * b[i]).collect();
-        match self.problem.model.bodies().expect("bodies").robot.motion {
+        match self.problem.model().bodies().expect("bodies").robot().motion {
             BaseJoint::Fixed => unreachable!("only rigid bodies are judged"),
             BaseJoint::Translation2d | BaseJoint::Translation3d => {}
             BaseJoint::Rigid2d => q.push(a[2] + shortest_turn(a[2], b[2]) * t),
@@ -140,7 +140,7 @@ impl<'a> Judge<'a> {
     /// The vertices of every robot part in the world's frame.
     fn placed(&self, q: &[f64]) -> Vec<Vec<Point>> {
         let (rotation, translation) =
-            match self.problem.model.bodies().expect("bodies").robot.motion {
+            match self.problem.model().bodies().expect("bodies").robot().motion {
                 BaseJoint::Fixed => unreachable!("only rigid bodies are judged"),
                 BaseJoint::Translation2d => (matrix([1.0, 0.0, 0.0, 0.0]), [q[0], q[1], 0.0]),
                 BaseJoint::Translation3d => (matrix([1.0, 0.0, 0.0, 0.0]), [q[0], q[1], q[2]]),
@@ -157,7 +157,7 @@ impl<'a> Judge<'a> {
 
     /// Looks at one configuration.
     fn look(&self, q: &[f64], placed: &[Vec<Point>]) -> Result<(), String> {
-        let bounds = &self.problem.model.bodies().expect("bodies").bounds;
+        let bounds = &self.problem.model().bodies().expect("bodies").bounds();
         let axes = self.translations();
         let outside = |p: &[f64]| (0..axes).any(|i| p[i] < bounds.min[i] || p[i] > bounds.max[i]);
         let all_held = bounds.meaning == BoundsMeaning::Body;

@@ -85,7 +85,7 @@ impl Faults {
         let Job::Generate { strategy, ordinal, .. } = job else {
             return None;
         };
-        let label = &setup.problem.strategies[strategy as usize].label;
+        let label = setup.problem().strategies()[strategy as usize].label();
         let here = |fault: &&Fault| fault.ordinal == ordinal && fault.label == *label;
         // A set may have several faults: one after the other comes about.
         let kind = self.faults.iter().filter(here).find_map(|fault| match &fault.effect {

@@ -19,4 +19,4 @@ pub use error::WorkerError;
 pub use id::WorkerId;
 pub use line::{HEARTBEAT, Line, NothingShared, SharedData};
 pub use process::{WorkerArguments, build_id, build_id_of, run};
-pub use worker::{canary, serve};
+pub use worker::serve;

@@ -5,13 +5,10 @@ use crate::error::WorkerError;
 use crate::faults::{Faults, Slip};
 use crate::line::{Line, SharedData};
 use crate::message::{FromWorker, PROTOCOL, ToWorker};
-use roadmill::img::{Outcome, Replica, Setup, Task};
+use roadmill::img::{Replica, Setup, canary};
 use roadmill::internal::wire;
-use roadmill::model::Scratch;
-use roadmill::problem::Problem;
-use roadmill::roadmap::{Digest, Roadmap};
+use roadmill::roadmap::Digest;
 use std::convert::Infallible;
-use std::sync::Arc;
 
 /// Works for the coordinator at the other end of `line` until it is gone. `build` says which program this
 /// is: see [`build_id`](crate::build_id).
@@ -72,19 +69,4 @@ pub(crate) fn serve_with_faults(
         }
         desk.work()?;
     }
-}
-
-/// Digest of a small increment that no build contains: processes in which it differs must not
-/// work on one roadmap.
-pub fn canary(setup: &Setup) -> Digest {
-    let mut problem: Problem = setup.problem.clone();
-    for strategy in &mut problem.strategies {
-        strategy.nodes = strategy.nodes.min(4);
-    }
-    let small = Setup { problem, cx: setup.problem.context(), plan: setup.plan.clone() };
-    // A strategy that grows finds no node to grow from.
-    let frozen = setup.grows(0).then(|| Arc::new(Roadmap::new(&setup.cx.space)));
-    let task = Task::Generate { strategy: 0, ordinal: u64::MAX, frozen };
-    let outcome: Outcome = task.run(&small, &mut Scratch::new());
-    Digest::of(&wire::encode(&outcome))
 }

@@ -51,8 +51,8 @@ impl<'a> Asker<'a> {
     /// A path in the format that was asked for.
     pub fn text(&self, path: &Path) -> String {
         match self.format {
-            PathFormat::Csv => path_csv(&self.cx().space, path),
-            PathFormat::Path => parasol_path(&self.cx().space, path),
+            PathFormat::Csv => path_csv(self.cx().space(), path),
+            PathFormat::Path => parasol_path(self.cx().space(), path),
         }
     }
 

@@ -14,7 +14,7 @@ use std::path::Path;
 pub(super) fn batch(asker: &Asker, file: &Path, folder: &Path) -> Result<Code, Failure> {
     let queries = read(asker, file)?;
     make_empty(folder)?;
-    let unit = asker.run.problem().model.description().cost_unit();
+    let unit = asker.run.problem().model().description().cost_unit();
     let mut summary =
         format!("index,solved,length [{unit}],configurations,dropped_edges,seconds\n");
     let (mut unsolved, mut whole) = (0, 0.0);
@@ -48,7 +48,7 @@ fn read(asker: &Asker, file: &Path) -> Result<Vec<[Vec<f64>; 2]>, Failure> {
     let text = fs::read_to_string(file).map_err(|error| {
         Failure::usage(format!("{}: cannot read the queries: {error}", file.display()))
     })?;
-    let dofs = asker.cx().space.len();
+    let dofs = asker.cx().space().len();
     let mut queries = Vec::new();
     let mut header_may_come = true;
     let text = text.strip_prefix('\u{FEFF}').unwrap_or(&text);

@@ -6,7 +6,7 @@ use crate::exit::{Code, Failure};
 use crate::run::SetFiles;
 use crate::signals::Signals;
 use crate::work::{Run, limit};
-use roadmill::problem::Problem;
+use roadmill::problem::{Limits, Problem};
 use roadmill_workers::channel::private_umask;
 use std::sync::Arc;
 
@@ -38,9 +38,11 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
 /// The problem with what the command line changes of it.
 fn problem(arguments: &BuildArguments) -> Result<Problem, Failure> {
     let growth = &arguments.growth;
-    let mut problem = load(&arguments.problem)?;
-    problem.seed = arguments.seed.unwrap_or(problem.seed);
-    problem.limits.seconds = growth.max_time.or(problem.limits.seconds);
-    limit(&mut problem, growth.max_nodes, growth.max_sets)?;
-    Ok(problem)
+    let problem = load(&arguments.problem)?;
+    let seed = arguments.seed.unwrap_or(problem.seed());
+    let own = problem.limits();
+    let limits = Limits { seconds: growth.max_time.or(own.seconds), ..own };
+    let problem = problem.with_seed(seed).with_limits(limits);
+    let problem = problem.map_err(|error| Failure::usage(error.to_string()))?;
+    limit(problem, growth.max_nodes, growth.max_sets)
 }

@@ -104,15 +104,15 @@ impl Drop for Telling {
 fn say_begun(begun: &Begun) {
     match begun {
         Begun::Anew { problem, folder, imported } => {
-            let (name, seed) = (&problem.name, problem.seed);
+            let (name, seed) = (problem.name(), problem.seed());
             eprintln!("{name}: seed {seed}, run folder {}", folder.display());
-            problem.notes.iter().for_each(|note| eprintln!("{name}: {note}"));
+            problem.notes().iter().for_each(|note| eprintln!("{name}: {note}"));
             if *imported > 0 {
                 eprintln!("{name}: {imported} sets are imported when they are needed");
             }
         }
         Begun::Again { problem, folder, rounds, nodes, is_chapter, torn } => {
-            let (name, run) = (&problem.name, folder.display());
+            let (name, run) = (problem.name(), folder.display());
             let chapter = if *is_chapter { ", in a new chapter" } else { "" };
             eprintln!(
                 "{name}: goes on after {rounds} rounds and {nodes} nodes{chapter}, run folder {run}"

@@ -7,6 +7,7 @@ use crate::work::difference;
 use roadmill::evaluate::Verdict;
 use roadmill::img::RoundSet;
 use roadmill::problem::Problem;
+use roadmill::scene::is_mesh_file;
 use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
 
@@ -26,7 +27,8 @@ pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
                 let name = |set: &RoundSet, of: &Read| {
                     format!(
                         "{}:{}",
-                        of.problem.strategies[set.strategy as usize].label, set.ordinal
+                        of.problem.strategies()[set.strategy as usize].label(),
+                        set.ordinal
                     )
                 };
                 let (a_name, b_name) = (name(&a, &left), name(&b, &right));
@@ -87,7 +89,8 @@ fn reasons(left: &[Chapter], right: &[Chapter]) -> Vec<String> {
         // The problem's own file may have any name.
         for (index, file) in a.sources.iter().enumerate() {
             let same = |other: &&roadmill::SourceFile| other.path == file.path;
-            let other = if index == 0 { b.sources.first() } else { b.sources.iter().find(same) };
+            let is_own = index == 0 && !is_mesh_file(Path::new(&file.path));
+            let other = if is_own { b.sources.first() } else { b.sources.iter().find(same) };
             let other = other.map_or("not used".to_owned(), |other| other.digest.to_string());
             note(&format!("file {}", file.path), file.digest.to_string(), other);
         }

@@ -22,16 +22,18 @@ type Made = (u64, Result<Increment, GaveUp>);
 /// Generates sets apart from a build.
 pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
     private_umask();
-    let mut problem = load(&arguments.problem)?;
-    problem.seed = arguments.seed.unwrap_or(problem.seed);
+    let problem = load(&arguments.problem)?;
+    let seed = arguments.seed.unwrap_or(problem.seed());
+    let problem = problem.with_seed(seed);
     let threads = count(&CrewArguments { workers: None, threads: arguments.threads })?;
     let (label, ordinals) = &arguments.sets;
-    let Some(strategy) = problem.strategies.iter().position(|known| known.label == *label) else {
-        let labels: Vec<_> = problem.strategies.iter().map(|known| &*known.label).collect();
+    let Some(strategy) = problem.strategies().iter().position(|known| known.label() == label)
+    else {
+        let labels: Vec<_> = problem.strategies().iter().map(|known| known.label()).collect();
         let labels = labels.join(", ");
         return Err(Failure::usage(format!("--sets: `{label}` found, one of {labels} expected")));
     };
-    if problem.strategies[strategy].generator.grows() {
+    if problem.strategies()[strategy].generator().grows() {
         return Err(Failure::usage(format!(
             "--sets: the sets of `{label}` grow from the roadmap of a build and cannot be made apart"
         )));
@@ -74,14 +76,14 @@ fn make(
     threads: usize,
     signals: &Signals,
 ) -> Option<Vec<Made>> {
-    let strategy = &setup.problem.strategies[strategy];
+    let strategy = &setup.problem().strategies()[strategy];
     let ordinals = Mutex::new(ordinals);
     // Nothing can go wrong while it is held.
     let next = || ordinals.lock().unwrap_or_else(PoisonError::into_inner).next();
     let work = || {
         let (mut scratch, mut made) = (Scratch::new(), Vec::new());
         while let Some(ordinal) = next().filter(|_| !signals.came()) {
-            made.push((ordinal, strategy.generate(&setup.cx, ordinal, None, &mut scratch)));
+            made.push((ordinal, strategy.generate(setup.context(), ordinal, None, &mut scratch)));
         }
         made
     };

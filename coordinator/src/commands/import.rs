@@ -33,7 +33,7 @@ pub fn import(arguments: &ImportArguments) -> Result<Code, Failure> {
     // Also what was replaced.
     let _ = fs::remove_dir_all(&place.staged);
     result?;
-    problem.notes.iter().for_each(|note| eprintln!("{}: {note}", problem.name));
+    problem.notes().iter().for_each(|note| eprintln!("{}: {note}", problem.name()));
     say(format_args!("problem digest   {}", problem.digest()));
     Ok(Code::Done)
 }

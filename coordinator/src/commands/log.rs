@@ -48,13 +48,13 @@ pub fn log(arguments: &LogArguments) -> Result<Code, Failure> {
         let Told::Round(round, _) = told else { continue };
         for set in &round.sets {
             let (increment, joined) = (&set.increment, &set.joined);
-            let label = &problem.strategies[set.strategy as usize].label;
+            let label = problem.strategies()[set.strategy as usize].label();
             let line = Line {
                 place: set.place,
                 round: round.index,
                 label,
                 ordinal: set.ordinal,
-                seed: Seed::of_set(problem.seed, label, set.ordinal).to_string(),
+                seed: Seed::of_set(problem.seed(), label, set.ordinal).to_string(),
                 nodes: increment.configs.len(),
                 edges: increment.edges.len() + increment.root_edges.len(),
                 joining_edges: joined.edges.len(),

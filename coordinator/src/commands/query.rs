@@ -21,7 +21,7 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     if let (Some(file), Some(folder)) = (&arguments.queries, &arguments.out) {
         return batch::batch(&asker, file, folder);
     }
-    let given = run.problem().query.as_ref();
+    let given = run.problem().query();
     let end = |name: &str, text: &Option<String>, given: Option<&Vec<f64>>| match (text, given) {
         (Some(text), _) => {
             configuration(cx, text).map_err(|error| Failure::usage(format!("--{name}: {error}")))

@@ -3,11 +3,11 @@ use super::roster::Roster;
 use crate::cpu::Meter;
 use crate::crew::{Crew, CrewError, News};
 use crate::signals::Signals;
-use roadmill::img::{Cut, Event, Executor, Finished, Front, Job, Loss, Round, Setup};
+use roadmill::img::{Cut, Event, Executor, Finished, Front, Job, Loss, Round, Setup, canary};
 use roadmill::internal::wire;
 use roadmill::roadmap::{Digest, Increment, Outline, Tally};
+use roadmill_workers::WorkerId;
 use roadmill_workers::message::{Done, FromWorker, PROTOCOL, ToWorker};
-use roadmill_workers::{WorkerId, canary};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::os::fd::BorrowedFd;
 use std::sync::Arc;
@@ -71,9 +71,9 @@ impl<C: Crew> Dispatcher<C> {
     /// # Errors
     /// When a worker cannot be started.
     pub fn start(setup: Arc<Setup>, crew: C) -> Result<Dispatcher<C>, CrewError> {
-        let problem = ToWorker::Problem(Box::new(setup.problem.clone()));
+        let problem = ToWorker::Problem(Box::new(setup.problem().clone()));
         let mut dispatcher = Dispatcher {
-            outline: Outline::new(&setup.cx.space),
+            outline: Outline::new(setup.context().space()),
             front: Front::default(),
             log: Log::default(),
             canary: canary(&setup),

@@ -282,7 +282,7 @@ impl SetFiles {
                  strategies and schedule count too)"
             ));
         }
-        let Some(strategy) = problem.strategies.iter().position(|known| known.label == label)
+        let Some(strategy) = problem.strategies().iter().position(|known| known.label() == label)
         else {
             return refuse(&format!("sets of `{label}` found, a strategy of the problem expected"));
         };
@@ -379,7 +379,7 @@ sets = 4
         let setup = roadmill::img::Setup::new(problem);
         let mut scratch = roadmill::model::Scratch::new();
         let ordinal = value as u64;
-        setup.problem.strategies[0].generate(&setup.cx, ordinal, None, &mut scratch)
+        setup.problem().strategies()[0].generate(setup.context(), ordinal, None, &mut scratch)
     }
 
     #[test]

@@ -73,7 +73,7 @@ impl EvaluatorValue {
     /// first judgement.
     pub fn all(problem: &Problem, verdicts: &[Verdict]) -> Vec<EvaluatorValue> {
         let mut values = Vec::new();
-        Self::collect(&problem.evaluators, verdicts, &mut values);
+        Self::collect(problem.evaluators(), verdicts, &mut values);
         values
     }
 
@@ -161,8 +161,8 @@ impl Summary {
     ) -> Summary {
         Summary {
             event: "summary",
-            problem: problem.name.clone(),
-            seed: problem.seed,
+            problem: problem.name().to_owned(),
+            seed: problem.seed(),
             run: run.display().to_string(),
             sets: tally.sets(),
             nodes: tally.nodes(),

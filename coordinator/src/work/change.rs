@@ -2,7 +2,7 @@
 
 use super::growth::limit;
 use crate::run::{Scan, SetFiles};
-use roadmill::problem::Problem;
+use roadmill::problem::{Limits, Problem};
 
 /// What a build that goes on may change.
 pub(super) enum Change {
@@ -26,9 +26,8 @@ impl Change {
     pub fn apply(&self, scan: &Scan, present: &Problem) -> Result<Problem, String> {
         match self {
             Change::None(problem, _) => {
-                let mut problem = (**problem).clone();
                 let known = &scan.chapter().sources;
-                for file in problem.sources.iter().skip(1) {
+                for file in problem.other_sources() {
                     let was = known.iter().find(|known| known.path == file.path);
                     if let Some(was) = was.filter(|was| was.digest != file.digest) {
                         let (now, then) = (file.digest, was.digest);
@@ -36,7 +35,9 @@ impl Change {
                     }
                 }
                 // A limit of time is one of this process.
-                problem.limits.seconds = present.limits.seconds;
+                let limits = Limits { seconds: present.limits().seconds, ..problem.limits() };
+                let problem = (**problem).clone().with_limits(limits);
+                let problem = problem.map_err(|error| error.to_string())?;
                 let next = present.continued(&problem, scan.rounds())?;
                 match difference(present, &next) {
                     None => Ok(next),
@@ -46,12 +47,11 @@ impl Change {
                 }
             }
             Change::Chapter(Chapter { with, max_nodes, max_sets, .. }) => {
-                let mut next = match with {
+                let next = match with {
                     Some(with) => present.continued(with, scan.rounds())?,
                     None => present.clone(),
                 };
-                limit(&mut next, *max_nodes, *max_sets).map_err(|failure| failure.message)?;
-                Ok(next)
+                limit(next, *max_nodes, *max_sets).map_err(|failure| failure.message)
             }
         }
     }
@@ -64,15 +64,15 @@ impl Change {
 /// What of a chapter differs; names, notes and files do not make one.
 pub(super) fn difference(present: &Problem, next: &Problem) -> Option<&'static str> {
     let parts = [
-        ("the strategies are", present.strategies == next.strategies),
-        ("the schedule and the sets per round are", present.earlier == next.earlier),
-        ("the ends of the query are", present.query == next.query),
-        ("the criteria are", present.evaluators == next.evaluators),
-        ("the limits are", present.limits == next.limits),
+        ("the strategies are", present.strategies() == next.strategies()),
+        ("the schedule and the sets per round are", present.earlier() == next.earlier()),
+        ("the ends of the query are", present.query() == next.query()),
+        ("the criteria are", present.evaluators() == next.evaluators()),
+        ("the limits are", present.limits() == next.limits()),
         // Of a chapter without rounds these differ alone.
-        ("the schedule is", present.schedule == next.schedule),
-        ("the policy of the schedule is", present.adaptive == next.adaptive),
-        ("the sets per round are", present.sets_per_round == next.sets_per_round),
+        ("the schedule is", present.schedule() == next.schedule()),
+        ("the policy of the schedule is", present.adaptive() == next.adaptive()),
+        ("the sets per round are", present.sets_per_round() == next.sets_per_round()),
     ];
     parts.into_iter().find(|(_, same)| !same).map(|(what, _)| what)
 }

@@ -38,6 +38,9 @@ enum Origin {
 
 struct Anew {
     problem: Problem,
+    /// Instead of the problem's own limits.
+    max_nodes: Option<u64>,
+    max_sets: Option<u64>,
     folder: Option<PathBuf>,
     replace: bool,
     or_resume: bool,
@@ -67,6 +70,8 @@ impl<'a> Growth<'a> {
     pub(super) fn anew(problem: Problem) -> Growth<'a> {
         Growth::of(Origin::Anew(Box::new(Anew {
             problem,
+            max_nodes: None,
+            max_sets: None,
             folder: None,
             replace: false,
             or_resume: false,
@@ -131,7 +136,7 @@ impl<'a> Growth<'a> {
     /// that goes on this opens a chapter.
     pub fn max_nodes(mut self, nodes: u64) -> Growth<'a> {
         match &mut self.origin {
-            Origin::Anew(anew) => anew.problem.limits.nodes = nodes,
+            Origin::Anew(anew) => anew.max_nodes = Some(nodes),
             Origin::Again { chapter, .. } => chapter.max_nodes = Some(nodes),
         }
         self
@@ -140,7 +145,7 @@ impl<'a> Growth<'a> {
     /// Stops the build at the end of the first round with so many sets, as [`Growth::max_nodes`].
     pub fn max_sets(mut self, sets: u64) -> Growth<'a> {
         match &mut self.origin {
-            Origin::Anew(anew) => anew.problem.limits.sets = sets,
+            Origin::Anew(anew) => anew.max_sets = Some(sets),
             Origin::Again { chapter, .. } => chapter.max_sets = Some(sets),
         }
         self
@@ -238,7 +243,7 @@ impl<'a> Growth<'a> {
             cpu,
             begun: Instant::now(),
             verdicts,
-            seconds: seconds.or(setup.problem.limits.seconds),
+            seconds: seconds.or(setup.problem().limits().seconds),
             memory,
             rounds,
             weighed: (rounds, None),
@@ -273,7 +278,7 @@ impl<'a> Growth<'a> {
                 let (tally, dispatcher) = (dispatcher.tally().clone(), dispatcher.into_inner());
                 let seconds = (dispatcher.message_seconds(), dispatcher.fold_seconds());
                 if let Err(error) = dispatcher.close() {
-                    eprintln!("{}: {error}; the next run tries again", setup.problem.name);
+                    eprintln!("{}: {error}; the next run tries again", setup.problem().name());
                 }
                 (stop?, tally, Some(seconds))
             }
@@ -287,12 +292,12 @@ type Found = Result<Prepared, Box<Ended>>;
 
 impl Anew {
     fn prepare(self, interrupt: &Interrupt, watch: &mut dyn Watch) -> Result<Found, Failure> {
-        let Anew { mut problem, folder: out, replace, or_resume, imports } = self;
-        limit(&mut problem, None, None)?;
+        let Anew { problem, max_nodes, max_sets, folder: out, replace, or_resume, imports } = self;
+        let problem = limit(problem, max_nodes, max_sets)?;
         let existing = out.as_deref().filter(|_| or_resume);
         let has_ledger = |out: &Path| out.join(LEDGER).is_file();
         let folder = match existing {
-            None => RunFolder::make(out.as_deref(), &problem.name, replace)?,
+            None => RunFolder::make(out.as_deref(), problem.name(), replace)?,
             Some(out) if has_ledger(out) => RunFolder::of(out),
             Some(out) => RunFolder::make_or_take(out)?,
         };
@@ -381,18 +386,18 @@ fn go_on(
     Ok(Ok(Prepared { problem, folder, ledger, past: Some(scan), imports }))
 }
 
-/// Changes a problem's limits, as far as something is said of them.
+/// The problem with other limits, as far as something is said of them.
 pub(crate) fn limit(
-    problem: &mut Problem,
+    problem: Problem,
     max_nodes: Option<u64>,
     max_sets: Option<u64>,
-) -> Result<(), Failure> {
-    let limits = &mut problem.limits;
+) -> Result<Problem, Failure> {
+    let mut limits = problem.limits();
     limits.nodes = max_nodes.unwrap_or(limits.nodes);
     limits.sets = max_sets.unwrap_or(limits.sets);
     match limits.complaint() {
-        // The file's own limits have been checked.
+        // The problem's own limits have been checked.
         Some((limit, message)) => Err(Failure::usage(format!("--max-{limit}: {message}"))),
-        None => Ok(()),
+        None => problem.with_limits(limits).map_err(|error| Failure::usage(error.to_string())),
     }
 }

@@ -154,14 +154,14 @@ impl Choice {
     }
 
     fn named(names: &[String], problem: &Problem) -> Result<Choice, Failure> {
-        let known = |label: &str| problem.strategies.iter().any(|known| known.label == label);
+        let known = |label: &str| problem.strategies().iter().any(|known| known.label() == label);
         let parse = |text: &String| {
             let (label, ordinal) = text.rsplit_once(':')?;
             known(label).then_some((label.to_owned(), ordinal.parse().ok()?))
         };
         let parse = |text| {
             parse(text).ok_or_else(|| {
-                let labels: Vec<_> = problem.strategies.iter().map(|s| &*s.label).collect();
+                let labels: Vec<_> = problem.strategies().iter().map(|s| s.label()).collect();
                 let labels = labels.join(", ");
                 let expected = format!("LABEL:ORDINAL expected, with a label of {labels}");
                 Failure::usage(format!("--set: `{text}` found; {expected}"))
@@ -216,9 +216,9 @@ struct Check<'a> {
 
 impl Check<'_> {
     fn run(mut self, executor: &mut impl Executor) -> Result<(u64, u64), Failure> {
-        let mut replay = Replay::new(self.scan, &self.setup.problem)?;
+        let mut replay = Replay::new(self.scan, self.setup.problem())?;
         let mut judge: Option<(usize, Setup)> = None;
-        let space = &self.setup.cx.space;
+        let space = self.setup.context().space();
         // For the judgements; sets are recomputed by those who have a roadmap of their own.
         let mut roadmap = self.choice.has_judgements().then(|| Roadmap::new(space));
         while let Some(told) = replay.read()? {
@@ -277,7 +277,7 @@ impl Check<'_> {
         chapter: usize,
         executor: &mut impl Executor,
     ) -> Result<(), Failure> {
-        let label = &self.setup.problem.strategies[set.strategy as usize].label;
+        let label = self.setup.problem().strategies()[set.strategy as usize].label();
         if !self.choice.has_set(set, label) {
             return Ok(());
         }
@@ -319,7 +319,7 @@ impl Check<'_> {
                 if let Some((_, deaths)) = self.at_work.get_mut(&job) {
                     *deaths += u32::from(loss == Loss::Death);
                     if *deaths >= LOSSES_MAX {
-                        let name = job_name(job, &self.setup.problem);
+                        let name = job_name(job, self.setup.problem());
                         let message = format!("{name} killed its workers");
                         return Err(Failure::new(Code::WorkersLost, message));
                     }
@@ -347,7 +347,8 @@ impl Check<'_> {
                 Outcome::Increment(Ok(recorded)),
                 Outcome::Increment(Ok(found)),
             ) => {
-                let found = difference::of_increments(&self.setup.cx.space, recorded, found);
+                let found =
+                    difference::of_increments(self.setup.context().space(), recorded, found);
                 ((place, 0), found)
             }
             (Job::Generate { place, .. }, _, Outcome::Increment(Err(gave_up))) => {
@@ -360,7 +361,7 @@ impl Check<'_> {
             (Job::Evaluate { .. }, _, _) => return,
         };
         let found = found.unwrap_or_else(|| "what was recomputed is no such thing".to_owned());
-        let name = job_name(job, &self.setup.problem);
+        let name = job_name(job, self.setup.problem());
         self.note(at, format!("{name}: recorded and recomputed differ: {found}"));
     }
 
@@ -373,17 +374,17 @@ impl Check<'_> {
     ) -> Result<(), Failure> {
         let name = format!("the judgement of round {}", judged.round);
         needs_bits(&name, &self.scan.chapters[chapter])?;
-        let evaluators = judge.problem.evaluators.iter().enumerate();
+        let evaluators = judge.problem().evaluators().iter().enumerate();
         let verdicts: Vec<_> = evaluators
             .map(|(index, evaluator)| {
                 let method = evaluator.method();
                 let scratch = &mut Scratch::new();
-                method.evaluate(&judge.cx, &index.to_string(), roadmap, scratch)
+                method.evaluate(judge.context(), &index.to_string(), roadmap, scratch)
             })
             .collect();
         self.counts.1 += 1;
         if let Some(found) = difference::of_verdicts(&judged.verdicts, &verdicts) {
-            let at = (self.setup.plan.places_of(judged.round).end, 0);
+            let at = (self.setup.plan().places_of(judged.round).end, 0);
             self.note(at, format!("{name}: recorded and recomputed differ: {found}"));
         }
         Ok(())

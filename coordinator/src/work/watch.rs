@@ -128,7 +128,7 @@ impl Keeper<'_> {
 
     /// Folds the rounds that the ledger has already.
     fn restore(&self, scan: &Scan, executor: &mut impl Executor) -> Result<Past, Failure> {
-        let mut replay = Replay::new(scan, &self.setup.problem)?;
+        let mut replay = Replay::new(scan, self.setup.problem())?;
         let mut past = Past::new(&self.setup);
         while let Some(told) = replay.read()? {
             if let Told::Round(round, digest) = told {
@@ -151,14 +151,14 @@ impl Keeper<'_> {
         tally: &Tally,
         dispatch_seconds: Option<(f64, f64)>,
     ) -> Result<Ended, Failure> {
-        let problem = &self.setup.problem;
+        let problem = self.setup.problem();
         let mut stopped = Stopped::new(stop, problem);
         if *stop == Stop::Cut(Cut::Interrupted) {
             self.interrupt.reason().clone_into(&mut stopped.reason);
         }
         let path = path_in(&self.verdicts);
         if let Some(path) = &path {
-            write_whole(&folder.file("path.csv"), path_csv(&self.setup.cx.space, path))?;
+            write_whole(&folder.file("path.csv"), path_csv(self.setup.context().space(), path))?;
         }
         let coordinator_cpu_seconds = self.cpu.own_seconds();
         let coordinator_cpu = dispatch_seconds.map(|(messages, fold)| {
@@ -206,7 +206,7 @@ impl Observer for Keeper<'_> {
 
     fn folded(&mut self, round: &Round, tally: &Tally) -> Result<(), Failure> {
         self.rounds = round.index + 1;
-        self.ledger.round(round, &self.setup.problem, tally)
+        self.ledger.round(round, self.setup.problem(), tally)
     }
 
     fn judged(&mut self, judgement: &Judgement) -> Result<(), Failure> {
@@ -221,7 +221,7 @@ impl Observer for Keeper<'_> {
         alive: usize,
     ) -> Result<Option<Cut>, Failure> {
         self.ledger.sync_if_due()?;
-        let (problem, workers) = (&self.setup.problem, (alive, self.workers));
+        let (problem, workers) = (self.setup.problem(), (alive, self.workers));
         self.watch.progress(&Status { problem, progress, tally, workers });
         Ok(if self.interrupt.came() {
             Some(Cut::Interrupted)

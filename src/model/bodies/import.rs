@@ -6,7 +6,7 @@ use super::foreign::{
     SceneOptions, UrdfRobot, read_ompl, read_parasol, read_urdf,
 };
 use super::linkage::{fitting_names, moves};
-use super::read::{default_resolution, default_rotation_length, diagonal_of, too_far};
+use super::resolve::{default_resolution, default_rotation_length, diagonal_of, too_far};
 use super::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, Robot};
 use super::validity::{Bounds, BoundsMeaning, MotionChecking};
 use crate::digest::SourceFile;
@@ -36,14 +36,14 @@ pub fn import(path: &Path, options: &SceneOptions) -> Option<Result<Imported, Pr
         SceneKind::Urdf => return Some(from_urdf(path)),
         SceneKind::Problem => return None,
     };
-    let scene = scene.map_err(|error| ProblemError::foreign(error.to_string()));
+    let scene = scene.map_err(|error| ProblemError::pathless(error.to_string()));
     Some(scene.and_then(|scene| from_scene(path, scene)))
 }
 
 /// A robot alone, in a box as large as it can reach.
 fn from_urdf(path: &Path) -> Result<Imported, ProblemError> {
     let UrdfRobot { links, mut notes, sources } =
-        read_urdf(path).map_err(|error| ProblemError::foreign(error.to_string()))?;
+        read_urdf(path).map_err(|error| ProblemError::pathless(error.to_string()))?;
     let links = fitting_names(links);
     let motion = if links.iter().any(moves) { BaseJoint::Fixed } else { BaseJoint::Rigid3d };
     let robot = Robot { motion, base: Pose::IDENTITY, links, may_touch: Vec::new() };

@@ -3,7 +3,7 @@
 use super::foreign::read_urdf;
 use super::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, Robot, TURN_MAX};
 use super::shapes::{bodies, pose_of, unit};
-use super::tables::{FrameTable, JointKindTable, LinkTable, RobotTable};
+use super::spec::{FrameSpec, JointKindSpec, LinkSpec, RobotSpec};
 use crate::scene::{LENGTH_MAX, Pose};
 use crate::source;
 use crate::source::Step::{self, Index, Key};
@@ -19,32 +19,32 @@ const NAME_EXPECTED: &str = "a name of its own of letters, digits, `-`, `_` and 
 /// Reads the robot.
 pub(super) fn robot_of(
     source: &Source,
-    table: &RobotTable,
+    spec: &RobotSpec,
     motion: BaseJoint,
     notes: &mut Vec<String>,
 ) -> Result<Robot, ProblemError> {
     let mut robot = Robot::rigid(motion, Vec::new());
-    match &table.urdf {
-        Some(file) => robot.links = urdf_links(source, table, file, notes)?,
+    match &spec.urdf {
+        Some(file) => robot.links = urdf_links(source, spec, file, notes)?,
         None => {
             let place = [Key("robot"), Key("bodies")];
-            robot.links[0].bodies = bodies(source, &place, &table.bodies, notes)?;
-            robot.links[0].name = table.name.clone().unwrap_or_else(|| BASE.to_owned());
+            robot.links[0].bodies = bodies(source, &place, &spec.bodies, notes)?;
+            robot.links[0].name = spec.name.clone().unwrap_or_else(|| BASE.to_owned());
         }
     }
     if !fits(&robot.links[0].name) {
         let message = format!("`{}` found; {NAME_EXPECTED}", robot.links[0].name);
         return Err(source.error(&[Key("robot"), Key("name")], message));
     }
-    if let Some(base) = &table.base {
+    if let Some(base) = &spec.base {
         if motion != BaseJoint::Fixed {
             let message = "given, but the base moves; motion = \"fixed\" expected beside it";
             return Err(source.error(&[Key("robot"), Key("base")], message.to_owned()));
         }
         robot.base = frame(source, &[Key("robot"), Key("base")], base)?;
     }
-    if table.links.len().max(robot.links.len()) > LINKS_MAX {
-        let found = table.links.len().max(robot.links.len());
+    if spec.links.len().max(robot.links.len()) > LINKS_MAX {
+        let found = spec.links.len().max(robot.links.len());
         let message = format!("{found} found; at most {LINKS_MAX} expected");
         return Err(source.error(&[Key("robot"), Key("links")], message));
     }
@@ -52,7 +52,7 @@ pub(super) fn robot_of(
     for (index, link) in robot.links.iter().enumerate() {
         index_of.insert(link.name.clone(), index);
     }
-    for (index, link) in table.links.iter().enumerate() {
+    for (index, link) in spec.links.iter().enumerate() {
         let link = link_of(source, &index_of, index, link, notes)?;
         index_of.insert(link.name.clone(), robot.links.len());
         robot.links.push(link);
@@ -61,7 +61,7 @@ pub(super) fn robot_of(
         let message = "nothing moves: a moving base or a moving joint expected".to_owned();
         return Err(source.error(&[Key("robot")], message));
     }
-    for (index, names) in table.may_touch.iter().enumerate() {
+    for (index, names) in spec.may_touch.iter().enumerate() {
         let mut pair = Vec::new();
         for name in names {
             let place = [Key("robot"), Key("may_touch"), Index(index)];
@@ -75,24 +75,23 @@ pub(super) fn robot_of(
     Ok(robot)
 }
 
-/// The links of a URDF, which takes the place of all that the table could say of them.
+/// The links of a URDF, which takes the place of all that the robot's spec could say of them.
 fn urdf_links(
     source: &Source,
-    table: &RobotTable,
+    spec: &RobotSpec,
     file: &Path,
     notes: &mut Vec<String>,
 ) -> Result<Vec<Link>, ProblemError> {
     let others = [
-        ("name", table.name.is_some()),
-        ("bodies", !table.bodies.is_empty()),
-        ("links", !table.links.is_empty()),
+        ("name", spec.name.is_some()),
+        ("bodies", !spec.bodies.is_empty()),
+        ("links", !spec.links.is_empty()),
     ];
     if let Some((key, _)) = others.iter().find(|(_, given)| *given) {
         let message = "given beside urdf, which says it; one of the two expected";
         return Err(source.error(&[Key("robot"), Key(key)], message.to_owned()));
     }
-    let folder = source.path.parent().unwrap_or(Path::new(""));
-    let robot = read_urdf(&folder.join(file))
+    let robot = read_urdf(&source.folder.join(file))
         .map_err(|error| source.error(&[Key("robot"), Key("urdf")], error.to_string()))?;
     notes.extend(robot.notes);
     robot.sources.into_iter().for_each(|file| source.read(file));
@@ -132,18 +131,18 @@ fn link_of(
     source: &Source,
     index_of: &BTreeMap<String, usize>,
     index: usize,
-    table: &LinkTable,
+    spec: &LinkSpec,
     notes: &mut Vec<String>,
 ) -> Result<Link, ProblemError> {
     let place = [Key("robot"), Key("links"), Index(index)];
     let at = |keys: &[Step<'static>]| [&place[..], keys].concat();
-    if !fits(&table.name) || index_of.contains_key(&table.name) {
-        let message = format!("`{}` found; {NAME_EXPECTED}", table.name);
+    if !fits(&spec.name) || index_of.contains_key(&spec.name) {
+        let message = format!("`{}` found; {NAME_EXPECTED}", spec.name);
         return Err(source.error(&at(&[Key("name")]), message));
     }
-    let joint = &table.joint;
+    let joint = &spec.joint;
     let parent = match &joint.parent {
-        // The link before it. The base, link 0, does not stand among the tables.
+        // The link before it. The base, link 0, does not stand among the `links`.
         None => index,
         Some(name) => *index_of.get(name).ok_or_else(|| {
             // This is what keeps the links a tree.
@@ -154,10 +153,10 @@ fn link_of(
     let kind = kind_of(&joint.kind)
         .map_err(|message| source.error(&at(&[Key("joint"), Key("kind")]), message))?;
     Ok(Link {
-        name: table.name.clone(),
-        bodies: bodies(source, &at(&[Key("bodies")]), &table.bodies, notes)?,
+        name: spec.name.clone(),
+        bodies: bodies(source, &at(&[Key("bodies")]), &spec.bodies, notes)?,
         joint: Some(Joint {
-            name: joint.name.clone().unwrap_or_else(|| table.name.clone()),
+            name: joint.name.clone().unwrap_or_else(|| spec.name.clone()),
             parent: parent as u32,
             kind,
             before: frame(source, &at(&[Key("joint"), Key("before")]), &joint.before)?,
@@ -166,7 +165,7 @@ fn link_of(
     })
 }
 
-fn kind_of(table: &JointKindTable) -> Result<JointKind, String> {
+fn kind_of(spec: &JointKindSpec) -> Result<JointKind, String> {
     let direction = |axis: &[f64; 3]| {
         unit(*axis).ok_or_else(|| format!("axis {axis:?} found; a direction expected"))
     };
@@ -180,10 +179,10 @@ fn kind_of(table: &JointKindTable) -> Result<JointKind, String> {
             ))
         }
     };
-    Ok(match table {
-        JointKindTable::Fixed {} => JointKind::Fixed,
-        JointKindTable::Spherical {} => JointKind::Spherical,
-        JointKindTable::Revolute { axis, degrees, radians } => {
+    Ok(match spec {
+        JointKindSpec::Fixed {} => JointKind::Fixed,
+        JointKindSpec::Spherical {} => JointKind::Spherical,
+        JointKindSpec::Revolute { axis, degrees, radians } => {
             let limits = match (degrees, radians) {
                 (Some(_), Some(_)) => {
                     return Err("degrees and radians found; one of the two expected".to_owned());
@@ -198,13 +197,12 @@ fn kind_of(table: &JointKindTable) -> Result<JointKind, String> {
             };
             JointKind::Revolute { axis: direction(axis)?, limits }
         }
-        JointKindTable::Prismatic { axis, range } => {
+        JointKindSpec::Prismatic { axis, range } => {
             JointKind::Prismatic { axis: direction(axis)?, limits: limits(*range, LENGTH_MAX)? }
         }
     })
 }
 
-fn frame(source: &Source, place: &[Step], table: &FrameTable) -> Result<Pose, ProblemError> {
-    pose_of((&table.position, &table.orientation, &table.turn))
-        .map_err(|(key, message)| source.error(&[place, &[Key(key)]].concat(), message))
+fn frame(source: &Source, place: &[Step], spec: &FrameSpec) -> Result<Pose, ProblemError> {
+    pose_of(spec).map_err(|(key, message)| source.error(&[place, &[Key(key)]].concat(), message))
 }

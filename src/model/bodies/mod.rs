@@ -3,22 +3,26 @@
 //! The description is [`Bodies`]; [`BodyValidity`] is the model made from it. `docs/problems.md` says how a
 //! problem file describes them, `docs/validity.md` how motions are judged.
 
+mod again;
 mod describe;
 mod figure;
 pub mod foreign;
 mod import;
 mod linkage;
-mod read;
+mod resolve;
 pub mod robot;
 mod shapes;
-mod tables;
+mod spec;
 pub mod validity;
 mod write;
 
 pub use import::import;
+pub use spec::{
+    BodiesSpec, BodySpec, FrameSpec, JointSpec, LinkSpec, RobotSpec, ShapeSpec, SpaceSpec,
+};
 pub use validity::BodyValidity;
 
-use super::{Description, Documents, Figure, Model, ModelKind, ReadTables};
+use super::{Description, Documents, Figure, Model, ModelKind, Resolve};
 use crate::scene::Body;
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
@@ -30,20 +34,50 @@ use validity::{Bounds, MotionChecking};
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Bodies {
     /// The box that bounds the robot.
-    pub bounds: Bounds,
+    pub(crate) bounds: Bounds,
     /// The farthest that any robot point moves between two checks of a motion; a length.
-    pub resolution: f64,
+    pub(crate) resolution: f64,
     /// What is promised of the motions along edges.
-    pub edges: MotionChecking,
+    pub(crate) edges: MotionChecking,
     /// Length that one radian of rotation counts for in the metric.
-    pub rotation_length: f64,
+    pub(crate) rotation_length: f64,
     /// The robot.
-    pub robot: Robot,
+    pub(crate) robot: Robot,
     /// The obstacles in the world's frame.
-    pub obstacles: Vec<Body>,
+    pub(crate) obstacles: Vec<Body>,
 }
 
 impl Bodies {
+    /// The box that bounds the robot.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// The farthest that any robot point moves between two checks of a motion; a length.
+    pub fn resolution(&self) -> f64 {
+        self.resolution
+    }
+
+    /// What is promised of the motions along edges.
+    pub fn edges(&self) -> MotionChecking {
+        self.edges
+    }
+
+    /// Length that one radian of rotation counts for in the metric.
+    pub fn rotation_length(&self) -> f64 {
+        self.rotation_length
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// The obstacles in the world's frame.
+    pub fn obstacles(&self) -> &[Body] {
+        &self.obstacles
+    }
+
     /// The model itself, with what is particular to bodies.
     pub fn validity(&self) -> BodyValidity {
         let motions = (self.edges, self.resolution);
@@ -51,11 +85,25 @@ impl Bodies {
     }
 }
 
-impl ReadTables for Bodies {
+impl Resolve for Bodies {
+    type Spec = BodiesSpec;
+
     const TABLES: &'static [&'static str] = &["space", "robot", "obstacles"];
 
-    fn read(source: &Source, notes: &mut Vec<String>) -> Result<Bodies, ProblemError> {
-        read::read(source, notes)
+    fn spec(source: &Source) -> Result<BodiesSpec, ProblemError> {
+        source.tables()
+    }
+
+    fn resolve(
+        spec: &BodiesSpec,
+        source: &Source,
+        notes: &mut Vec<String>,
+    ) -> Result<Bodies, ProblemError> {
+        resolve::resolve(spec, source, notes)
+    }
+
+    fn to_spec(&self) -> BodiesSpec {
+        again::spec_of(self)
     }
 }
 

@@ -1,30 +1,29 @@
 //! The robot's bodies and the obstacles.
 
 use super::robot::Robot;
-use super::tables::{BodyTable, ShapeTable, Solid, TurnTable};
+use super::spec::{BodySpec, FrameSpec, ShapeSpec, Solid};
 use crate::digest::SourceFile;
 use crate::math;
-use crate::scene::{Body, LENGTH_MAX, MeshOptions, Pose, Shape, read_mesh_with};
+use crate::scene::{Body, LENGTH_MAX, Mesh, MeshOptions, Pose, Shape, read_mesh_with};
 use crate::source::Step::{self, Index, Key};
 use crate::source::{ProblemError, Source};
 use crate::space::{canonical, stored_form};
-use std::path::Path;
 
-/// Reads the bodies of the table at `place`.
+/// Makes the bodies that are asked for at `place`.
 pub(super) fn bodies(
     source: &Source,
     place: &[Step],
-    tables: &[BodyTable],
+    specs: &[BodySpec],
     notes: &mut Vec<String>,
 ) -> Result<Vec<Body>, ProblemError> {
     let mut bodies = Vec::new();
-    for (index, table) in tables.iter().enumerate() {
+    for (index, spec) in specs.iter().enumerate() {
         let at = |key| [place, &[Index(index), Key(key)]].concat();
-        let frame = (&table.position, &table.orientation, &table.turn);
-        let pose = pose_of(frame).map_err(|(key, message)| source.error(&at(key), message))?;
+        let pose =
+            pose_of(&spec.frame()).map_err(|(key, message)| source.error(&at(key), message))?;
         let shape =
-            shape_of(source, table).map_err(|message| source.error(&at("shape"), message))?;
-        let solid = match (&shape, table.solid) {
+            shape_of(source, &spec.shape).map_err(|message| source.error(&at("shape"), message))?;
+        let solid = match (&shape, spec.solid) {
             (Shape::Mesh(mesh), Solid::Yes) if !mesh.is_closed() => {
                 let message = format!(
                     "true found, but the mesh is not closed ({} edges belong to an odd number of \
@@ -56,13 +55,9 @@ pub(super) fn bodies(
     Ok(bodies)
 }
 
-/// A frame as a file writes it: position, and orientation or turn.
-type Frame<'a> = (&'a [f64; 3], &'a Option<[f64; 4]>, &'a Option<TurnTable>);
-
-/// Reads a frame, or says which key is wrong and how.
-pub(super) fn pose_of(
-    (position, orientation, turn): Frame,
-) -> Result<Pose, (&'static str, String)> {
+/// The pose of a frame, or which key is wrong and how.
+pub(super) fn pose_of(frame: &FrameSpec) -> Result<Pose, (&'static str, String)> {
+    let FrameSpec { position, orientation, turn } = frame;
     // Written so that NaN fails it.
     if !position.iter().all(|value| value.abs() <= LENGTH_MAX) {
         let message = format!("{position:?} found; finite lengths expected");
@@ -107,7 +102,7 @@ fn rotation_about(axis: [f64; 3], degrees: f64) -> [f64; 4] {
     canonical(quaternion).unwrap_or(Pose::IDENTITY.rotation)
 }
 
-fn shape_of(source: &Source, table: &BodyTable) -> Result<Shape, String> {
+fn shape_of(source: &Source, spec: &ShapeSpec) -> Result<Shape, String> {
     let length = |key: &str, value: f64| {
         if value > 0.0 && value <= LENGTH_MAX {
             Ok(value)
@@ -115,32 +110,37 @@ fn shape_of(source: &Source, table: &BodyTable) -> Result<Shape, String> {
             Err(format!("{key} = {value} found; a positive length expected"))
         }
     };
-    Ok(match &table.shape {
-        ShapeTable::Point {} => Shape::Point,
-        ShapeTable::Box { size } => {
+    Ok(match spec {
+        ShapeSpec::Point {} => Shape::Point,
+        ShapeSpec::Box { size } => {
             for edge in size {
                 length("size", *edge)?;
             }
             Shape::Box { size: *size }
         }
-        ShapeTable::Sphere { radius } => Shape::Sphere { radius: length("radius", *radius)? },
-        ShapeTable::Cylinder { radius, height } => Shape::Cylinder {
+        ShapeSpec::Sphere { radius } => Shape::Sphere { radius: length("radius", *radius)? },
+        ShapeSpec::Cylinder { radius, height } => Shape::Cylinder {
             radius: length("radius", *radius)?,
             height: length("height", *height)?,
         },
-        ShapeTable::Capsule { radius, height } => Shape::Capsule {
+        ShapeSpec::Capsule { radius, height } => Shape::Capsule {
             radius: length("radius", *radius)?,
             height: length("height", *height)?,
         },
-        ShapeTable::Mesh { file, scale } => {
+        ShapeSpec::Mesh { file, scale } => {
             length("scale", *scale)?;
-            let folder = source.path.parent().unwrap_or(Path::new(""));
             let options = MeshOptions { scale: [*scale; 3], ..MeshOptions::default() };
-            let read = read_mesh_with(&folder.join(file), &options);
+            let read = read_mesh_with(&source.folder.join(file), &options);
             let read = read.map_err(|error| error.to_string())?;
             let path = file.to_string_lossy().into_owned();
             source.read(SourceFile { path, digest: read.digest });
             Shape::Mesh(read.mesh)
+        }
+        ShapeSpec::Triangles { vertices, triangles, scale } => {
+            length("scale", *scale)?;
+            let options = MeshOptions { scale: [*scale; 3], ..MeshOptions::default() };
+            let mesh = Mesh::of_triangles(vertices.clone(), triangles.clone(), &options);
+            Shape::Mesh(mesh.map_err(|error| error.to_string())?)
         }
     })
 }

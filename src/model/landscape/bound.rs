@@ -115,7 +115,7 @@ impl Along<'_> {
 
     /// Bounds over the times from `from` to `to`.
     ///
-    /// The exponent is c₂ t² + c₁ t + c₀; with |c₀|, |c₁|, |c₂| at most some hundreds (`tables.rs` bounds
+    /// The exponent is c₂ t² + c₁ t + c₀; with |c₀|, |c₁|, |c₂| at most some hundreds (`resolve.rs` bounds
     /// exponents) its rounding error is some 10⁻¹³ at most, which is the term's relative error. Sizes
     /// take it into account by the factor 1 + |exponent|.
     fn range(&self, from: f64, to: f64) -> Range {

@@ -5,13 +5,15 @@
 
 mod bound;
 mod energy;
-mod tables;
+mod resolve;
+mod spec;
 
 pub use energy::{Energy, Term};
+pub use spec::LandscapeSpec;
 
 use super::{
     Cost, Description, Directed, Documents, Figure, Model, ModelKind, ModelScratch, NodeValue,
-    ReadTables, Scratch, Validity,
+    Resolve, Scratch, Validity,
 };
 use crate::source::{ProblemError, Source, value};
 use crate::space::{Dof, Factor, FactorKind, Space};
@@ -24,22 +26,59 @@ const ENERGY: &[NodeValue] = &[NodeValue { name: "energy", unit: "energy" }];
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Landscape {
     /// Least x and y.
-    pub min: [f64; 2],
+    pub(crate) min: [f64; 2],
     /// Largest x and y.
-    pub max: [f64; 2],
+    pub(crate) max: [f64; 2],
     /// The energy.
-    pub energy: Energy,
+    pub(crate) energy: Energy,
     /// The highest energy that is valid; `None`: any.
-    pub highest: Option<f64>,
+    pub(crate) highest: Option<f64>,
     /// The peak of a motion is found at most so far above the highest energy on it.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
 }
 
-impl ReadTables for Landscape {
+impl Landscape {
+    /// Least and largest x and y.
+    pub fn bounds(&self) -> [[f64; 2]; 2] {
+        [self.min, self.max]
+    }
+
+    /// The energy.
+    pub fn energy(&self) -> &Energy {
+        &self.energy
+    }
+
+    /// The highest energy that is valid; `None`: any.
+    pub fn highest(&self) -> Option<f64> {
+        self.highest
+    }
+
+    /// The peak of a motion is found at most so far above the highest energy on it.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+}
+
+impl Resolve for Landscape {
+    type Spec = LandscapeSpec;
+
     const TABLES: &'static [&'static str] = &["landscape"];
 
-    fn read(source: &Source, _notes: &mut Vec<String>) -> Result<Landscape, ProblemError> {
-        tables::read(source)
+    fn spec(source: &Source) -> Result<LandscapeSpec, ProblemError> {
+        spec::read(source)
+    }
+
+    fn resolve(
+        spec: &LandscapeSpec,
+        source: &Source,
+        _notes: &mut Vec<String>,
+    ) -> Result<Landscape, ProblemError> {
+        resolve::resolve(spec, source)
+    }
+
+    fn to_spec(&self) -> LandscapeSpec {
+        let Landscape { min, max, energy, highest, tolerance } = self.clone();
+        LandscapeSpec { min, max, energy, highest, tolerance: Some(tolerance) }
     }
 }
 

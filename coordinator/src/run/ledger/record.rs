@@ -114,11 +114,11 @@ impl Chapter {
             first_round,
             program: env!("CARGO_PKG_VERSION").to_owned(),
             bits_version: BITS_VERSION,
-            name: problem.name.clone(),
-            seed: problem.seed,
+            name: problem.name().to_owned(),
+            seed: problem.seed(),
             dofs: problem.space().len() as u32,
             problem_digest: problem.digest(),
-            sources: problem.sources.clone(),
+            sources: problem.sources().to_vec(),
             problem: bytes,
             layout,
         }
@@ -195,13 +195,13 @@ impl WrittenFullSet<'_> {
         problem: &'a Problem,
         roadmap: Digest,
     ) -> Option<WrittenFullSet<'a>> {
-        let strategy = &problem.strategies[set.strategy as usize];
-        let read = read_by(&strategy.generator, roadmap);
+        let strategy = &problem.strategies()[set.strategy as usize];
+        let read = read_by(strategy.generator(), roadmap);
         let is_plain = set.increment.is_plain() && set.joined.is_plain();
         (read.is_some() || !is_plain).then(|| WrittenFullSet {
             tag: FULL_SET_TAG,
             place: set.place,
-            label: &strategy.label,
+            label: strategy.label(),
             ordinal: set.ordinal,
             read,
             increment: Full(&set.increment),
@@ -237,7 +237,7 @@ impl WrittenSet<'_> {
         WrittenSet {
             tag: SET_TAG,
             place: set.place,
-            label: &problem.strategies[set.strategy as usize].label,
+            label: problem.strategies()[set.strategy as usize].label(),
             ordinal: set.ordinal,
             increment: &set.increment,
             joined: &set.joined,

@@ -49,7 +49,7 @@ impl<'a> Replay<'a> {
             place: 0,
             nodes: 0,
             round: 0,
-            form: SetForm::of(problem.model.description()),
+            form: SetForm::of(problem.model().description()),
             chapters: 0,
             roadmap,
             folded: 0,
@@ -113,15 +113,15 @@ impl<'a> Replay<'a> {
         let Some((strategy, ordinal)) = self.plan.set_at(self.place) else {
             return Err(self.reader.wrong("more sets than its round has"));
         };
-        let strategy_of = &self.problem.strategies[strategy as usize];
-        let label = &strategy_of.label;
-        if (set.place, &set.label, set.ordinal) != (self.place, label, ordinal) {
+        let strategy_of = &self.problem.strategies()[strategy as usize];
+        let label = strategy_of.label();
+        if (set.place, &*set.label, set.ordinal) != (self.place, label, ordinal) {
             let found = format!("set {}:{} at place {}", set.label, set.ordinal, set.place);
             let expected = format!("{label}:{ordinal} at place {}", self.place);
             return Err(self.reader.wrong(&format!("{found} found, {expected} expected")));
         }
-        let grows = strategy_of.generator.grows();
-        if read != read_by(&strategy_of.generator, self.roadmap) {
+        let grows = strategy_of.generator().grows();
+        if read != read_by(strategy_of.generator(), self.roadmap) {
             return Err(self.reader.wrong("not the roadmap that the set was made from"));
         }
         self.nodes += set.increment.configs.len() as u64;

@@ -15,14 +15,14 @@ pub struct Stopped {
 impl Stopped {
     /// Puts a stop into words.
     pub fn new(stop: &Stop, problem: &Problem) -> Stopped {
-        let label = |strategy: u32| &problem.strategies[strategy as usize].label;
+        let label = |strategy: u32| problem.strategies()[strategy as usize].label();
         let (word, reason) = match stop {
             Stop::Satisfied => ("satisfied", "all criteria are met".to_owned()),
             Stop::NodeLimit => {
-                ("node-limit", format!("the limit of {} nodes is reached", problem.limits.nodes))
+                ("node-limit", format!("the limit of {} nodes is reached", problem.limits().nodes))
             }
             Stop::SetLimit => {
-                ("set-limit", format!("the limit of {} sets is reached", problem.limits.sets))
+                ("set-limit", format!("the limit of {} sets is reached", problem.limits().sets))
             }
             Stop::GaveUp { strategy, ordinal, gave_up } => {
                 ("gave-up", format!("set {}:{ordinal}: {gave_up}", label(*strategy)))
@@ -57,7 +57,7 @@ impl Stopped {
             "satisfied" => Code::Done,
             // Without criteria the limit is what was asked for.
             "node-limit" | "set-limit" | "time-limit" | "memory-limit" => {
-                if problem.evaluators.is_empty() {
+                if problem.evaluators().is_empty() {
                     Code::Done
                 } else {
                     let reason = format!("{} before all criteria are met", self.reason);
@@ -76,7 +76,7 @@ impl Stopped {
 /// A job as people name it: by its set's label and ordinal.
 pub fn name(job: Job, problem: &Problem) -> String {
     let set = |strategy: u32, ordinal: u64| {
-        format!("{}:{ordinal}", problem.strategies[strategy as usize].label)
+        format!("{}:{ordinal}", problem.strategies()[strategy as usize].label())
     };
     match job {
         Job::Generate { strategy, ordinal, .. } => {
@@ -84,7 +84,7 @@ pub fn name(job: Job, problem: &Problem) -> String {
         }
         Job::Join { strategy, ordinal, .. } => format!("joining set {}", set(strategy, ordinal)),
         Job::Evaluate { round, evaluator } => {
-            let evaluator = problem.evaluators[evaluator as usize].method().name();
+            let evaluator = problem.evaluators()[evaluator as usize].method().name();
             format!("the {evaluator} evaluation after round {round}")
         }
     }

@@ -1,10 +1,10 @@
-//! From the tables as written to a checked description.
+//! From what a problem asks for to a checked description.
 
 use super::Bodies;
 use super::linkage::robot_of;
 use super::robot::Robot;
 use super::shapes::{bodies, check_bodies};
-use super::tables::{SpaceTable, Tables};
+use super::spec::{BodiesSpec, SpaceSpec};
 use super::validity::Bounds;
 use crate::scene::{Body, LENGTH_MAX};
 use crate::source::Step::Key;
@@ -16,20 +16,23 @@ const FINEST: f64 = 1e-7;
 /// The farthest robot point, as a multiple of the same: with it a motion has at most 10¹⁵ steps.
 const RADIUS_MAX: f64 = 1e6;
 
-/// Reads rigid robots and obstacles.
-pub(super) fn read(source: &Source, notes: &mut Vec<String>) -> Result<Bodies, ProblemError> {
-    let tables: Tables = source.tables()?;
-    let bounds = bounds_of(source, &tables.space)?;
-    let robot = robot_of(source, &tables.robot, tables.space.motion, notes)?;
-    let obstacles = bodies(source, &[Key("obstacles")], &tables.obstacles, notes)?;
+/// Checks a robot and obstacles and makes what they ask for.
+pub(super) fn resolve(
+    spec: &BodiesSpec,
+    source: &Source,
+    notes: &mut Vec<String>,
+) -> Result<Bodies, ProblemError> {
+    let bounds = bounds_of(source, &spec.space)?;
+    let robot = robot_of(source, &spec.robot, spec.space.motion, notes)?;
+    let obstacles = bodies(source, &[Key("obstacles")], &spec.obstacles, notes)?;
     check_bodies(source, &robot, &obstacles)?;
-    let resolution = resolution_of(source, &tables.space, &bounds, &robot, notes)?;
-    let rotation_length = rotation_length_of(source, &tables.space, &robot, notes)?;
-    let edges = tables.space.edges;
+    let resolution = resolution_of(source, &spec.space, &bounds, &robot, notes)?;
+    let rotation_length = rotation_length_of(source, &spec.space, &robot, notes)?;
+    let edges = spec.space.edges;
     Ok(Bodies { bounds, resolution, edges, rotation_length, robot, obstacles })
 }
 
-fn bounds_of(source: &Source, space: &SpaceTable) -> Result<Bounds, ProblemError> {
+fn bounds_of(source: &Source, space: &SpaceSpec) -> Result<Bounds, ProblemError> {
     let axes = space.motion.bounded_axes();
     let mut box_of = [[0.0; 3]; 2];
     for (corner, (key, values)) in box_of.iter_mut().zip([("min", &space.min), ("max", &space.max)])
@@ -60,7 +63,7 @@ fn bounds_of(source: &Source, space: &SpaceTable) -> Result<Bounds, ProblemError
 
 fn resolution_of(
     source: &Source,
-    space: &SpaceTable,
+    space: &SpaceSpec,
     bounds: &Bounds,
     robot: &Robot,
     notes: &mut Vec<String>,
@@ -132,7 +135,7 @@ fn thickness(body: &Body) -> f64 {
 
 fn rotation_length_of(
     source: &Source,
-    space: &SpaceTable,
+    space: &SpaceSpec,
     robot: &Robot,
     notes: &mut Vec<String>,
 ) -> Result<f64, ProblemError> {

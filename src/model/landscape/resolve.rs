@@ -1,10 +1,9 @@
-//! The table of a problem file that describes a landscape.
+//! From what a problem asks for to a checked landscape.
 
-use super::{Energy, Landscape, Term};
+use super::{Landscape, LandscapeSpec, Term};
 use crate::scene::LENGTH_MAX;
 use crate::source::Step::Key;
 use crate::source::{ProblemError, Source};
-use serde::Deserialize;
 
 /// Peaks are found to this unless the file says otherwise.
 const DEFAULT_TOLERANCE: f64 = 0.01;
@@ -17,41 +16,18 @@ const HEIGHT_MAX: f64 = 1e9;
 /// The largest size of an exponent within the bounds: with it every energy is a finite number.
 const EXPONENT_MAX: f64 = 500.0;
 
-#[derive(Deserialize)]
-struct Tables {
-    landscape: LandscapeTable,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LandscapeTable {
-    min: [f64; 2],
-    max: [f64; 2],
-    energy: EnergyTable,
-    highest: Option<f64>,
-    tolerance: Option<f64>,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-enum EnergyTable {
-    MullerBrown {},
-    Terms(Vec<Term>),
-}
-
-/// Reads and checks the table.
-pub(super) fn read(source: &Source) -> Result<Landscape, ProblemError> {
-    let Tables { landscape: table } = source.tables()?;
+/// Checks a landscape and makes what is asked for.
+pub(super) fn resolve(spec: &LandscapeSpec, source: &Source) -> Result<Landscape, ProblemError> {
     let fail =
         |key: &str, message: String| Err(source.error(&[Key("landscape"), Key(key)], message));
-    for (key, corner) in [("min", &table.min), ("max", &table.max)] {
+    for (key, corner) in [("min", &spec.min), ("max", &spec.max)] {
         // Written so that NaN fails it.
         if !corner.iter().all(|value| value.abs() <= LENGTH_MAX) {
             return fail(key, format!("{corner:?} found; finite lengths expected"));
         }
     }
     for axis in 0..2 {
-        let (low, high) = (table.min[axis], table.max[axis]);
+        let (low, high) = (spec.min[axis], spec.max[axis]);
         if low >= high {
             let name = ["x", "y"][axis];
             return fail(
@@ -60,31 +36,27 @@ pub(super) fn read(source: &Source) -> Result<Landscape, ProblemError> {
             );
         }
     }
-    let energy = match table.energy {
-        EnergyTable::MullerBrown {} => Energy::MullerBrown,
-        EnergyTable::Terms(terms) => Energy::Terms(terms),
-    };
-    let terms = energy.terms();
+    let terms = spec.energy.terms();
     if !(1..=TERMS_MAX).contains(&terms.len()) {
         return fail("energy", format!("{} terms found; 1 to {TERMS_MAX} expected", terms.len()));
     }
     for (index, term) in terms.iter().enumerate() {
-        if let Some(message) = complaint(term, table.min, table.max) {
+        if let Some(message) = complaint(term, spec.min, spec.max) {
             return fail("energy", format!("terms[{index}]: {message}"));
         }
     }
-    if let Some(highest) = table.highest.filter(|highest| !highest.is_finite()) {
+    if let Some(highest) = spec.highest.filter(|highest| !highest.is_finite()) {
         return fail("highest", format!("{highest} found; a finite energy expected"));
     }
     let finest = FINEST * terms.iter().map(|term| term.height.abs()).sum::<f64>();
-    let tolerance = table.tolerance.unwrap_or(DEFAULT_TOLERANCE);
+    let tolerance = spec.tolerance.unwrap_or(DEFAULT_TOLERANCE);
     if !(tolerance.is_finite() && tolerance > 0.0 && tolerance >= finest) {
         return fail(
             "tolerance",
             format!("{tolerance} found; a positive energy of at least {finest:e} expected"),
         );
     }
-    let LandscapeTable { min, max, highest, .. } = table;
+    let LandscapeSpec { min, max, energy, highest, .. } = spec.clone();
     Ok(Landscape { min, max, energy, highest, tolerance })
 }
 

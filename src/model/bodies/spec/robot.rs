@@ -1,0 +1,82 @@
+use super::{BodySpec, FrameSpec, JointSpec};
+use serde::Deserialize;
+use std::path::PathBuf;
+
+/// The robot: a base, and links that hang on it by joints. The table `[robot]`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotSpec {
+    pub(in crate::model::bodies) name: Option<String>,
+    pub(in crate::model::bodies) urdf: Option<PathBuf>,
+    #[serde(default)]
+    pub(in crate::model::bodies) bodies: Vec<BodySpec>,
+    pub(in crate::model::bodies) base: Option<FrameSpec>,
+    #[serde(default)]
+    pub(in crate::model::bodies) links: Vec<LinkSpec>,
+    #[serde(default)]
+    pub(in crate::model::bodies) may_touch: Vec<[String; 2]>,
+}
+
+impl RobotSpec {
+    /// A base without bodies and links.
+    pub fn new() -> RobotSpec {
+        RobotSpec::default()
+    }
+
+    /// The robot of a URDF file, whose links and bodies take the place of all that could be given here. A relative path
+    /// starts where those of meshes do.
+    pub fn urdf(file: impl Into<PathBuf>) -> RobotSpec {
+        RobotSpec { urdf: Some(file.into()), ..RobotSpec::default() }
+    }
+
+    /// The name of the base, by which `may_touch` and joints know it; `base` if nothing is said.
+    pub fn name(self, name: impl Into<String>) -> RobotSpec {
+        RobotSpec { name: Some(name.into()), ..self }
+    }
+
+    /// Adds a body to the base; its frame is the base's.
+    pub fn body(mut self, body: impl Into<BodySpec>) -> RobotSpec {
+        self.bodies.push(body.into());
+        self
+    }
+
+    /// Where a base that does not move stands in the world.
+    pub fn base(self, frame: FrameSpec) -> RobotSpec {
+        RobotSpec { base: Some(frame), ..self }
+    }
+
+    /// Adds a link.
+    pub fn link(mut self, link: LinkSpec) -> RobotSpec {
+        self.links.push(link);
+        self
+    }
+
+    /// Allows two links to touch, which are no neighbours: neighbours always may.
+    pub fn may_touch(mut self, first: impl Into<String>, second: impl Into<String>) -> RobotSpec {
+        self.may_touch.push([first.into(), second.into()]);
+        self
+    }
+}
+
+/// A link and the joint by which it hangs on another: one of `[[robot.links]]`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LinkSpec {
+    pub(in crate::model::bodies) name: String,
+    #[serde(default)]
+    pub(in crate::model::bodies) bodies: Vec<BodySpec>,
+    pub(in crate::model::bodies) joint: JointSpec,
+}
+
+impl LinkSpec {
+    /// A link without bodies. Its name is one that no other link has.
+    pub fn new(name: impl Into<String>, joint: JointSpec) -> LinkSpec {
+        LinkSpec { name: name.into(), bodies: Vec::new(), joint }
+    }
+
+    /// Adds a body; its frame is the link's.
+    pub fn body(mut self, body: impl Into<BodySpec>) -> LinkSpec {
+        self.bodies.push(body.into());
+        self
+    }
+}
