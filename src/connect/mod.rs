@@ -68,10 +68,10 @@ impl Default for WithinKind {
     }
 }
 
-/// The report's: the closest pairs of near components.
+/// Nearest nodes, and the report's closest pairs of near components where these join nothing.
 impl Default for AmongKind {
     fn default() -> AmongKind {
-        AmongKind::ComponentPairs(ComponentPairs::default())
+        AmongKind::NodesAndComponents(NodesAndComponents::default())
     }
 }
 
