@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! cargo bench --bench scenes -- [--seeds N] [--seconds S] [--sampler 'bridge = { deviation = 0.5 }'] \
-//!     [--among 'until-joined = {}'] SCENE …
+//!     [--among 'until-joined = {}'] [--sets-per-round K] SCENE …
 //! ```
 //!
 //! Builds every scene with seeds 1 to N (default 5) in this thread, until all its criteria are met or S
@@ -26,7 +26,10 @@ fn main() {
     for scene in &arguments.scenes {
         let problem = Problem::load(Path::new(scene)).unwrap_or_else(|error| panic!("{error}"));
         let most = u64::from(u32::MAX / 2);
-        let builder = problem.to_builder().most_nodes(most).most_sets(most);
+        let mut builder = problem.to_builder().most_nodes(most).most_sets(most);
+        if let Some(sets) = arguments.sets_per_round {
+            builder = builder.sets_per_round(sets);
+        }
         let builder = builder.change_strategies(|mut strategy| {
             if let Some(sampler) = &arguments.sampler {
                 strategy = strategy.sampler(sampler.clone());

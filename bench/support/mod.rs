@@ -42,11 +42,13 @@ pub struct Arguments {
     /// Strategies get these in the place of their own.
     pub sampler: Option<SamplerKind>,
     pub among: Option<AmongKind>,
+    /// Rounds have so many sets.
+    pub sets_per_round: Option<u64>,
     pub scenes: Vec<String>,
 }
 
-/// Reads `[--seeds N] [--seconds S] [--sampler SAMPLER] [--among AMONG] SCENE …`, methods as a problem
-/// file names them.
+/// Reads `[--seeds N] [--seconds S] [--sampler SAMPLER] [--among AMONG] [--sets-per-round K] SCENE …`, methods as a
+/// problem file names them.
 pub fn arguments(seeds: f64, seconds: f64) -> Arguments {
     arguments_with(seeds, seconds, &[]).0
 }
@@ -57,8 +59,14 @@ pub fn arguments_with(
     seconds: f64,
     further: &[&str],
 ) -> (Arguments, Vec<Option<String>>) {
-    let mut arguments =
-        Arguments { seeds: seeds as u64, seconds, sampler: None, among: None, scenes: Vec::new() };
+    let mut arguments = Arguments {
+        seeds: seeds as u64,
+        seconds,
+        sampler: None,
+        among: None,
+        sets_per_round: None,
+        scenes: Vec::new(),
+    };
     let mut found = vec![None; further.len()];
     let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
     while let Some(word) = words.next() {
@@ -73,6 +81,7 @@ pub fn arguments_with(
             "--seeds" => arguments.seeds = number(next()) as u64,
             "--seconds" => arguments.seconds = number(next()),
             "--sampler" => arguments.sampler = Some(method(&next())),
+            "--sets-per-round" => arguments.sets_per_round = Some(number(next()) as u64),
             "--among" => arguments.among = Some(method(&next())),
             _ => arguments.scenes.push(word),
         }

@@ -1,11 +1,14 @@
 //! Pairs of a new node and an old one near it, for the methods that choose by nodes.
 
 use super::JoinInput;
+use super::joined::Joined;
 use crate::context::Context;
 use crate::finder::{Finder, KNearest};
 use crate::local::{self, Planner};
 use crate::model::Scratch;
-use crate::roadmap::{Components, Configs, Edge};
+use crate::neighbor::{Best, Neighbor};
+use crate::roadmap::{Component, Components, Configs, Edge};
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 /// The roadmap, or an earlier increment of the round.
@@ -32,6 +35,14 @@ pub(super) struct CandidatePair {
     pub old: u32,
 }
 
+impl CandidatePair {
+    /// Orders pairs by distance, ties by the new and then the old node's id.
+    pub fn closest_first(&self, other: &CandidatePair) -> Ordering {
+        let ids = |pair: &CandidatePair| (pair.new, pair.old);
+        self.distance.total_cmp(&other.distance).then_with(|| ids(self).cmp(&ids(other)))
+    }
+}
+
 impl<'a> CandidatePairs<'a> {
     /// `None` where there is nothing to join.
     pub fn new(input: &'a JoinInput) -> Option<CandidatePairs<'a>> {
@@ -51,9 +62,13 @@ impl<'a> CandidatePairs<'a> {
         Some(CandidatePairs { old, new, linked })
     }
 
-    /// The pairs of an old and a new node that have an edge already.
-    pub fn linked(&self) -> impl Iterator<Item = [u32; 2]> {
-        self.linked.iter().map(|(new, old)| [*old, *new])
+    /// Which components are joined before any pair is tried: those that root edges of a growing set join.
+    pub fn joined(&self) -> Joined {
+        let mut joined = Joined::default();
+        for (new, old) in &self.linked {
+            joined.unite([*old, *new].map(|node| self.component(node)));
+        }
+        joined
     }
 
     /// Each new node in order with its `neighbors` nearest old ones, nearest first, ties by id.
@@ -108,6 +123,59 @@ impl<'a> CandidatePairs<'a> {
     pub fn component(&self, node: u32) -> u32 {
         let part = self.part(node);
         part.first + part.components.of_node(node - part.first).name
+    }
+
+    /// The components, see [`CandidatePairs::component`], of a pair's two nodes.
+    pub fn components(&self, pair: CandidatePair) -> [u32; 2] {
+        [pair.old, pair.new].map(|node| self.component(node))
+    }
+
+    /// The old components whose centres are nearest to that of a new one, nearest first, ties by name: at most
+    /// `count` of the roadmap's and then at most `count` of the round's earlier increments. The two are
+    /// chosen apart, since the components of a round's increments, which are small and lie everywhere, would
+    /// else take the places of the roadmap's, and a set that is joined to its round only is joined to little.
+    pub fn nearest_components(&self, cx: &Context, new: &Component, count: usize) -> Vec<u32> {
+        let mut nearest = Vec::new();
+        let (roadmap, increments) = self.old.split_at(1);
+        for blocks in [roadmap, increments] {
+            let mut best = Best::new(count);
+            for block in blocks {
+                for near in block.components.nearest(&cx.space, &new.centre, count) {
+                    best.offer(Neighbor { id: block.first + near.id, ..near });
+                }
+            }
+            nearest.extend(best.into_items().into_iter().map(|near| near.id));
+        }
+        nearest
+    }
+
+    /// The at most `count` closest pairs of a new component's nodes and those of the old component of a name, closest
+    /// first.
+    pub fn closest_pairs(
+        &self,
+        cx: &Context,
+        new: &Component,
+        old: u32,
+        count: usize,
+    ) -> Vec<CandidatePair> {
+        let block = self.part(old);
+        let component = block.components.of_node(old - block.first);
+        let first = (self.new.configs, &new.members[..]);
+        let second = (block.configs, component);
+        let pairs = block.components.closest_pairs(&cx.space, first, second, count);
+        let named = pairs.into_iter().map(|pair| CandidatePair {
+            distance: pair.distance,
+            new: self.new.first + pair.first,
+            old: block.first + pair.second,
+        });
+        named.collect()
+    }
+
+    /// The components of the new increment, in the order of their smallest ids.
+    pub fn new_components(&self) -> Vec<&'a Component> {
+        let mut components: Vec<&Component> = self.new.components.iter().collect();
+        components.sort_by_key(|component| component.name);
+        components
     }
 
     fn config(&self, node: u32) -> &[f64] {

@@ -1,11 +1,10 @@
-use super::candidates::{CandidatePair, CandidatePairs, NodeBlock};
+use super::candidates::CandidatePairs;
 use super::{Among, JoinInput, default_planners};
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::Scratch;
-use crate::neighbor::{Best, Neighbor};
-use crate::roadmap::{Component, Edge};
+use crate::roadmap::Edge;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +13,8 @@ use serde::{Deserialize, Serialize};
 /// For each of these component pairs, we attempt to connect the 10 nearest pairs of nodes."*
 ///
 /// The distance of two components is that of their centres; ties go to the component with the
-/// smaller node id. All pairs are tried, nearest first, and all successes kept. The new components
+/// smaller node id. Of a round with several sets the nearest are chosen among the roadmap's components and, apart,
+/// among those of the round's earlier sets. All pairs are tried, nearest first, and all successes kept. The new components
 /// take their turn in the order of their smallest node ids.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
@@ -51,24 +51,11 @@ impl Default for ComponentPairs {
 impl Among for ComponentPairs {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
         let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };
-        let new = &candidates.new;
-        let mut new_components: Vec<&Component> = new.components.iter().collect();
-        new_components.sort_by_key(|component| component.name);
         let mut edges = Vec::new();
-        for component in new_components {
-            for name in self.nearest(cx, &candidates.old, component) {
-                let old = candidates.part(name);
-                let near = old.components.of_node(name - old.first);
-                let first = (new.configs, &component.members[..]);
-                let count = self.pairs as usize;
-                for pair in
-                    old.components.closest_pairs(&cx.space, first, (old.configs, near), count)
-                {
-                    let pair = CandidatePair {
-                        distance: pair.distance,
-                        new: new.first + pair.first,
-                        old: old.first + pair.second,
-                    };
+        for component in candidates.new_components() {
+            let count = self.components as usize;
+            for old in candidates.nearest_components(cx, component, count) {
+                for pair in candidates.closest_pairs(cx, component, old, self.pairs as usize) {
                     edges.extend(candidates.connect(cx, &self.planners, pair, scratch));
                 }
             }
@@ -84,24 +71,5 @@ impl Among for ComponentPairs {
             return Some(("pairs", "0".to_owned(), "at least 1"));
         }
         local::complaint(&self.planners)
-    }
-}
-
-impl ComponentPairs {
-    /// The names, after the round, of the old components nearest to a new one, nearest first.
-    fn nearest(
-        &self,
-        cx: &Context,
-        old: &[NodeBlock],
-        new: &Component,
-    ) -> impl Iterator<Item = u32> {
-        let count = self.components as usize;
-        let mut best = Best::new(count);
-        for part in old {
-            for near in part.components.nearest(&cx.space, &new.centre, count) {
-                best.offer(Neighbor { id: part.first + near.id, ..near });
-            }
-        }
-        best.into_items().into_iter().map(|near| near.id)
     }
 }

@@ -20,9 +20,11 @@
 
 mod candidates;
 mod component_pairs;
+mod joined;
 mod nearest;
 mod nearest_nodes;
 mod neighbors;
+mod nodes_and_components;
 mod until_joined;
 
 methods! {
@@ -39,7 +41,8 @@ methods! {
         ComponentPairs(component_pairs::ComponentPairs),
         NearestNodes(nearest_nodes::NearestNodes),
         UntilJoined(until_joined::UntilJoined),
-        Neighbors(neighbors::Neighbors), // new ones at the end, since ledgers know methods by number
+        Neighbors(neighbors::Neighbors),
+        NodesAndComponents(nodes_and_components::NodesAndComponents), // new ones at the end, since ledgers know methods by number
     }
 }
 
@@ -47,6 +50,7 @@ pub use component_pairs::ComponentPairs;
 pub use nearest::Nearest;
 pub use nearest_nodes::NearestNodes;
 pub use neighbors::Neighbors;
+pub use nodes_and_components::NodesAndComponents;
 pub use until_joined::UntilJoined;
 
 use crate::context::Context;
@@ -64,10 +68,10 @@ impl Default for WithinKind {
     }
 }
 
-/// The report's: the closest pairs of near components.
+/// Nearest nodes, and the report's closest pairs of near components where these join nothing.
 impl Default for AmongKind {
     fn default() -> AmongKind {
-        AmongKind::ComponentPairs(ComponentPairs::default())
+        AmongKind::NodesAndComponents(NodesAndComponents::default())
     }
 }
 

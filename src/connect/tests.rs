@@ -2,6 +2,7 @@ use super::*;
 use crate::img::{Setup, build};
 use crate::model::Asked;
 use crate::problem::Problem;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 const NEIGHBORS: u32 = 4;
@@ -106,4 +107,111 @@ fn nothing_is_joined_to_nothing() {
         let empty = JoinInput { roadmap: input.roadmap.clone(), increments: Vec::new() };
         assert_eq!(joined(&setup, &empty, way).0, []);
     }
+}
+
+/// The components of everything before the round and in it, with joining edges.
+fn components(setup: &Setup, input: &JoinInput, joins: &[Edge]) -> Components {
+    let (configs, inner) = whole(input);
+    Components::of(setup.context().space(), &configs, &[&inner[..], joins].concat())
+}
+
+fn names(components: &Components) -> Vec<u32> {
+    (0..components.nodes()).map(|node| components.of_node(node).name).collect()
+}
+
+#[test]
+fn nodes_and_components_join_what_either_joins() {
+    let (setup, input) = input();
+    let nodes = NearestNodes { neighbors: NEIGHBORS, ..NearestNodes::default() };
+    let pairs = ComponentPairs::default();
+    let by = |cycles| NodesAndComponents {
+        neighbors: NEIGHBORS,
+        cycles,
+        ..NodesAndComponents::default()
+    };
+    let (by_nodes, nodes_asked) = joined(&setup, &input, &nodes);
+    let (by_pairs, pairs_asked) = joined(&setup, &input, &pairs);
+    let either = [by_nodes, by_pairs].concat();
+    let expected = names(&components(&setup, &input, &either));
+    let tried_by_either: BTreeSet<(u32, u32)> = either.iter().map(|e| (e.low, e.high)).collect();
+    let mut counts = Vec::new();
+    for cycles in [0, 1, NEIGHBORS] {
+        let (edges, asked) = joined(&setup, &input, &by(cycles));
+        assert_eq!(names(&components(&setup, &input, &edges)), expected);
+        assert!(asked.motions <= nodes_asked.motions + pairs_asked.motions);
+        assert!(edges.iter().all(|edge| tried_by_either.contains(&(edge.low, edge.high))));
+        counts.push(edges.len());
+    }
+    // Without cycles a forest; with all of them every edge that nearest nodes find.
+    let (apart, after) = (components(&setup, &input, &[]), components(&setup, &input, &either));
+    assert_eq!(counts[0], apart.count() - after.count());
+    assert!(counts[0] < counts[1] && counts[1] < counts[2]);
+}
+
+/// A small disc in a room of 100 by 10, with the walls that are given by their x.
+fn room(walls: &[f64]) -> Setup {
+    let mut text = "space = { motion = \"translation-2d\", min = [0.0, 0.0], max = [100.0, 10.0], \
+                    bounds = \"reference\" }\n\
+                    robot = { bodies = [{ shape = { sphere = { radius = 0.1 } } }] }\n"
+        .to_owned();
+    for x in walls {
+        text += &format!(
+            "[[obstacles]]\nshape = {{ box = {{ size = [0.2, 20.0, 1.0] }} }}\nposition = [{x:?}, 5.0, 0.0]\n"
+        );
+    }
+    Setup::new(Problem::parse(Path::new("room.toml"), &text).unwrap())
+}
+
+/// Milestones, and edges among them.
+type Set<'a> = (&'a [[f64; 2]], &'a [(u32, u32)]);
+
+/// A roadmap of one set, and the sets of the round after it.
+fn after(setup: &Setup, roadmap: Set, round: &[Set]) -> JoinInput {
+    let space = setup.context().space();
+    let increment = |(points, edges): Set| {
+        let mut increment = Increment::empty(2);
+        points.iter().for_each(|point| increment.configs.push(point));
+        increment.edges = edges.iter().map(|(a, b)| Edge::metric(*a, *b, 0, 1.0)).collect();
+        increment
+    };
+    let mut old = Roadmap::new(space);
+    old.fold_round(space, [(&increment(roadmap), &[][..])]);
+    let built = |set: &Set| Arc::new(Built::new(setup.context(), Arc::new(increment(*set))));
+    JoinInput { roadmap: Arc::new(old), increments: round.iter().map(built).collect() }
+}
+
+fn ends(edges: &[Edge]) -> Vec<(u32, u32)> {
+    edges.iter().map(|edge| (edge.low, edge.high)).collect()
+}
+
+#[test]
+fn a_node_whose_nearest_are_behind_a_wall_is_joined_by_components() {
+    let setup = room(&[50.0]);
+    let behind: Vec<[f64; 2]> = (0..12).map(|i| [49.0, 2.0 + 0.5 * f64::from(i)]).collect();
+    let chain: Vec<(u32, u32)> = (0..11).map(|i| (i, i + 1)).collect();
+    let points = [&behind[..], &[[90.0, 5.0]]].concat();
+    let input = after(&setup, (&points, &chain), &[(&[[51.0, 5.0]], &[])]);
+    assert_eq!(joined(&setup, &input, &NearestNodes::default()).0, []);
+    let edges = joined(&setup, &input, &NodesAndComponents::default()).0;
+    assert_eq!(ends(&edges), [(12, 13)]);
+}
+
+#[test]
+fn a_component_whose_centre_is_far_away_is_joined_by_its_nodes() {
+    let setup = room(&[97.0]);
+    // A component with a node at either end, and three of one node each beyond a wall, whose centres are nearer.
+    let points = [[1.0, 5.0], [99.0, 5.0], [92.0, 2.0], [92.0, 5.0], [92.0, 8.0]];
+    let input = after(&setup, (&points, &[(0, 1)]), &[(&[[98.0, 5.0]], &[])]);
+    assert_eq!(joined(&setup, &input, &ComponentPairs::default()).0, []);
+    let edges = joined(&setup, &input, &NodesAndComponents::default()).0;
+    assert_eq!(ends(&edges), [(1, 5)]);
+}
+
+#[test]
+fn the_components_of_a_round_take_no_places_of_the_roadmaps() {
+    let setup = room(&[]);
+    let near: &[[f64; 2]] = &[[48.0, 5.0], [49.0, 5.0], [51.0, 5.0], [52.0, 5.0]];
+    let input = after(&setup, (&[[5.0, 5.0]], &[]), &[(near, &[]), (&[[50.0, 5.0]], &[])]);
+    let way = ComponentPairs { components: 2, ..ComponentPairs::default() };
+    assert_eq!(ends(&joined(&setup, &input, &way).0), [(0, 5), (2, 5), (3, 5)]);
 }

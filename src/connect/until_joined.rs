@@ -1,4 +1,4 @@
-use super::candidates::CandidatePairs;
+use super::candidates::{CandidatePair, CandidatePairs};
 use super::nearest_nodes::{complaint, default_neighbors};
 use super::{Among, JoinInput, default_planners};
 use crate::context::Context;
@@ -8,7 +8,6 @@ use crate::model::Scratch;
 use crate::roadmap::Edge;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// The pairs of [`NearestNodes`](super::NearestNodes), closest first, but each only while its two
 /// components are not joined yet: the fewest edges that connect what can be connected, as Kruskal's
@@ -38,21 +37,12 @@ impl Among for UntilJoined {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
         let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };
         let mut pairs = candidates.nearest(cx, self.neighbors);
-        pairs.sort_by(|a, b| {
-            a.distance.total_cmp(&b.distance).then((a.new, a.old).cmp(&(b.new, b.old)))
-        });
-        let mut joined = Joined::default();
-        // What the edges with which a growing set was made have joined.
-        for pair in candidates.linked() {
-            let sides = pair.map(|node| joined.root(candidates.component(node)));
-            if sides[0] != sides[1] {
-                joined.unite(sides);
-            }
-        }
+        pairs.sort_by(CandidatePair::closest_first);
+        let mut joined = candidates.joined();
         let mut edges = Vec::new();
         for pair in pairs {
-            let sides = [pair.old, pair.new].map(|node| joined.root(candidates.component(node)));
-            if sides[0] == sides[1] {
+            let sides = candidates.components(pair);
+            if joined.same(sides) {
                 continue;
             }
             if let Some(edge) = candidates.connect(cx, &self.planners, pair, scratch) {
@@ -65,26 +55,5 @@ impl Among for UntilJoined {
 
     fn complaint(&self) -> Option<Complaint> {
         complaint(self.neighbors, &self.planners)
-    }
-}
-
-/// Which components an increment's own edges have joined, by a smaller name each.
-#[derive(Default)]
-struct Joined(BTreeMap<u32, u32>);
-
-impl Joined {
-    fn root(&mut self, name: u32) -> u32 {
-        let mut root = name;
-        while let Some(next) = self.0.get(&root) {
-            root = *next;
-        }
-        if root != name {
-            self.0.insert(name, root);
-        }
-        root
-    }
-
-    fn unite(&mut self, [a, b]: [u32; 2]) {
-        self.0.insert(a.max(b), a.min(b));
     }
 }
