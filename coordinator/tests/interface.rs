@@ -112,11 +112,13 @@ fn from_values() -> ProblemBuilder {
     let space = SpaceSpec::new(BaseJoint::Rigid3d, [0.0; 3], [5.0; 3], BoundsMeaning::Reference);
     let bodies = BodiesSpec::new(space.resolution(0.1), RobotSpec::new().body(tetrahedron()))
         .obstacle(BodySpec::new(tetrahedron()).at([2.0, 2.0, 2.0]));
+    let query = EvaluatorKind::Query(Query::default());
     Problem::builder("values", bodies)
         .query([0.5, 0.5, 4.0, 1.0, 0.0, 0.0, 0.0], [4.0, 2.5, 4.0, 0.5, 0.5, -0.5, 0.5])
         .sets_per_round(2)
         .strategy(StrategySpec::sampled("near", SamplerKind::default()).nodes(10))
-        .evaluators([EvaluatorKind::Not(Not(Box::new(EvaluatorKind::Query(Query::default()))))])
+        // They contradict each other, so that every round is judged up to the limit.
+        .evaluators([query.clone(), EvaluatorKind::Not(Not(Box::new(query)))])
         .most_sets(8)
 }
 

@@ -208,7 +208,7 @@ impl Problem {
     /// The problem with other bounds on the build.
     ///
     /// # Errors
-    /// When a limit is none, as [`Limits::complaint`] says.
+    /// When one of them bounds nothing: no nodes, no sets, or seconds that are not a positive number.
     pub fn with_limits(self, limits: Limits) -> Result<Problem, ProblemError> {
         match limits.complaint() {
             Some((key, message)) => Err(ProblemError::pathless(format!("limits.{key}: {message}"))),
