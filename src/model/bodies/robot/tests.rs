@@ -89,7 +89,7 @@ fn neighbours_fixed_links_and_links_across_an_empty_one_may_touch() {
 
 /// A tree of links of which most have a ball somewhere.
 fn with_balls(stream: &mut Stream, links: u32, near: u32) -> Robot {
-    let mut robot = drawn_robot(stream, BaseJoint::Rigid3d, (links, near));
+    let mut robot = drawn_robot(stream, BaseJoint::Rigid3d, links, near);
     for link in &mut robot.links {
         if stream.unit() < 0.7 {
             let translation = [0; 3].map(|_| stream.normal());

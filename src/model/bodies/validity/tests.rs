@@ -41,7 +41,8 @@ fn validity(
         space.clone(),
         &Robot::rigid(motion, robot.to_vec()),
         bounds,
-        (MotionChecking::Swept, 0.05),
+        MotionChecking::Swept,
+        0.05,
         obstacles,
     );
     (space, validity)
@@ -230,12 +231,12 @@ fn links_that_are_not_neighbours_must_not_touch_unless_they_may() {
     let closed = [turn, turn, turn];
     let space = robot.space(bounds.min, bounds.max, 1.0);
     let validity =
-        BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.05), &[]);
+        BodyValidity::new(space.clone(), &robot, bounds, MotionChecking::Swept, 0.05, &[]);
     assert!(valid(&validity, &straight));
     assert!(!valid(&validity, &closed));
     assert!(validity.motion(&straight, &[2.9, 2.9, 2.9], 1, &mut Scratch::new()).is_none());
     robot.may_touch = vec![(0, 2), (0, 3), (1, 3)];
-    let validity = BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.05), &[]);
+    let validity = BodyValidity::new(space, &robot, bounds, MotionChecking::Swept, 0.05, &[]);
     assert!(valid(&validity, &closed));
 }
 
@@ -247,7 +248,7 @@ fn a_long_chain_stores_one_entry_per_joint_and_two_numbers_per_pair() {
     let far = 2.0 * links as f64;
     let bounds = Bounds { min: [-far; 3], max: [far; 3], meaning: BoundsMeaning::Body };
     let space = robot.space(bounds.min, bounds.max, 1.0);
-    let validity = BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.05), &[]);
+    let validity = BodyValidity::new(space, &robot, bounds, MotionChecking::Swept, 0.05, &[]);
     assert_eq!(validity.hops.len(), links - 1);
     assert_eq!(validity.links.len(), links);
     assert_eq!(validity.self_pairs.len(), (links - 1) * (links - 2) / 2);
@@ -265,8 +266,7 @@ fn a_linkage_collides_with_obstacles_and_leaves_the_bounds_by_any_link() {
     let bounds = Bounds { min: [-4.0, -1.5, -1.0], max: [4.0; 3], meaning: BoundsMeaning::Body };
     let space = robot.space(bounds.min, bounds.max, 1.0);
     let obstacle = [cuboid([0.5; 3], [2.5, 0.0, 0.0])];
-    let validity =
-        BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.05), &obstacle);
+    let validity = BodyValidity::new(space, &robot, bounds, MotionChecking::Swept, 0.05, &obstacle);
     assert!(!valid(&validity, &[0.0, 0.0]), "the last link lies in the obstacle");
     assert!(valid(&validity, &[0.0, 1.5]));
     assert!(valid(&validity, &[1.0, 0.0]));
@@ -283,7 +283,7 @@ proptest! {
             let robot = chain(4, motion);
             let bounds = Bounds { min: [-9.0; 3], max: [9.0; 3], meaning: BoundsMeaning::Reference };
             let space = robot.space(bounds.min, bounds.max, 1.0);
-            let validity = BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.3), &[]);
+            let validity = BodyValidity::new(space.clone(), &robot, bounds, MotionChecking::Swept, 0.3, &[]);
             let mut stream = Seed::of_set(5, "linkage steps", ordinal).stream(Purpose::Sampling);
             let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);
             let mut q = a.clone();

@@ -115,7 +115,7 @@ proptest! {
         let bounds = Bounds { min: [-5.0; 3], max: [5.0; 3], meaning: BoundsMeaning::Reference };
         let space = robot.space(bounds.min, bounds.max, 1.0);
         let validity =
-            BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.1), &obstacles);
+            BodyValidity::new(space.clone(), &robot, bounds, MotionChecking::Swept, 0.1, &obstacles);
         let still = Group::new(obstacles.iter()).unwrap();
         let mover = Group::new(robot.bodies()).unwrap();
         let meeting =
@@ -131,7 +131,7 @@ proptest! {
             for second in &still.tree.elements {
                 for first in &mover.tree.elements {
                     let corners = first.corners.map(|corner| frame.point(corner));
-                    let way = meeting.nearest((first, &corners), second, &stance);
+                    let way = meeting.nearest(first, &corners, second, &stance);
                     if way.distance < least.0 {
                         least = (way.distance, second.piece as usize);
                     }
@@ -162,7 +162,7 @@ fn distances_are_what_they_are() {
     let bounds = Bounds { min: [-5.0; 3], max: [5.0; 3], meaning: BoundsMeaning::Reference };
     let space = robot.space(bounds.min, bounds.max, 1.0);
     let validity =
-        BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.1), &obstacles);
+        BodyValidity::new(space.clone(), &robot, bounds, MotionChecking::Swept, 0.1, &obstacles);
     let clearance = |q: [f64; 3]| validity.clearance(&q, &mut Scratch::new()).unwrap();
     let beside = clearance([0.0, 1.0, 0.2]);
     assert_eq!((beside.distance, beside.obstacle), (0.25, 0));
@@ -171,6 +171,6 @@ fn distances_are_what_they_are() {
     let above = clearance([3.3, 0.0, 1.0]);
     assert!((above.distance - 0.25).abs() < 1e-9 && above.obstacle == 1, "{above:?}");
     assert_eq!(clearance([3.0, 0.4, 0.0]).distance, 0.0);
-    let validity = BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.1), &[]);
+    let validity = BodyValidity::new(space, &robot, bounds, MotionChecking::Swept, 0.1, &[]);
     assert_eq!(validity.clearance(&[0.0; 3], &mut Scratch::new()), None);
 }

@@ -1,6 +1,6 @@
 //! Continuous collision detection against discrete checks at much finer steps.
 
-use super::super::meet::Group;
+use super::super::meet::{Group, Meeting};
 use super::super::tests::{chain, cuboid, cuboid_mesh, solid};
 use super::super::{BodyScratch, BodyValidity, Bounds, BoundsMeaning, MotionChecking, TOLERANCE};
 use super::{Clock, Walls};
@@ -28,9 +28,8 @@ const FINER: u64 = 16;
 fn scene(name: &'static str, robot: &Robot, obstacles: &[Body], meaning: BoundsMeaning) -> Scene {
     let bounds = Bounds { min: [-3.0; 3], max: [3.0; 3], meaning };
     let space = robot.space(bounds.min, bounds.max, 1.0);
-    let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled].map(|edges| {
-        BodyValidity::new(space.clone(), robot, bounds, (edges, RESOLUTION), obstacles)
-    });
+    let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled]
+        .map(|edges| BodyValidity::new(space.clone(), robot, bounds, edges, RESOLUTION, obstacles));
     let reversed: Vec<Body> = obstacles
         .iter()
         .rev()
@@ -43,8 +42,8 @@ fn scene(name: &'static str, robot: &Robot, obstacles: &[Body], meaning: BoundsM
             _ => body.clone(),
         })
         .collect();
-    let promise = (MotionChecking::Swept, RESOLUTION);
-    let reversed = BodyValidity::new(space.clone(), robot, bounds, promise, &reversed);
+    let promise = MotionChecking::Swept;
+    let reversed = BodyValidity::new(space.clone(), robot, bounds, promise, RESOLUTION, &reversed);
     Scene { name, space, swept, sampled, reversed }
 }
 
@@ -152,22 +151,21 @@ impl BodyValidity {
         let time = 1.0 / samples as f64;
         let finest = self.resolution / TOLERANCE as f64;
         let BodyScratch { timeline, stacks, .. } = scratch.of_model();
-        let clock = &mut Clock::new((&self.space, &self.robot), (a, b), samples, timeline);
+        let clock = &mut Clock::new(&self.space, &self.robot, (a, b), samples, timeline);
         let reach = |group: &Group, rates: &Rates| {
             group.tree.elements.iter().fold(0.0f64, |most, e| most.max(e.reach(rates)))
         };
         (0..=samples).any(|sample| {
             let stance = clock.at(sample);
             self.meetings().any(|meeting| {
-                let links = (meeting.still_link, meeting.mover_link);
-                let rates = self.hops.rates(links, (a, b), &mut stacks.descent);
+                let Meeting { mover_link, still_link, .. } = meeting;
+                let rates = self.hops.rates(still_link, mover_link, (a, b), &mut stacks.descent);
                 let tolerance = 0.5 * time * rates.speed_at(reach(meeting.mover, &rates));
                 let way = meeting.nearer(stance, &mut stacks.pairs, None);
                 way.is_some_and(|best| best.clearance.distance <= tolerance + finest + self.slack)
             }) || self.bounds.meaning == BoundsMeaning::Body
                 && self.links.iter().any(|moving| {
-                    let seen = (None, moving.link);
-                    let rates = self.hops.rates(seen, (a, b), &mut stacks.descent);
+                    let rates = self.hops.rates(None, moving.link, (a, b), &mut stacks.descent);
                     let space = &moving.group.tree.nodes[0].space;
                     let far = space.radius + rates.distance(space.centre);
                     let between = 0.5 * time * rates.speed_at(far);
