@@ -4,7 +4,7 @@ use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::Scratch;
-use crate::neighbor::{Best, Neighbor};
+use crate::neighbor::{Best, Neighbor, Subset};
 use crate::roadmap::{Component, Edge};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
@@ -59,10 +59,9 @@ impl Among for ComponentPairs {
             for name in self.nearest(cx, &candidates.old, component) {
                 let old = candidates.part(name);
                 let near = old.components.of_node(name - old.first);
-                let first = (new.configs, &component.members[..]);
+                let first = Subset { all: new.configs, ids: &component.members };
                 let count = self.pairs as usize;
-                for pair in
-                    old.components.closest_pairs(&cx.space, first, (old.configs, near), count)
+                for pair in old.components.closest_pairs(&cx.space, first, old.configs, near, count)
                 {
                     let pair = CandidatePair {
                         distance: pair.distance,
@@ -78,10 +77,10 @@ impl Among for ComponentPairs {
 
     fn complaint(&self) -> Option<Complaint> {
         if self.components == 0 {
-            return Some(("components", "0".to_owned(), "at least 1"));
+            return Some(Complaint::new("components", "0", "at least 1"));
         }
         if self.pairs == 0 {
-            return Some(("pairs", "0".to_owned(), "at least 1"));
+            return Some(Complaint::new("pairs", "0", "at least 1"));
         }
         local::complaint(&self.planners)
     }

@@ -90,10 +90,10 @@ impl Evaluator for InformationGain {
 
     fn complaint(&self) -> Option<Complaint> {
         if self.rounds == 0 {
-            return Some(("rounds", "0".to_owned(), "at least 1"));
+            return Some(Complaint::new("rounds", "0", "at least 1"));
         }
         let fits = self.percent > 0.0 && self.percent < 100.0;
-        (!fits).then(|| ("percent", self.percent.to_string(), "more than 0, less than 100"))
+        (!fits).then(|| Complaint::new("percent", self.percent, "more than 0, less than 100"))
     }
 }
 

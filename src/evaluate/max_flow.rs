@@ -101,19 +101,15 @@ impl Evaluator for MaxFlow {
         let (flow, near) = network.flow(&sources, &sinks);
 
         let real = |capacity: u64| capacity as f64 / SCALE / least;
+        let severed = |from, to, weight| CutEdge { from, to, capacity: real(whole(weight)) };
         let mut cut = Vec::new();
         for edge in &edges {
             let (there, back) = (edge.cost.forward(), edge.cost.backward());
-            let severed = match [edge.low, edge.high].map(|node| near[node as usize]) {
-                [true, false] => Some((edge.low, edge.high, there)),
-                [false, true] => Some((edge.high, edge.low, back)),
+            cut.extend(match [edge.low, edge.high].map(|node| near[node as usize]) {
+                [true, false] => Some(severed(edge.low, edge.high, there)),
+                [false, true] => Some(severed(edge.high, edge.low, back)),
                 _ => None,
-            };
-            cut.extend(severed.map(|(from, to, weight)| CutEdge {
-                from,
-                to,
-                capacity: real(whole(weight)),
-            }));
+            });
         }
         let asked = scratch.take_asked();
         Verdict { cut: Some(cut), ..Verdict::at_least(self.flow, real(flow), asked) }
@@ -129,14 +125,14 @@ impl Evaluator for MaxFlow {
 
     fn complaint(&self) -> Option<Complaint> {
         if !(self.flow > 0.0 && self.flow.is_finite()) {
-            return Some(("flow", self.flow.to_string(), "a positive number"));
+            return Some(Complaint::new("flow", self.flow, "a positive number"));
         }
         if let Some(least) = self.least_weight.filter(|least| !(1e-30..=1e30).contains(least)) {
-            return Some(("least_weight", least.to_string(), "1e-30 to 1e30"));
+            return Some(Complaint::new("least_weight", least, "1e-30 to 1e30"));
         }
         let most = self.from.len().max(self.to.len());
         if most > ENDS_MAX {
-            return Some(("from, to", most.to_string(), "at most 10000 configurations"));
+            return Some(Complaint::new("from, to", most, "at most 10000 configurations"));
         }
         self.how().complaint()
     }

@@ -57,16 +57,16 @@ impl Samples {
     pub(super) fn complaint(&self) -> Option<Complaint> {
         match self {
             Samples::Random(count) if !(2..=SAMPLES_MAX).contains(count) => {
-                Some(("samples.random", count.to_string(), "2 to 1000000"))
+                Some(Complaint::new("samples.random", count, "2 to 1000000"))
             }
             Samples::Listed(list) if list.len() < 2 => {
-                Some(("samples.listed", list.len().to_string(), "at least 2 configurations"))
+                Some(Complaint::new("samples.listed", list.len(), "at least 2 configurations"))
             }
             Samples::Drawn(parts) if parts.iter().any(|part| part.count == 0) => {
-                Some(("samples.drawn: count", "0".to_owned(), "at least 1"))
+                Some(Complaint::new("samples.drawn: count", "0", "at least 1"))
             }
             Samples::Drawn(_) if !(2..=SAMPLES_MAX as usize).contains(&self.count()) => {
-                Some(("samples.drawn", self.count().to_string(), "2 to 1000000 together"))
+                Some(Complaint::new("samples.drawn", self.count(), "2 to 1000000 together"))
             }
             Samples::Drawn(parts) => {
                 parts.iter().find_map(|part| part.sampler.method().complaint())
@@ -170,7 +170,7 @@ pub(super) fn complaint(
     attachment: &Attachment,
 ) -> Option<Complaint> {
     if !(percent > 0.0 && percent <= 100.0) {
-        return Some(("percent", percent.to_string(), "more than 0, at most 100"));
+        return Some(Complaint::new("percent", percent, "more than 0, at most 100"));
     }
     samples.complaint().or_else(|| attachment.complaint())
 }

@@ -92,18 +92,18 @@ impl Generator for ExpansionStep {
 
     fn complaint(&self) -> Option<Complaint> {
         if !(self.step > 0.0 && self.step <= crate::scene::LENGTH_MAX) {
-            return Some(("step", self.step.to_string(), "a positive length"));
+            return Some(Complaint::new("step", self.step, "a positive length"));
         }
         if self.halvings > HALVINGS_MAX {
-            return Some(("halvings", self.halvings.to_string(), "0 to 30"));
+            return Some(Complaint::new("halvings", self.halvings, "0 to 30"));
         }
         if !(1..=STEPS_MAX).contains(&self.steps) {
-            return Some(("steps", self.steps.to_string(), "1 to 1000000"));
+            return Some(Complaint::new("steps", self.steps, "1 to 1000000"));
         }
         if self.bounces == 0 {
-            return Some(("bounces", "0".to_owned(), "at least 1"));
+            return Some(Complaint::new("bounces", "0", "at least 1"));
         }
-        (self.attempts == 0).then(|| ("attempts", "0".to_owned(), "at least 1"))
+        (self.attempts == 0).then(|| Complaint::new("attempts", "0", "at least 1"))
     }
 }
 

@@ -87,9 +87,9 @@ impl Generator for Reuse {
 
     fn complaint(&self) -> Option<Complaint> {
         if !(self.spread > 0.0 && self.spread <= crate::scene::LENGTH_MAX) {
-            return Some(("spread", self.spread.to_string(), "a positive length"));
+            return Some(Complaint::new("spread", self.spread, "a positive length"));
         }
-        (self.attempts == 0).then(|| ("attempts", "0".to_owned(), "at least 1"))
+        (self.attempts == 0).then(|| Complaint::new("attempts", "0", "at least 1"))
     }
 }
 

@@ -1,6 +1,6 @@
 use super::{Job, Setup, Task};
 use crate::connect::{Built, JoinInput};
-use crate::roadmap::{Edge, Increment, Roadmap};
+use crate::roadmap::{Edge, Increment, Roadmap, SetToFold};
 use crate::shelf::Shelf;
 use std::sync::Arc;
 
@@ -90,7 +90,8 @@ impl Replica {
             Err(shared) => shared.components.clone(),
         });
         let sets = kept.iter().zip(components).zip(joins);
-        let sets = sets.map(|((increment, components), joins)| (&**increment, components, joins));
+        let sets =
+            sets.map(|((increment, components), joins)| SetToFold { increment, components, joins });
         Arc::make_mut(&mut self.roadmap).fold_components(&setup.cx.space, sets);
     }
 

@@ -248,8 +248,9 @@ proptest! {
                     }
                 }
                 let first: Vec<u32> = (0..others.len() as u32).collect();
-                let first = (&others, &first[..]);
-                let expected = closest_pairs(&space, first, (&configs, &some), k);
+                let first = Subset { all: &others, ids: &first };
+                let second = Subset { all: &configs, ids: &some };
+                let expected = closest_pairs(&space, first, second, k);
                 let found = index.closest_pairs(&space, first, &searched, ids.end, k);
                 prop_assert_eq!(found, expected, "{:?} {:?}", steps, wanted);
             }

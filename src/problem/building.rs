@@ -57,8 +57,8 @@ pub(super) fn strategies_of(
         };
         let among = ("among", table.among.method().complaint());
         for (role, complaint) in complaints.into_iter().chain([among]) {
-            if let Some((key, found, expected)) = complaint {
-                return fail(&[role], format!("{key} = {found} found; {expected} expected"));
+            if let Some(complaint) = complaint {
+                return fail(&[role], complaint.to_string());
             }
         }
         strategies.push(Strategy {
@@ -175,9 +175,8 @@ pub(super) fn evaluators_of(
     for (index, evaluator) in evaluators.iter().enumerate() {
         let place = [Key("evaluators"), Index(index)];
         let method = evaluator.method();
-        if let Some((key, found, expected)) = method.complaint() {
-            let message = format!("{key} = {found} found; {expected} expected");
-            return Err(source.error(&place, message));
+        if let Some(complaint) = method.complaint() {
+            return Err(source.error(&place, complaint.to_string()));
         }
         if method.needs_query() && file.query.is_none() {
             let message = format!("the {} evaluator needs a [query] table", method.name());

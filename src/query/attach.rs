@@ -19,7 +19,7 @@ pub(crate) fn attach(
     scratch: &mut Scratch,
 ) -> Vec<Edge> {
     let near = roadmap.k_nearest(&cx.space, q, attachment.neighbors as usize);
-    to_nodes(cx, roadmap, (q, id), near.iter().map(|near| near.id), attachment, scratch)
+    to_nodes(cx, roadmap, q, id, near.iter().map(|near| near.id), attachment, scratch)
 }
 
 /// The same, to all nodes that were among the nearest at the end of some round, in the order of their ids. What is
@@ -44,13 +44,14 @@ pub(crate) fn attach_for_good(
         next = extent.nodes;
         near.extend(best.clone().into_items().into_iter().map(|near| near.id));
     }
-    to_nodes(cx, roadmap, (q, id), near.into_iter(), attachment, scratch)
+    to_nodes(cx, roadmap, q, id, near.into_iter(), attachment, scratch)
 }
 
 fn to_nodes(
     cx: &Context,
     roadmap: &Roadmap,
-    (q, id): (&[f64], u32),
+    q: &[f64],
+    id: u32,
     nodes: impl Iterator<Item = u32>,
     attachment: &Attachment,
     scratch: &mut Scratch,

@@ -52,7 +52,7 @@ impl Attachment {
     /// What is wrong with it.
     pub fn complaint(&self) -> Option<Complaint> {
         if self.neighbors == 0 {
-            return Some(("neighbors", "0".to_owned(), "at least 1"));
+            return Some(Complaint::new("neighbors", "0", "at least 1"));
         }
         local::complaint(&self.planners)
     }

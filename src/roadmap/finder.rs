@@ -6,7 +6,7 @@
 use super::component::Component;
 use super::components::Components;
 use super::indices::{Centres, NO_ENTRY, TAIL, read};
-use crate::neighbor::{self, Best, Index, NearPair, Neighbor, Searched};
+use crate::neighbor::{self, Best, Index, NearPair, Neighbor, Searched, Subset};
 use crate::space::{Configs, Space};
 use std::sync::RwLockReadGuard;
 use std::sync::atomic::Ordering;
@@ -57,20 +57,22 @@ impl Components {
         index.in_radius(space, &All(configs), self.nodes(), q, radius, most)
     }
 
-    /// The at most `count` closest pairs of a configuration of `first`, given with the ids that take part, and a node
-    /// of `component`. Closest first, ties by the first id, then by the second.
+    /// The at most `count` closest pairs of a configuration of `first` and a node of `component`. Closest first, ties by
+    /// the first id, then by the second.
     pub fn closest_pairs(
         &self,
         space: &Space,
-        first: (&Configs, &[u32]),
-        (configs, component): (&Configs, &Component),
+        first: Subset,
+        configs: &Configs,
+        component: &Component,
         count: usize,
     ) -> Vec<NearPair> {
-        let brute = || neighbor::closest_pairs(space, first, (configs, &component.members), count);
+        let members = Subset { all: configs, ids: &component.members };
+        let brute = || neighbor::closest_pairs(space, first, members, count);
         if component.members.len() <= FEW_MEMBERS {
             return brute();
         }
-        let index = self.index(space, configs, first.1.len() as u32);
+        let index = self.index(space, configs, first.ids.len() as u32);
         let index = index.as_ref().expect("made");
         if component.members.len() <= (self.nodes() - index.len()) as usize {
             return brute();

@@ -62,6 +62,16 @@ pub struct Extent {
     pub edges: usize,
 }
 
+/// What a fold takes of a set.
+pub struct SetToFold<'a> {
+    /// What the set adds.
+    pub increment: &'a Increment,
+    /// The connected components of the increment alone.
+    pub components: Components,
+    /// The edges that join the set to what came before it, in the numbering of the result.
+    pub joins: &'a [Edge],
+}
+
 impl Roadmap {
     /// The empty roadmap over a space.
     pub fn new(space: &Space) -> Roadmap {
@@ -95,7 +105,7 @@ impl Roadmap {
     ) {
         let sets = sets.into_iter().map(|(increment, joins)| {
             let components = Components::of(space, &increment.configs, &increment.edges);
-            (increment, components, joins)
+            SetToFold { increment, components, joins }
         });
         self.fold_components(space, sets);
     }
@@ -104,10 +114,10 @@ impl Roadmap {
     pub fn fold_components<'a>(
         &mut self,
         space: &Space,
-        sets: impl IntoIterator<Item = (&'a Increment, Components, &'a [Edge])>,
+        sets: impl IntoIterator<Item = SetToFold<'a>>,
     ) {
         let mut joins = Vec::new();
-        for (increment, components, edges) in sets {
+        for SetToFold { increment, components, joins: edges } in sets {
             let first = self.configs.len() as u32;
             self.tally.add_set(increment, edges);
             self.components.append(components);

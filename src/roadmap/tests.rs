@@ -1,6 +1,6 @@
 use super::*;
 use crate::img::{Setup, build};
-use crate::neighbor::{Best, NearPair, closest_pairs, in_radius, k_nearest};
+use crate::neighbor::{Best, NearPair, Subset, closest_pairs, in_radius, k_nearest};
 use crate::problem::Problem;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::shelf::tests::Flaky;
@@ -131,9 +131,10 @@ fn check(space: &Space, roadmap: &Roadmap, queries: &Configs, some: u32, k: usiz
     let largest = components.iter().max_by_key(|component| component.members.len());
     for component in [components.of_node(some), components.of_node(0), largest.expect("one")] {
         let ids: Vec<u32> = (0..queries.len() as u32).collect();
+        let first = Subset { all: queries, ids: &ids };
         let expected: Vec<NearPair> =
-            closest_pairs(space, (queries, &ids), (configs, &component.members), k);
-        let found = components.closest_pairs(space, (queries, &ids), (configs, component), k);
+            closest_pairs(space, first, Subset { all: configs, ids: &component.members }, k);
+        let found = components.closest_pairs(space, first, configs, component, k);
         assert_eq!(found, expected);
     }
 }

@@ -47,7 +47,7 @@ impl Shares {
         let mut point = vec![0.0; cx.space.cube_dimensions()];
         let mut taken = 0;
         let mut current = sequence(&seed.common(0));
-        collect((count, self.attempts), out, |q| {
+        collect(count, self.attempts, out, |q| {
             if taken > 0 && taken % block == 0 {
                 current = sequence(&seed.common(taken / block));
             }

@@ -1,6 +1,6 @@
 use super::change::{Change, Chapter, difference};
 use super::interrupt::Interrupt;
-use super::watch::{Begun, Keeper, Status, Watch, path_in};
+use super::watch::{Begun, Keeper, Status, Torn, Watch, path_in};
 use super::workers::{Kind, start};
 use super::{Ended, Run, Workers};
 use crate::cpu::CpuClock;
@@ -371,7 +371,7 @@ fn go_on(
         rounds: scan.rounds(),
         nodes: scan.last_round.as_ref().map_or(0, |end| end.nodes),
         is_chapter,
-        torn: torn.as_deref().map(|path| (scan.torn_bytes, path)),
+        torn: torn.as_deref().map(|file| Torn { bytes: scan.torn_bytes, file }),
     });
     let imports = match change {
         Change::None(_, imports) => imports,

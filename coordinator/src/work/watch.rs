@@ -64,9 +64,18 @@ pub enum Begun<'a> {
         nodes: u64,
         /// Whether a chapter is opened for what is changed.
         is_chapter: bool,
-        /// Bytes of an unfinished round, and the file that they were moved to.
-        torn: Option<(u64, &'a FilePath)>,
+        /// What there was of an unfinished round.
+        torn: Option<Torn<'a>>,
     },
+}
+
+/// What an interrupted build left of an unfinished round.
+#[derive(Clone, Copy, Debug)]
+pub struct Torn<'a> {
+    /// Number of bytes.
+    pub bytes: u64,
+    /// The file that they were moved to.
+    pub file: &'a FilePath,
 }
 
 /// How far a build is.
@@ -79,8 +88,10 @@ pub struct Status<'a> {
     pub progress: &'a Progress,
     /// What the roadmap comes to.
     pub tally: &'a Tally,
-    /// Workers that are ready or at work, and how many there are to be.
-    pub workers: (usize, usize),
+    /// Workers that are ready or at work.
+    pub workers_alive: usize,
+    /// How many workers there are to be.
+    pub workers_wanted: usize,
 }
 
 /// The path of the problem's own query, if the verdicts have one.
@@ -221,8 +232,13 @@ impl Observer for Keeper<'_> {
         alive: usize,
     ) -> Result<Option<Cut>, Failure> {
         self.ledger.sync_if_due()?;
-        let (problem, workers) = (&self.setup.problem, (alive, self.workers));
-        self.watch.progress(&Status { problem, progress, tally, workers });
+        self.watch.progress(&Status {
+            problem: &self.setup.problem,
+            progress,
+            tally,
+            workers_alive: alive,
+            workers_wanted: self.workers,
+        });
         Ok(if self.interrupt.came() {
             Some(Cut::Interrupted)
         } else if self.seconds.is_some_and(|limit| self.begun.elapsed().as_secs_f64() >= limit) {

@@ -205,6 +205,6 @@ fn kind_of(table: &JointKindTable) -> Result<JointKind, String> {
 }
 
 fn frame(source: &Source, place: &[Step], table: &FrameTable) -> Result<Pose, ProblemError> {
-    pose_of((&table.position, &table.orientation, &table.turn))
+    pose_of(&table.position, &table.orientation, &table.turn)
         .map_err(|(key, message)| source.error(&[place, &[Key(key)]].concat(), message))
 }

@@ -20,8 +20,8 @@ pub(super) fn bodies(
     let mut bodies = Vec::new();
     for (index, table) in tables.iter().enumerate() {
         let at = |key| [place, &[Index(index), Key(key)]].concat();
-        let frame = (&table.position, &table.orientation, &table.turn);
-        let pose = pose_of(frame).map_err(|(key, message)| source.error(&at(key), message))?;
+        let pose = pose_of(&table.position, &table.orientation, &table.turn)
+            .map_err(|(key, message)| source.error(&at(key), message))?;
         let shape =
             shape_of(source, table).map_err(|message| source.error(&at("shape"), message))?;
         let solid = match (&shape, table.solid) {
@@ -56,12 +56,11 @@ pub(super) fn bodies(
     Ok(bodies)
 }
 
-/// A frame as a file writes it: position, and orientation or turn.
-type Frame<'a> = (&'a [f64; 3], &'a Option<[f64; 4]>, &'a Option<TurnTable>);
-
-/// Reads a frame, or says which key is wrong and how.
+/// Reads a frame as a file writes it (a position, and an orientation or a turn), or says which key is wrong and how.
 pub(super) fn pose_of(
-    (position, orientation, turn): Frame,
+    position: &[f64; 3],
+    orientation: &Option<[f64; 4]>,
+    turn: &Option<TurnTable>,
 ) -> Result<Pose, (&'static str, String)> {
     // Written so that NaN fails it.
     if !position.iter().all(|value| value.abs() <= LENGTH_MAX) {
