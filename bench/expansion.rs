@@ -16,6 +16,7 @@ mod support;
 
 use roadmill::generator::GeneratorKind;
 use roadmill::img::Setup;
+use roadmill::numbers::StrategyIndex;
 use roadmill::problem::Problem;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -78,13 +79,13 @@ fn changed(problem: &Problem, with: bool, seed: u64) -> Problem {
     let uniform = &mut problem.strategies[0];
     uniform.nodes = NODES;
     uniform.generator = kind("sample = { sampler = { uniform = {} } }");
-    problem.schedule = vec![0];
+    problem.schedule = vec![StrategyIndex(0)];
     if with {
         let mut growing = problem.strategies[0].clone();
         growing.label = "expansion".to_owned();
         growing.generator = kind(&format!("expansion = {{ step = {step:?} }}"));
         problem.strategies.push(growing);
-        problem.schedule = vec![0, 1];
+        problem.schedule = [0, 1].map(StrategyIndex).to_vec();
     }
     problem
 }

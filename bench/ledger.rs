@@ -16,6 +16,7 @@ mod cage;
 use cage::cage;
 use roadmill::img::{Executor, Joined, Round, RoundSet, Setup, Threads};
 use roadmill::model::Asked;
+use roadmill::numbers::{Ordinal, RoundNumber, SetNumber, StrategyIndex};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Configs, Edge, Increment, Roadmap};
 use roadmill::seed::{Purpose, Seed, Stream};
@@ -97,21 +98,24 @@ fn make(run: &Path, problem: &Problem, nodes: u64) {
     let mut ledger = LedgerWriter::begin(run, problem, lock).expect("it can be written");
     let space = problem.space();
     let mut roadmap = Roadmap::new(&space);
-    let mut stream = Seed::of_set(1, "bench", 0).stream(Purpose::Sampling);
+    let mut stream = Seed::of_set(1, "bench", Ordinal(0)).stream(Purpose::Sampling);
     for index in 0..nodes / (u64::from(SET_NODES) * SETS_PER_ROUND) {
         let mut first = roadmap.configs().len() as u32;
-        let places = index * SETS_PER_ROUND..(index + 1) * SETS_PER_ROUND;
-        let sets: Vec<RoundSet> = places
-            .map(|place| {
+        let numbers = index * SETS_PER_ROUND..(index + 1) * SETS_PER_ROUND;
+        let sets: Vec<RoundSet> = numbers
+            .map(|number| {
                 let increment = Arc::new(increment(&space, &mut stream));
                 let joined = joined(first, &mut stream);
                 first += SET_NODES;
-                RoundSet { place, strategy: 0, ordinal: place, increment, joined }
+                let (number, ordinal) = (SetNumber(number), Ordinal(number));
+                RoundSet { number, strategy: StrategyIndex(0), ordinal, increment, joined }
             })
             .collect();
         let folded = sets.iter().map(|set| (&*set.increment, &set.joined.edges[..]));
         roadmap.fold_round(&space, folded);
-        ledger.round(&Round { index, sets }, problem, roadmap.tally()).expect("it can be written");
+        ledger
+            .round(&Round { number: RoundNumber(index), sets }, problem, roadmap.tally())
+            .expect("it can be written");
     }
 }
 

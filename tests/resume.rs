@@ -5,6 +5,7 @@ use roadmill::img::{
     Simulated, Stop, build, drive, resume_with,
 };
 use roadmill::model::bodies::validity::MotionChecking;
+use roadmill::numbers::{Ordinal, RoundNumber, StrategyIndex};
 use roadmill::problem::Problem;
 use roadmill::roadmap::Tally;
 use roadmill::schedule::Adaptive;
@@ -45,13 +46,13 @@ impl Observer for Keeper {
     type Error = Infallible;
 
     fn folded(&mut self, round: &Round, _: &Tally) -> Result<(), Infallible> {
-        assert_eq!(round.index, self.rounds.len() as u64);
+        assert_eq!(round.number, RoundNumber(self.rounds.len() as u64));
         self.rounds.push(round.clone());
         Ok(())
     }
 
     fn judged(&mut self, judgement: &Judgement) -> Result<(), Infallible> {
-        assert_eq!(judgement.round, self.judgements.len() as u64);
+        assert_eq!(judgement.round, RoundNumber(self.judgements.len() as u64));
         self.judgements.push(judgement.clone());
         Ok(())
     }
@@ -158,7 +159,7 @@ fn further_than(name: &str, adaptive: Option<Adaptive>) -> Problem {
     strategy.label = "further".to_owned();
     strategy.nodes += 3;
     changed.strategies.push(strategy);
-    changed.schedule = vec![changed.strategies.len() as u32 - 1, 0];
+    changed.schedule = [changed.strategies.len() as u32 - 1, 0].map(StrategyIndex).to_vec();
     changed.adaptive = adaptive;
     changed.sets_per_round += 1;
     changed.limits.nodes *= 2;
@@ -199,12 +200,12 @@ fn a_chapter_adds(name: &str, further: &Problem) {
         cut.go_on(&setup, &mut simulated, 2);
         assert_eq!(simulated.tally().digest(), whole.roadmap.digest(), "{seed}");
 
-        let mut next = vec![0; setup.problem.strategies.len()];
+        let mut next = vec![Ordinal(0); setup.problem.strategies.len()];
         for set in cut.rounds.iter().flat_map(|round| &round.sets) {
-            assert_eq!(set.ordinal, next[set.strategy as usize]);
-            next[set.strategy as usize] += 1;
+            assert_eq!(set.ordinal, next[set.strategy.index()]);
+            next[set.strategy.index()] = set.ordinal.next();
         }
-        assert!(next.iter().all(|sets| *sets > 0), "every strategy has sets: {next:?}");
+        assert!(next.iter().all(|sets| sets.0 > 0), "every strategy has sets: {next:?}");
         assert!(
             cut.rounds[before..].iter().all(|round| round.sets.len() > kept.rounds[0].sets.len())
         );

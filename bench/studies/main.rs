@@ -25,6 +25,7 @@ mod support;
 
 use choices::Choices;
 use environments::{ENVIRONMENTS, Environment, STRATEGIES};
+use roadmill::numbers::StrategyIndex;
 use roadmill::problem::Problem;
 use std::path::PathBuf;
 
@@ -45,7 +46,7 @@ impl Study {
         let labels = self.choices.tests.iter();
         let strategies = labels.map(|label| self.choices.strategy(environment, label, 50));
         problem.strategies = strategies.map(|each| each.expect("a sampler")).collect();
-        problem.schedule = (0..problem.strategies.len() as u32).collect();
+        problem.schedule = (0..problem.strategies.len() as u32).map(StrategyIndex).collect();
         problem.sets_per_round = problem.schedule.len() as u32;
         problem
     }

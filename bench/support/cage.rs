@@ -1,5 +1,6 @@
 //! A build as long as wanted.
 
+use roadmill::numbers::StrategyIndex;
 use roadmill::problem::{Limits, Problem};
 use std::path::{Path, PathBuf};
 
@@ -21,7 +22,7 @@ pub fn endless(
     problem.evaluators.clear();
     problem.strategies.truncate(1);
     problem.strategies[0].nodes = set;
-    problem.schedule = vec![0];
+    problem.schedule = vec![StrategyIndex(0)];
     problem.limits = Limits { nodes, sets: u64::MAX >> 1, seconds: None };
     let mut written = problem.to_toml("meshes");
     if let Some(sampler) = sampler {

@@ -29,6 +29,7 @@ use choices::Choices;
 use environments::{ENVIRONMENTS, Environment, STRATEGIES};
 use roadmill::evaluate::{EvaluatorKind, Query, Samples};
 use roadmill::img::{Setup, Stop};
+use roadmill::numbers::StrategyIndex;
 use runs::{Measured, Run};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -141,7 +142,7 @@ impl Experiment<'_> {
         problem.sets_per_round = run.k;
         let strategy = self.choices.strategy(self.environment, &run.strategy, run.n);
         problem.strategies = vec![strategy.expect("a strategy that is available")];
-        problem.schedule = vec![0];
+        problem.schedule = vec![StrategyIndex(0)];
         let setup = Arc::new(Setup::new(problem));
 
         let how = self.choices.attaching();

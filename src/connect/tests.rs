@@ -1,6 +1,7 @@
 use super::*;
 use crate::img::{Setup, build};
 use crate::model::Asked;
+use crate::numbers::Ordinal;
 use crate::problem::Problem;
 use std::path::Path;
 
@@ -15,7 +16,7 @@ fn input() -> (Setup, JoinInput) {
     let setup = Setup::new(problem.clone());
     let roadmap = Arc::new(build(&Arc::new(Setup::new(problem))).roadmap);
     let mut increments = Vec::new();
-    for ordinal in 2..5 {
+    for ordinal in (2..5).map(Ordinal) {
         let strategy = &setup.problem.strategies[1];
         let increment = strategy.generate(&setup.cx, ordinal, None, &mut Scratch::new()).unwrap();
         increments.push(Arc::new(Built::new(&setup.cx, Arc::new(increment))));

@@ -52,7 +52,7 @@ impl Generator for Reuse {
         let (parent, mut moving) = (self.parent.roadmap(), seed.stream(Purpose::Sampling));
         let mut made = Increment::empty(cx.space.len());
         // In 128 bits, since nothing bounds a set's number.
-        let taken = u128::from(seed.ordinal()) * count as u128;
+        let taken = u128::from(seed.ordinal().0) * count as u128;
         let nodes = parent.len() as u128;
         if nodes == 0 {
             return Err(GaveUp { attempts: 0 });

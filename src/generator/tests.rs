@@ -4,6 +4,7 @@ use super::{GeneratorKind, ParentRun, Reads, Runs};
 use crate::digest::Digest;
 use crate::img::{Setup, build};
 use crate::model::Scratch;
+use crate::numbers::Ordinal;
 use crate::problem::Problem;
 use crate::roadmap::{Edge, Increment, Roadmap, SetForm};
 use crate::sampler::tests::statistics::fits;
@@ -51,7 +52,8 @@ fn with(scene: &str, generator: &str, parent: &Roadmap) -> Problem {
 
 fn make(problem: &Problem, ordinal: u64, frozen: &Roadmap) -> Increment {
     let cx = problem.context();
-    let made = problem.strategies[0].generate(&cx, ordinal, Some(frozen), &mut Scratch::new());
+    let strategy = &problem.strategies[0];
+    let made = strategy.generate(&cx, Ordinal(ordinal), Some(frozen), &mut Scratch::new());
     made.unwrap_or_else(|gave_up| panic!("{gave_up:?}"))
 }
 

@@ -80,6 +80,7 @@ pub fn closest_pairs(space: &Space, first: Subset, second: Subset, count: usize)
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::numbers::Ordinal;
     use crate::seed::{Purpose, Seed};
     use crate::space::{BaseJoint, rigid_space};
     use proptest::prelude::*;
@@ -87,7 +88,7 @@ pub(super) mod tests {
     /// Random configurations, half of them on a coarse grid so that ties occur.
     pub(in crate::neighbor) fn configs(motion: BaseJoint, ordinal: u64) -> (Space, Configs) {
         let space = rigid_space(motion, [0.0; 3], [3.0; 3], 0.5);
-        let mut stream = Seed::of_set(1, "neighbours", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(1, "neighbours", Ordinal(ordinal)).stream(Purpose::Sampling);
         let mut configs = Configs::new(space.len());
         let mut q = vec![0.0; space.len()];
         for i in 0..80 {

@@ -23,6 +23,7 @@ use crate::digest::{Digest, SourceFile};
 use crate::evaluate::EvaluatorKind;
 use crate::generator::{NoRuns, Runs};
 use crate::model::{self, ModelKind, SceneOptions};
+use crate::numbers::StrategyIndex;
 use crate::query::Attachment;
 use crate::schedule::Adaptive;
 use crate::space::Space;
@@ -47,8 +48,8 @@ pub struct Problem {
     pub query: Option<Ends>,
     /// The strategies.
     pub strategies: Vec<Strategy>,
-    /// Indices of strategies; set by set, over and over.
-    pub schedule: Vec<u32>,
+    /// Which strategy makes the next set; set by set, over and over.
+    pub schedule: Vec<StrategyIndex>,
     /// Where the schedule adapts: how sets are given out among those of `schedule`.
     pub adaptive: Option<Adaptive>,
     /// Sets per round (TR05-007: *k*).

@@ -1,6 +1,7 @@
 use super::*;
 use crate::img::{Setup, build};
 use crate::neighbor::{Best, NearPair, Subset, closest_pairs, in_radius, k_nearest};
+use crate::numbers::Ordinal;
 use crate::problem::Problem;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::shelf::tests::Flaky;
@@ -32,7 +33,7 @@ impl Growth {
 
     fn with_shelf(motion: BaseJoint, ordinal: u64, shelf: Arc<dyn Shelf>) -> Growth {
         let space = rigid_space(motion, [0.0; 3], [9.0, 9.0, 2.0], 0.5);
-        let stream = Seed::of_set(1, "growth", ordinal).stream(Purpose::Sampling);
+        let stream = Seed::of_set(1, "growth", Ordinal(ordinal)).stream(Purpose::Sampling);
         let (roadmap, outline) = (Roadmap::new(&space), Outline::new(&space));
         let workers = [false, true].map(|keeps| Roadmap::of_worker(&space, shelf.clone(), keeps));
         Growth { space, stream, group_of: Vec::new(), roadmap, workers, outline }

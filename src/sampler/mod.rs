@@ -6,10 +6,10 @@
 //! ```
 //! use roadmill::{model::Scratch, problem::Problem, roadmap::Configs};
 //! use roadmill::sampler::{Sampler, Uniform};
-//! use roadmill::seed::Seed;
+//! use roadmill::{numbers::Ordinal, seed::Seed};
 //!
 //! let cx = Problem::load("tests/problems/slide.toml".as_ref())?.context();
-//! let (seed, scratch) = (Seed::of_set(1, "uniform", 0), &mut Scratch::new());
+//! let (seed, scratch) = (Seed::of_set(1, "uniform", Ordinal(0)), &mut Scratch::new());
 //! let mut milestones = Configs::new(cx.space.len());
 //! let sampled = Uniform::default().sample(&cx, &seed, 5, scratch, &mut milestones);
 //! assert!(sampled.is_ok() && milestones.len() == 5);

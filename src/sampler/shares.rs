@@ -43,7 +43,7 @@ impl Shares {
         sequence: impl Fn(&Seed) -> F,
     ) -> Result<(), GaveUp> {
         let block = u64::from(self.block);
-        let first = seed.ordinal().wrapping_mul(block);
+        let first = seed.ordinal().0.wrapping_mul(block);
         let mut point = vec![0.0; cx.space.cube_dimensions()];
         let mut taken = 0;
         let mut current = sequence(&seed.common(0));

@@ -30,7 +30,7 @@ impl History {
         }
         let mut yields = vec![Yield::default(); self.strategies];
         for set in &round.sets {
-            let total = &mut yields[set.strategy as usize];
+            let total = &mut yields[set.strategy.index()];
             total.sets += 1;
             for asked in [set.increment.asked, set.joined.asked] {
                 total.cost += asked.configurations + asked.motions;

@@ -8,6 +8,7 @@ use crate::message::{FromWorker, PROTOCOL, ToWorker};
 use roadmill::img::{Outcome, Replica, Setup, Task};
 use roadmill::internal::wire;
 use roadmill::model::Scratch;
+use roadmill::numbers::{Ordinal, StrategyIndex};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Roadmap};
 use std::convert::Infallible;
@@ -82,9 +83,10 @@ pub fn canary(setup: &Setup) -> Digest {
         strategy.nodes = strategy.nodes.min(4);
     }
     let small = Setup { problem, cx: setup.problem.context(), plan: setup.plan.clone() };
+    let strategy = StrategyIndex(0);
     // A strategy that grows finds no node to grow from.
-    let frozen = setup.grows(0).then(|| Arc::new(Roadmap::new(&setup.cx.space)));
-    let task = Task::Generate { strategy: 0, ordinal: u64::MAX, frozen };
+    let frozen = setup.grows(strategy).then(|| Arc::new(Roadmap::new(&setup.cx.space)));
+    let task = Task::Generate { strategy, ordinal: Ordinal(u64::MAX), frozen };
     let outcome: Outcome = task.run(&small, &mut Scratch::new());
     Digest::of(&wire::encode(&outcome))
 }

@@ -6,6 +6,7 @@ use crate::run::{Replay, Scan, Told};
 use crate::work::difference;
 use roadmill::evaluate::Verdict;
 use roadmill::img::RoundSet;
+use roadmill::numbers::RoundNumber;
 use roadmill::problem::Problem;
 use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
@@ -24,10 +25,7 @@ pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
             (None, None) => break,
             (Some((round, a)), Some((_, b))) => {
                 let name = |set: &RoundSet, of: &Read| {
-                    format!(
-                        "{}:{}",
-                        of.problem.strategies[set.strategy as usize].label, set.ordinal
-                    )
+                    format!("{}:{}", of.problem.strategies[set.strategy.index()].label, set.ordinal)
                 };
                 let (a_name, b_name) = (name(&a, &left), name(&b, &right));
                 let found = if a_name == b_name {
@@ -39,8 +37,8 @@ pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
                 };
                 if let Some(found) = found {
                     return differs(format!(
-                        "first difference: set {a_name} (place {}, round {round}): {found}",
-                        a.place
+                        "first difference: set {a_name} (number {}, round {round}): {found}",
+                        a.number
                     ));
                 }
                 sets += 1;
@@ -115,9 +113,9 @@ impl Read {
 struct Side<'a> {
     replay: Replay<'a>,
     /// Sets of the last round, with its number.
-    sets: VecDeque<(u64, RoundSet)>,
+    sets: VecDeque<(RoundNumber, RoundSet)>,
     /// The last verdicts on each round so far.
-    verdicts: BTreeMap<u64, Vec<Verdict>>,
+    verdicts: BTreeMap<RoundNumber, Vec<Verdict>>,
 }
 
 impl<'a> Side<'a> {
@@ -126,7 +124,7 @@ impl<'a> Side<'a> {
         Ok(Side { replay, sets: VecDeque::new(), verdicts: BTreeMap::new() })
     }
 
-    fn next(&mut self) -> Result<Option<(u64, RoundSet)>, Failure> {
+    fn next(&mut self) -> Result<Option<(RoundNumber, RoundSet)>, Failure> {
         while self.sets.is_empty() {
             match self.replay.read()? {
                 None => return Ok(None),
@@ -134,7 +132,7 @@ impl<'a> Side<'a> {
                     self.verdicts.insert(judged.round, judged.verdicts);
                 }
                 Some(Told::Round(round, _)) => {
-                    self.sets.extend(round.sets.into_iter().map(|set| (round.index, set)));
+                    self.sets.extend(round.sets.into_iter().map(|set| (round.number, set)));
                 }
             }
         }

@@ -115,10 +115,17 @@ pub(super) struct Keeper<'a> {
     pub memory: Option<u64>,
     /// Complete rounds.
     pub rounds: u64,
-    /// After which round the memory was added up last, and when.
-    pub weighed: (u64, Option<Instant>),
+    pub weighed: Weighed,
     /// Bytes stored for the workers in shared memory, which count as no process's own.
     pub stored: Arc<AtomicU64>,
+}
+
+/// When the memory was added up last.
+#[derive(Clone, Copy)]
+pub(super) struct Weighed {
+    /// How many rounds were complete.
+    pub after_rounds: u64,
+    pub at: Option<Instant>,
 }
 
 impl Keeper<'_> {
@@ -202,12 +209,12 @@ impl Keeper<'_> {
 
     /// Whether memory is short. Added up once after a round, since only rounds make the roadmap larger.
     fn is_short_of_memory(&mut self, rounds: u64) -> bool {
-        let (round, at) = self.weighed;
-        let Some(limit) = self.memory.filter(|_| round < rounds) else { return false };
+        let Weighed { after_rounds, at } = self.weighed;
+        let Some(limit) = self.memory.filter(|_| after_rounds < rounds) else { return false };
         if at.is_some_and(|at| at.elapsed() < MEMORY_PAUSE) {
             return false;
         }
-        self.weighed = (rounds, Some(Instant::now()));
+        self.weighed = Weighed { after_rounds: rounds, at: Some(Instant::now()) };
         resident_bytes() + self.stored.load(Ordering::Relaxed) >= limit
     }
 }
@@ -216,7 +223,7 @@ impl Observer for Keeper<'_> {
     type Error = Failure;
 
     fn folded(&mut self, round: &Round, tally: &Tally) -> Result<(), Failure> {
-        self.rounds = round.index + 1;
+        self.rounds = round.number.0 + 1;
         self.ledger.round(round, &self.setup.problem, tally)
     }
 

@@ -1,6 +1,7 @@
 //! The bounds on velocities and second derivatives against motions as they are.
 
 use super::*;
+use crate::numbers::Ordinal;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::Space;
 use parry3d_f64::math::{Pose as ParryPose, Vector};
@@ -66,7 +67,7 @@ fn seen(
 proptest! {
     #[test]
     fn no_point_is_faster_or_leaves_a_chord_farther_than_the_bounds_say(ordinal in any::<u64>()) {
-        let mut stream = Seed::of_set(5, "rates", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "rates", Ordinal(ordinal)).stream(Purpose::Sampling);
         for motion in MOTIONS {
             let robot = drawn_robot(&mut stream, motion, 6, 6);
             let hops = Hops::new(&robot);

@@ -1,5 +1,6 @@
 use super::rates_tests::drawn_robot;
 use super::*;
+use crate::numbers::Ordinal;
 use crate::scene::Shape;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::FactorKind;
@@ -132,7 +133,7 @@ proptest! {
     fn reaches_found_from_the_leaves_on_are_those_found_from_the_base(
         ordinal in any::<u64>(), links in 1..40u32, near in 1..40u32,
     ) {
-        let mut stream = Seed::of_set(5, "reaches", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "reaches", Ordinal(ordinal)).stream(Purpose::Sampling);
         let robot = with_balls(&mut stream, links, near);
         prop_assert_eq!(robot.reach().to_bits(), reach_of_link(&robot, 0).to_bits());
         let space = robot.space([-1.0; 3], [1.0; 3], 0.5);
@@ -151,7 +152,7 @@ proptest! {
     fn pairs_that_may_touch_are_left_out_in_whatever_order_they_are_listed(
         ordinal in any::<u64>(), links in 2..40u32, listed in 0..60usize,
     ) {
-        let mut stream = Seed::of_set(5, "may touch", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "may touch", Ordinal(ordinal)).stream(Purpose::Sampling);
         let mut robot = with_balls(&mut stream, links, 3);
         let all: Vec<(usize, usize)> = robot.self_pairs().collect();
         let mut drawn = || (f64::from(links) * stream.unit()) as u32;

@@ -1,6 +1,7 @@
 use super::*;
 use crate::model::bodies::robot::{Joint, JointKind, Limits, Link, Robot};
 use crate::model::{Asked, Model, Scratch};
+use crate::numbers::Ordinal;
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::seed::{Purpose, Seed};
 use crate::space::{BaseJoint, Space, rigid_space};
@@ -87,7 +88,7 @@ proptest! {
             solid(Shape::Cylinder { radius: 0.7, height: 3.0 }, [0.0, -2.0, 0.0]),
         ];
         let (space, validity) = validity(BaseJoint::Rigid3d, BoundsMeaning::Body, &robot, &obstacles);
-        let mut stream = Seed::of_set(5, "verdicts", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "verdicts", Ordinal(ordinal)).stream(Purpose::Sampling);
         let (mut warm, mut poisoned) = (Scratch::new(), Scratch::new());
         let (mut a, mut b) = (vec![0.0; 7], vec![0.0; 7]);
         for rubbish in 0..40u64 {
@@ -110,7 +111,7 @@ proptest! {
         let bodies = [cuboid([3.0, 1.0, 0.5], [0.7, 0.0, 0.0]), cuboid_mesh([3.0, 1.0, 0.5], [0.7, 0.0, 0.0], true)];
         let (space, boxed) = validity(BaseJoint::Rigid3d, BoundsMeaning::Body, &bodies[..1], &[]);
         let (_, meshed) = validity(BaseJoint::Rigid3d, BoundsMeaning::Body, &bodies[1..], &[]);
-        let mut stream = Seed::of_set(5, "bounds", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "bounds", Ordinal(ordinal)).stream(Purpose::Sampling);
         let mut q = vec![0.0; 7];
         for _ in 0..40 {
             space.sample_uniform(&mut stream, &mut q);
@@ -179,7 +180,7 @@ fn steps_keep_the_promise_of_the_resolution() {
     // A long robot that turns: between two checks its far end moves no farther than 0.05.
     let robot = [cuboid([4.0, 0.1, 0.1], [0.0; 3])];
     let (space, validity) = validity(BaseJoint::Rigid3d, BoundsMeaning::Reference, &robot, &[]);
-    let mut stream = Seed::of_set(5, "steps", 0).stream(Purpose::Sampling);
+    let mut stream = Seed::of_set(5, "steps", Ordinal(0)).stream(Purpose::Sampling);
     let (mut a, mut b, mut q) = (vec![0.0; 7], vec![0.0; 7], vec![0.0; 7]);
     for _ in 0..50 {
         space.sample_uniform(&mut stream, &mut a);
@@ -284,7 +285,7 @@ proptest! {
             let bounds = Bounds { min: [-9.0; 3], max: [9.0; 3], meaning: BoundsMeaning::Reference };
             let space = robot.space(bounds.min, bounds.max, 1.0);
             let validity = BodyValidity::new(space.clone(), &robot, bounds, MotionChecking::Swept, 0.3, &[]);
-            let mut stream = Seed::of_set(5, "linkage steps", ordinal).stream(Purpose::Sampling);
+            let mut stream = Seed::of_set(5, "linkage steps", Ordinal(ordinal)).stream(Purpose::Sampling);
             let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);
             let mut q = a.clone();
             space.sample_uniform(&mut stream, &mut a);

@@ -7,6 +7,7 @@ use super::{Clock, Walls};
 use crate::lanes::Lanes;
 use crate::model::bodies::robot::{Joint, JointKind, Limits, Link, Rates, Robot};
 use crate::model::{Clearances, Model, Scratch};
+use crate::numbers::Ordinal;
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::{BaseJoint, Space};
@@ -185,7 +186,7 @@ fn swept_motions_are_free_between_the_steps() {
     let scratch = &mut Scratch::new();
     let (mut accepted, mut free, mut refused) = (0, 0, 0);
     for scene in scenes() {
-        let mut stream = Seed::of_set(5, scene.name, 0).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, scene.name, Ordinal(0)).stream(Purpose::Sampling);
         for (a, b) in motions(&scene, &mut stream, 150) {
             let swept = scene.swept.motion(&a, &b, 1, scratch).is_some();
             let steps = FINER * scene.swept.steps(&a, &b, 1);
@@ -211,7 +212,7 @@ fn swept_motions_are_free_between_the_steps() {
 fn sampled_motions_are_what_their_steps_are() {
     let scratch = &mut Scratch::new();
     for scene in scenes() {
-        let mut stream = Seed::of_set(5, scene.name, 1).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, scene.name, Ordinal(1)).stream(Purpose::Sampling);
         for (a, b) in motions(&scene, &mut stream, 100) {
             let steps = scene.sampled.steps(&a, &b, 1);
             let expected = scene.sampled.free_at_steps(&a, &b, steps, scratch.of_model());
@@ -232,7 +233,7 @@ proptest! {
         let (mut warm, mut poisoned) = (Scratch::new(), Scratch::new());
         let scenes = scenes();
         let scene = &scenes[ordinal as usize % scenes.len()];
-        let mut stream = Seed::of_set(5, "scratch", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "scratch", Ordinal(ordinal)).stream(Purpose::Sampling);
         for (i, (a, b)) in motions(scene, &mut stream, 5).into_iter().enumerate() {
             for validity in [&scene.swept, &scene.sampled] {
                 let cold = validity.motion(&a, &b, 1, &mut Scratch::new()).is_some();
@@ -254,7 +255,7 @@ proptest! {
         let mut scenes = scenes();
         let at = ordinal as usize % scenes.len();
         let scene = &mut scenes[at];
-        let mut stream = Seed::of_set(5, "lanes", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "lanes", Ordinal(ordinal)).stream(Purpose::Sampling);
         let motions = motions(scene, &mut stream, 20);
         let scratch = &mut Scratch::new();
         let mut judged = Lanes::all().into_iter().map(|lanes| {
