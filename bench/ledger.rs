@@ -16,7 +16,7 @@ mod cage;
 use cage::cage;
 use roadmill::img::{Executor, Joined, Round, RoundSet, Setup, Threads};
 use roadmill::model::Asked;
-use roadmill::numbers::{Ordinal, RoundNumber, SetNumber, StrategyIndex};
+use roadmill::numbers::{NodeId, Ordinal, RoundNumber, SetNumber, StrategyIndex};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Configs, Edge, Increment, Roadmap};
 use roadmill::seed::{Purpose, Seed, Stream};
@@ -130,7 +130,7 @@ fn increment(space: &roadmill::space::Space, stream: &mut Stream) -> Increment {
     let edge = |index: u32, stream: &mut Stream| {
         let low = index % (SET_NODES - 1);
         let high = low + 1 + below(SET_NODES - 1 - low, stream);
-        Edge::metric(low, high, 0, stream.unit())
+        Edge::metric(NodeId(low), NodeId(high), 0, stream.unit())
     };
     let edges = (0..SET_NODES * EDGES_PER_NODE).map(|index| edge(index, stream)).collect();
     Increment { configs, edges, ..Increment::empty(0) }
@@ -141,7 +141,7 @@ fn joined(first: u32, stream: &mut Stream) -> Joined {
     let mut edges = Vec::new();
     for index in 0..JOINS_PER_SET.min(first) {
         let low = (stream.unit() * f64::from(first)) as u32;
-        edges.push(Edge::metric(low, first + index, 0, stream.unit()));
+        edges.push(Edge::metric(NodeId(low), NodeId(first + index), 0, stream.unit()));
     }
     Joined { edges, asked: Asked::default() }
 }

@@ -93,6 +93,12 @@ number! {
     EvaluatorIndex(u32)
 }
 
+number! {
+    /// A node: of a roadmap, or within a set before the set is folded, where its nodes count from 0. Many at once, as
+    /// in searches of neighbours, are plain positions among the configurations: the integers in the ids.
+    NodeId(u32)
+}
+
 /// What names a node set whatever else is built: its strategy, and its number among the strategy's sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SetName {

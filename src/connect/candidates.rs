@@ -5,15 +5,23 @@ use crate::context::Context;
 use crate::finder::{Finder, KNearest};
 use crate::local::{self, Planner};
 use crate::model::Scratch;
+use crate::numbers::NodeId;
 use crate::roadmap::{Components, Configs, Edge};
 use std::collections::BTreeSet;
 
 /// The roadmap, or an earlier increment of the round.
 pub(super) struct NodeBlock<'a> {
     /// What its own node 0 is called after the round.
-    pub first: u32,
+    pub first: NodeId,
     pub configs: &'a Configs,
     pub components: &'a Components,
+}
+
+impl NodeBlock<'_> {
+    /// A node of the block, numbered within the block.
+    pub fn own(&self, node: NodeId) -> NodeId {
+        NodeId(node.since(self.first))
+    }
 }
 
 /// What came before an increment, and the increment.
@@ -21,15 +29,22 @@ pub(super) struct CandidatePairs<'a> {
     pub old: Vec<NodeBlock<'a>>,
     pub new: NodeBlock<'a>,
     /// Of an increment that grew from the roadmap: its pairs of a new and an old node that have an edge already.
-    linked: BTreeSet<(u32, u32)>,
+    linked: BTreeSet<NodePair>,
 }
 
 /// A pair to be tried; ids are those after the round.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CandidatePair {
     pub distance: f64,
-    pub new: u32,
-    pub old: u32,
+    pub new: NodeId,
+    pub old: NodeId,
+}
+
+/// The nodes of a pair; ids are those after the round.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct NodePair {
+    new: NodeId,
+    old: NodeId,
 }
 
 impl<'a> CandidatePairs<'a> {
@@ -37,23 +52,25 @@ impl<'a> CandidatePairs<'a> {
     pub fn new(input: &'a JoinInput) -> Option<CandidatePairs<'a>> {
         let roadmap = &input.roadmap;
         let (configs, components) = (roadmap.configs(), roadmap.components());
-        let mut old = vec![NodeBlock { first: 0, configs, components }];
-        let mut first = configs.len() as u32;
+        let mut old = vec![NodeBlock { first: NodeId(0), configs, components }];
+        let mut first = NodeId(configs.len() as u32);
         for built in &input.increments {
             let (configs, components) = (&built.increment.configs, &built.components);
             old.push(NodeBlock { first, configs, components });
-            first += configs.len() as u32;
+            first = first + configs.len() as u32;
         }
         let new = old.pop().filter(|_| !input.increments.is_empty())?;
         let increment = &input.increments[input.increments.len() - 1].increment;
-        let linked =
-            increment.root_edges_from(new.first).map(|link| (link.high, link.low)).collect();
+        let linked = increment
+            .root_edges_from(new.first.0)
+            .map(|link| NodePair { new: link.high, old: link.low });
+        let linked = linked.collect();
         Some(CandidatePairs { old, new, linked })
     }
 
     /// The pairs of an old and a new node that have an edge already.
-    pub fn linked(&self) -> impl Iterator<Item = [u32; 2]> {
-        self.linked.iter().map(|(new, old)| [*old, *new])
+    pub fn linked(&self) -> impl Iterator<Item = [NodeId; 2]> {
+        self.linked.iter().map(|pair| [pair.old, pair.new])
     }
 
     /// Each new node in order with its `neighbors` nearest old ones, nearest first, ties by id.
@@ -68,7 +85,7 @@ impl<'a> CandidatePairs<'a> {
             let mut near = Vec::new();
             for part in &self.old {
                 for mut neighbor in finder.near(&cx.space, part.configs, part.components, q) {
-                    neighbor.id += part.first;
+                    neighbor.id += part.first.0;
                     near.push(neighbor);
                 }
             }
@@ -78,7 +95,7 @@ impl<'a> CandidatePairs<'a> {
             candidates.extend(near.iter().map(|neighbor| CandidatePair {
                 distance: neighbor.distance,
                 new,
-                old: neighbor.id,
+                old: NodeId(neighbor.id),
             }));
         }
         candidates
@@ -92,7 +109,7 @@ impl<'a> CandidatePairs<'a> {
         pair: CandidatePair,
         scratch: &mut Scratch,
     ) -> Option<Edge> {
-        if self.linked.contains(&(pair.new, pair.old)) {
+        if self.linked.contains(&NodePair { new: pair.new, old: pair.old }) {
             return None;
         }
         let ends = (self.config(pair.old), self.config(pair.new));
@@ -105,18 +122,18 @@ impl<'a> CandidatePairs<'a> {
     }
 
     /// The smallest id in the component of a node, without any joining edge of the round.
-    pub fn component(&self, node: u32) -> u32 {
+    pub fn component(&self, node: NodeId) -> NodeId {
         let part = self.part(node);
-        part.first + part.components.of_node(node - part.first).name
+        part.first + part.components.of_node(part.own(node)).name.0
     }
 
-    fn config(&self, node: u32) -> &[f64] {
+    fn config(&self, node: NodeId) -> &[f64] {
         let part = self.part(node);
-        part.configs.get((node - part.first) as usize)
+        part.configs.get(part.own(node).index())
     }
 
     /// Where a node is from.
-    pub fn part(&self, node: u32) -> &NodeBlock<'a> {
+    pub fn part(&self, node: NodeId) -> &NodeBlock<'a> {
         let mut parts = self.old.iter().chain([&self.new]).rev();
         parts.find(|part| part.first <= node).expect("the first part begins at 0")
     }

@@ -5,6 +5,7 @@ use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::neighbor::{Best, Neighbor, Subset};
+use crate::numbers::NodeId;
 use crate::roadmap::{Component, Edge};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
@@ -58,7 +59,7 @@ impl Among for ComponentPairs {
         for component in new_components {
             for name in self.nearest(cx, &candidates.old, component) {
                 let old = candidates.part(name);
-                let near = old.components.of_node(name - old.first);
+                let near = old.components.of_node(old.own(name));
                 let first = Subset { all: new.configs, ids: &component.members };
                 let count = self.pairs as usize;
                 for pair in old.components.closest_pairs(&cx.space, first, old.configs, near, count)
@@ -93,14 +94,14 @@ impl ComponentPairs {
         cx: &Context,
         old: &[NodeBlock],
         new: &Component,
-    ) -> impl Iterator<Item = u32> {
+    ) -> impl Iterator<Item = NodeId> {
         let count = self.components as usize;
         let mut best = Best::new(count);
         for part in old {
             for near in part.components.nearest(&cx.space, &new.centre, count) {
-                best.offer(Neighbor { id: part.first + near.id, ..near });
+                best.offer(Neighbor { id: part.first.0 + near.id, ..near });
             }
         }
-        best.into_items().into_iter().map(|near| near.id)
+        best.into_items().into_iter().map(|near| NodeId(near.id))
     }
 }

@@ -4,6 +4,7 @@ use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::neighbor::k_nearest_graph;
+use crate::numbers::NodeId;
 use crate::roadmap::{Configs, Edge};
 use crate::seed::Seed;
 use bincode::{Decode, Encode};
@@ -47,8 +48,8 @@ impl Within for Nearest {
             let ends = (configs.get(low as usize), configs.get(high as usize));
             let joined = local::connect(cx, &self.planners, ends, 1, scratch);
             edges.extend(joined.map(|(planner, cost)| Edge {
-                low,
-                high,
+                low: NodeId(low),
+                high: NodeId(high),
                 planner: planner.tag(),
                 cost,
             }));

@@ -1,7 +1,7 @@
 use super::*;
 use crate::img::{Setup, build};
 use crate::model::Asked;
-use crate::numbers::Ordinal;
+use crate::numbers::{NodeId, Ordinal};
 use crate::problem::Problem;
 use std::path::Path;
 
@@ -64,7 +64,7 @@ fn nearest_nodes_tries_every_new_node_with_the_nearest_of_all_old_ones() {
         }
     }
     assert!(!expected.is_empty() && expected.iter().any(|(low, _)| *low as usize >= new - 16));
-    let found: Vec<_> = edges.iter().map(|edge| (edge.low, edge.high)).collect();
+    let found: Vec<_> = edges.iter().map(|edge| (edge.low.0, edge.high.0)).collect();
     assert_eq!(found, expected);
     assert_eq!(asked.motions, (configs.len() - new) as u64 * u64::from(NEIGHBORS));
 }
@@ -83,7 +83,7 @@ fn until_joined_joins_what_nearest_nodes_joins_without_a_cycle() {
         Components::of(&setup.cx.space, &configs, &edges)
     };
     let (apart, by_all, by_few) = (components(&[]), components(&all), components(&few));
-    for node in 0..configs.len() as u32 {
+    for node in NodeId::each(NodeId(0)..NodeId(configs.len() as u32)) {
         assert_eq!(by_few.of_node(node).name, by_all.of_node(node).name);
     }
     // A forest: every edge joins two components.

@@ -5,6 +5,7 @@ use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::Scratch;
+use crate::numbers::NodeId;
 use crate::roadmap::Edge;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
@@ -64,10 +65,10 @@ impl Among for UntilJoined {
 
 /// Which components an increment's own edges have joined, by a smaller name each.
 #[derive(Default)]
-struct Joined(BTreeMap<u32, u32>);
+struct Joined(BTreeMap<NodeId, NodeId>);
 
 impl Joined {
-    fn root(&mut self, name: u32) -> u32 {
+    fn root(&mut self, name: NodeId) -> NodeId {
         let mut root = name;
         while let Some(next) = self.0.get(&root) {
             root = *next;
@@ -78,7 +79,7 @@ impl Joined {
         root
     }
 
-    fn unite(&mut self, [a, b]: [u32; 2]) {
+    fn unite(&mut self, [a, b]: [NodeId; 2]) {
         self.0.insert(a.max(b), a.min(b));
     }
 }

@@ -3,6 +3,7 @@ use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::{Asked, Scratch};
 use crate::neighbor::{FarPair, farthest_pair};
+use crate::numbers::NodeId;
 use crate::roadmap::{Component, Components, Configs, Roadmap};
 use crate::space::Space;
 use bincode::{Decode, Encode};
@@ -158,13 +159,13 @@ fn ends(
 ) -> FarPair {
     let known = later.and_then(|later| {
         later.widths.iter().find(|pair| {
-            components.contains(component, pair.low) && components.contains(component, pair.high)
+            [pair.low, pair.high].iter().all(|node| components.contains(component, NodeId(*node)))
         })
     });
     if let Some(ends) = known {
         return *ends;
     }
-    let alone = FarPair { distance: 0.0, low: component.name, high: component.name };
+    let alone = FarPair { distance: 0.0, low: component.name.0, high: component.name.0 };
     farthest_pair(space, configs, &component.members, &component.centre).unwrap_or(alone)
 }
 

@@ -5,6 +5,7 @@ use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::Scratch;
+use crate::numbers::NodeId;
 use crate::query::{Attachment, attach, attach_for_good};
 use crate::roadmap::{Edge, Roadmap};
 use bincode::{Decode, Encode};
@@ -84,7 +85,7 @@ impl Evaluator for MaxFlow {
             attach
         };
         for (index, q) in from.iter().chain(to).enumerate() {
-            let id = (nodes + index) as u32;
+            let id = NodeId((nodes + index) as u32);
             edges.extend(attach(cx, roadmap, q, id, &self.how(), scratch));
         }
         let least = self.least_weight(cx);
@@ -95,7 +96,7 @@ impl Evaluator for MaxFlow {
             network.add(edge.high, edge.low, whole(edge.cost.backward()));
         }
         let ids = |first: usize, count: usize| {
-            (first..first + count).map(|id| id as u32).collect::<Vec<u32>>()
+            (first..first + count).map(|id| NodeId(id as u32)).collect::<Vec<_>>()
         };
         let (sources, sinks) = (ids(nodes, from.len()), ids(nodes + from.len(), to.len()));
         let (flow, near) = network.flow(&sources, &sinks);
@@ -105,7 +106,7 @@ impl Evaluator for MaxFlow {
         let mut cut = Vec::new();
         for edge in &edges {
             let (there, back) = (edge.cost.forward(), edge.cost.backward());
-            cut.extend(match [edge.low, edge.high].map(|node| near[node as usize]) {
+            cut.extend(match [edge.low, edge.high].map(|node| near[node.index()]) {
                 [true, false] => Some(severed(edge.low, edge.high, there)),
                 [false, true] => Some(severed(edge.high, edge.low, back)),
                 _ => None,

@@ -5,6 +5,7 @@ use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::{Asked, Scratch};
+use crate::numbers::NodeId;
 use crate::query::Attachment;
 use crate::roadmap::{Configs, Roadmap};
 use crate::sampler::SamplerKind;
@@ -138,13 +139,14 @@ impl Samples {
         roadmap: &Roadmap,
         attachment: &Attachment,
         scratch: &mut Scratch,
-    ) -> Vec<BTreeSet<u32>> {
+    ) -> Vec<BTreeSet<NodeId>> {
         let configs = roadmap.configs();
         let mut reached = vec![BTreeSet::new(); self.count()];
         for (components, q) in reached.iter_mut().zip(self.configs(cx, path, scratch).iter()) {
             for neighbor in roadmap.k_nearest(&cx.space, q, attachment.neighbors as usize) {
-                let name = roadmap.components().of_node(neighbor.id).name;
-                let ends = (configs.get(neighbor.id as usize), q);
+                let node = NodeId(neighbor.id);
+                let name = roadmap.components().of_node(node).name;
+                let ends = (configs.get(node.index()), q);
                 let planners = &attachment.planners;
                 if !components.contains(&name)
                     && local::connect(cx, planners, ends, 1, scratch).is_some()

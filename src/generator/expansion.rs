@@ -3,6 +3,7 @@ use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::{Scratch, Validity};
+use crate::numbers::NodeId;
 use crate::roadmap::{Edge, EdgeCost, Increment, Roadmap};
 use crate::sampler::GaveUp;
 use crate::seed::{Purpose, Seed, Stream};
@@ -115,8 +116,8 @@ impl Weights {
         let Some(frozen) = frozen else { return Weights(Vec::new()) };
         let mut degrees = vec![0u32; frozen.configs().len()];
         for edge in frozen.edges().iter() {
-            degrees[edge.low as usize] += 1;
-            degrees[edge.high as usize] += 1;
+            degrees[edge.low.index()] += 1;
+            degrees[edge.high.index()] += 1;
         }
         let mut sum = 0.0;
         let sums = degrees.into_iter().map(|degree| {
@@ -127,10 +128,10 @@ impl Weights {
     }
 
     /// A node and where it is; `None` in a roadmap without nodes.
-    fn choose<'a>(&self, stream: &mut Stream, frozen: &'a Roadmap) -> Option<(u32, &'a [f64])> {
+    fn choose<'a>(&self, stream: &mut Stream, frozen: &'a Roadmap) -> Option<(NodeId, &'a [f64])> {
         let drawn = stream.unit() * self.0.last()?;
         let node = self.0.partition_point(|sum| *sum <= drawn).min(self.0.len() - 1);
-        Some((node as u32, frozen.configs().get(node)))
+        Some((NodeId(node as u32), frozen.configs().get(node)))
     }
 }
 
@@ -148,21 +149,22 @@ struct Walks<'a> {
 #[derive(Clone, Copy)]
 enum Start {
     /// At a node that was there before.
-    Old(u32),
+    Old(NodeId),
     /// At a milestone of this set.
-    New(u32),
+    New(NodeId),
 }
 
 impl Walks<'_> {
     /// One walk from a node, until the set has `count` milestones. In a roadmap without nodes it begins at a
     /// valid configuration drawn uniformly, which becomes a milestone.
-    fn walk(&mut self, from: Option<(u32, &[f64])>, count: usize) -> Result<(), GaveUp> {
+    fn walk(&mut self, from: Option<(NodeId, &[f64])>, count: usize) -> Result<(), GaveUp> {
         let (mut start, mut at) = match from {
             Some((node, q)) => (Start::Old(node), q.to_vec()),
             None => {
                 let q = self.draw()?;
+                let first = self.next_node();
                 self.made.configs.push(&q);
-                (Start::New(self.made.configs.len() as u32 - 1), q)
+                (Start::New(first), q)
             }
         };
         for _ in 0..self.expansion.bounces {
@@ -170,7 +172,7 @@ impl Walks<'_> {
                 break;
             }
             let (there, cost) = self.leg(&at)?;
-            let (planner, high) = (Planner::StraightLine.tag(), self.made.configs.len() as u32);
+            let (planner, high) = (Planner::StraightLine.tag(), self.next_node());
             self.made.configs.push(&there);
             match start {
                 Start::Old(low) => self.made.root_edges.push(Edge { low, high, planner, cost }),
@@ -179,6 +181,11 @@ impl Walks<'_> {
             (start, at) = (Start::New(high), there);
         }
         Ok(())
+    }
+
+    /// The id of the next milestone within the set.
+    fn next_node(&self) -> NodeId {
+        NodeId(self.made.configs.len() as u32)
     }
 
     /// A valid configuration drawn uniformly.

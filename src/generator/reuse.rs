@@ -3,6 +3,7 @@ use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::Scratch;
+use crate::numbers::NodeId;
 use crate::roadmap::{Configs, Edge, EdgeCost, Increment, Roadmap};
 use crate::sampler::GaveUp;
 use crate::seed::{Purpose, Seed};
@@ -108,8 +109,8 @@ impl Reuse {
         let mut edges = Vec::new();
         // A set larger than the parent's roadmap holds several copies of it.
         for copy in taken / nodes..=(taken + count - 1) / nodes {
-            let milestone = |node: u32| {
-                let index = (copy * nodes + u128::from(node)).checked_sub(taken)?;
+            let milestone = |node: NodeId| {
+                let index = (copy * nodes + u128::from(node.0)).checked_sub(taken)?;
                 (index < count).then_some(index as usize)
             };
             for [low, high] in parent.edges() {
@@ -117,8 +118,8 @@ impl Reuse {
                 let (a, b) = (configs.get(low), configs.get(high));
                 let Some(cost) = cx.model.motion(a, b, 1, scratch) else { continue };
                 edges.push(Edge {
-                    low: low as u32,
-                    high: high as u32,
+                    low: NodeId(low as u32),
+                    high: NodeId(high as u32),
                     planner: Planner::StraightLine.tag(),
                     cost: EdgeCost::of(cost, cx.space.distance(a, b)),
                 });

@@ -328,8 +328,8 @@ impl Core {
                     + before.iter().map(|increment| increment.configs.len() as u64).sum::<u64>();
                 let own = self.published.get(offset).map_or(0, |own| own.configs.len() as u64);
                 joined.edges.iter().all(|edge| {
-                    u64::from(edge.low) < first
-                        && (first..first + own).contains(&u64::from(edge.high))
+                    u64::from(edge.low.0) < first
+                        && (first..first + own).contains(&u64::from(edge.high.0))
                         && self.form.has_cost(edge)
                 })
             }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::model::Scratch;
-use crate::numbers::{Ordinal, SetName, SetNumber};
+use crate::numbers::{NodeId, Ordinal, SetName, SetNumber};
 use crate::problem::Problem;
 use crate::roadmap::Tally;
 use crate::sampler::GaveUp;
@@ -121,7 +121,7 @@ fn impossible_answers_end_the_build() {
     let Outcome::Increment(Ok(mut increment)) = task.run(&setup, &mut Scratch::new()) else {
         panic!("the sampler finds milestones");
     };
-    increment.edges.push(crate::roadmap::Edge::metric(0, 4, 0, 1.0));
+    increment.edges.push(crate::roadmap::Edge::metric(NodeId(0), NodeId(4), 0, 1.0));
     let no_such_node = Outcome::Increment(Ok(increment));
     let joined = Outcome::Joined(Joined { edges: Vec::new(), asked: Default::default() });
     let gave_up = Outcome::Increment(Err(GaveUp { attempts: 1 }));

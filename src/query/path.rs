@@ -1,5 +1,6 @@
 use crate::context::Context;
 use crate::local::Planner;
+use crate::numbers::NodeId;
 use crate::roadmap::{Configs, Edge, Route};
 use crate::space::Space;
 use bincode::{Decode, Encode};
@@ -20,7 +21,7 @@ impl Path {
         cx: &Context,
         route: &Route,
         edges: &[Edge],
-        config: impl Fn(u32) -> &'a [f64],
+        config: impl Fn(NodeId) -> &'a [f64],
     ) -> Path {
         let mut configs = Configs::new(cx.space.len());
         configs.push(config(route.nodes[0]));

@@ -27,6 +27,7 @@ pub use search::{Graph, Route};
 pub use tally::{Outline, Tally};
 
 use crate::neighbor::Neighbor;
+use crate::numbers::NodeId;
 use crate::shelf::Shelf;
 use crate::space::Space;
 use std::sync::Arc;
@@ -153,7 +154,8 @@ impl Roadmap {
         self.tally.set_components(self.components.count());
     }
 
-    /// The at most `k` milestones nearest to `q`, nearest first, ties by id.
+    /// The at most `k` milestones nearest to `q`, nearest first, ties by id. The ids of what is found are the integers
+    /// in the [`NodeId`]s.
     pub fn k_nearest(&self, space: &Space, q: &[f64], k: usize) -> Vec<Neighbor> {
         self.components.k_nearest(space, &self.configs, q, k)
     }
@@ -169,7 +171,12 @@ impl Roadmap {
         self.components.in_radius(space, &self.configs, q, radius, most)
     }
 
-    /// The milestones.
+    /// The ids of all nodes, in order.
+    pub fn nodes(&self) -> impl Iterator<Item = NodeId> + use<> {
+        NodeId::each(NodeId(0)..NodeId(self.configs.len() as u32))
+    }
+
+    /// The milestones; the one of a node stands at the [index](NodeId::index) of its id.
     pub fn configs(&self) -> &Configs {
         &self.configs
     }
@@ -187,8 +194,8 @@ impl Roadmap {
     }
 
     /// The `count` numbers that the model gives the milestone `node`.
-    pub fn values_of(&self, node: usize, count: usize) -> &[f64] {
-        &self.values[node * count..(node + 1) * count]
+    pub fn values_of(&self, node: NodeId, count: usize) -> &[f64] {
+        &self.values[node.index() * count..(node.index() + 1) * count]
     }
 
     /// The connected components.

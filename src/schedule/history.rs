@@ -38,7 +38,7 @@ impl History {
             for edge in &set.joined.edges {
                 let [low, high] = self.forest.unite(edge.low, edge.high);
                 // Its lowest node says whether a component was there before.
-                total.united += u64::from(low != high && high < before);
+                total.united += u64::from(low != high && high.0 < before);
             }
         }
         self.yields.push(yields);

@@ -10,7 +10,7 @@ use roadmill::evaluate::Verdict;
 use roadmill::img::{Job, Joined, Outcome, Setup, Task};
 use roadmill::internal::wire;
 use roadmill::model::{Asked, Scratch};
-use roadmill::numbers::{Ordinal, SetNumber, StrategyIndex};
+use roadmill::numbers::{NodeId, Ordinal, SetNumber, StrategyIndex};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Edge};
 use roadmill_workers::message::{Bytes, Done, Entry, FromWorker, PROTOCOL, ToWorker};
@@ -25,7 +25,7 @@ fn messages() -> Vec<Vec<u8>> {
     let generate = Task::Generate { strategy: StrategyIndex(0), ordinal: Ordinal(0), frozen: None };
     let increment = generate.run(&setup, &mut Scratch::new());
     assert!(matches!(increment, Outcome::Increment(Ok(_))));
-    let edge = Edge::metric(0, 1, 0, 1.0);
+    let edge = Edge::metric(NodeId(0), NodeId(1), 0, 1.0);
     let joined = Joined { edges: vec![edge; 3], asked: Asked::default() };
     let verdict =
         |parts: Vec<Verdict>| Verdict { parts, ..Verdict::at_least(1.0, 1.0, Asked::default()) };

@@ -132,7 +132,7 @@ impl<'a> Replay<'a> {
             && set.increment.is_sound(self.form, if grows { self.folded } else { 0 })
             && joins.iter().all(|edge| {
                 edge.low < edge.high
-                    && u64::from(edge.high) < self.nodes
+                    && u64::from(edge.high.0) < self.nodes
                     && self.form.has_cost(edge)
             });
         if !sound {

@@ -55,7 +55,7 @@ impl LedgerWriter {
             let file = File::options().write(true).create(true).truncate(true).open(&begun)?;
             let durable = DurableFile::create(folder)?;
             let roadmap = Tally::new(&problem.space()).digest();
-            Ok(LedgerWriter::new(folder, file, durable, lock, (Mark::first(), roadmap)))
+            Ok(LedgerWriter::new(folder, file, durable, lock, Mark::first(), roadmap))
         };
         let mut writer = begin().map_err(|error| cannot_write(&begun, &error))?;
         writer.file.write_all(HEADING).map_err(|error| cannot_write(&begun, &error))?;
