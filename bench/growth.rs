@@ -17,6 +17,7 @@ mod support;
 
 use roadmill::img::{Job, Joined, Outcome, Replica, Setup};
 use roadmill::model::{Cost, Model, Scratch, Validity};
+use roadmill::numbers::{Ordinal, SetName, SetNumber};
 use roadmill::problem::Problem;
 use roadmill::query::Attachment;
 use roadmill::seed::{Purpose, Seed};
@@ -120,7 +121,7 @@ fn grow(problem: Problem, nodes: u64, set: u64) {
     let mut replica = Replica::new(&setup);
     let mut scratch = Scratch::new();
     let (mut spent, mut mark) = (Spent::default(), Spent::default());
-    let (mut place, mut points) = (0, Vec::new());
+    let (mut number, mut points) = (SetNumber(0), Vec::new());
     for size in SIZES.into_iter().take_while(|size| *size <= nodes) {
         let mut marked = 0;
         loop {
@@ -131,8 +132,8 @@ fn grow(problem: Problem, nodes: u64, set: u64) {
             if grown < size - size / 10 {
                 (mark, marked) = (spent, grown);
             }
-            grow_by_one(&setup, &mut replica, place, &mut scratch, &mut spent);
-            place += 1;
+            grow_by_one(&setup, &mut replica, number, &mut scratch, &mut spent);
+            number = number.next();
         }
         let roadmap = replica.roadmap();
         let count = roadmap.configs().len() as f64;
@@ -167,7 +168,7 @@ fn grow(problem: Problem, nodes: u64, set: u64) {
 fn grow_by_one(
     setup: &Setup,
     replica: &mut Replica,
-    place: u64,
+    number: SetNumber,
     scratch: &mut Scratch,
     spent: &mut Spent,
 ) {
@@ -180,8 +181,9 @@ fn grow_by_one(
         now
     };
     let (mut generate, mut join, mut fold) = (0.0, 0.0, 0.0);
-    let (strategy, ordinal) = setup.plan().set_at(place).expect("the schedule does not adapt");
-    let generate_set = Job::Generate { place, strategy, ordinal };
+    let name = setup.plan().name_of(number).expect("the schedule does not adapt");
+    let SetName { strategy, ordinal } = name;
+    let generate_set = Job::Generate { number, strategy, ordinal };
     let task = replica.task(setup, generate_set).expect("sets can be generated");
     let Outcome::Increment(Ok(increment)) = task.run(setup, scratch) else {
         panic!("the scene has free configurations")
@@ -189,7 +191,7 @@ fn grow_by_one(
     let now = split(begun, &mut generate);
     replica.publish(setup, Arc::new(increment));
     let now = split(now, &mut fold);
-    let join_set = Job::Join { place, strategy, ordinal };
+    let join_set = Job::Join { number, strategy, ordinal };
     let task = replica.task(setup, join_set).expect("the set is published");
     let Outcome::Joined(Joined { edges, .. }) = task.run(setup, scratch) else {
         panic!("joins give edges")
@@ -207,7 +209,7 @@ fn grow_by_one(
 /// Microseconds per search for a random configuration's ten nearest milestones.
 fn neighbours(setup: &Setup, replica: &Replica) -> f64 {
     let (space, roadmap) = (setup.context().space(), replica.roadmap());
-    let mut stream = Seed::of_set(1, "growth", 0).stream(Purpose::Sampling);
+    let mut stream = Seed::of_set(1, "growth", Ordinal(0)).stream(Purpose::Sampling);
     let mut q = vec![0.0; space.len()];
     let (mut seconds, searches) = (0.0, 100);
     for _ in 0..searches {

@@ -16,6 +16,7 @@ mod cage;
 use cage::cage;
 use roadmill::img::{Executor, Joined, Round, RoundSet, Setup, Threads};
 use roadmill::model::Asked;
+use roadmill::numbers::{NodeId, Ordinal, RoundNumber, SetNumber, StrategyIndex};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Configs, Edge, Increment, Roadmap};
 use roadmill::seed::{Purpose, Seed, Stream};
@@ -98,21 +99,24 @@ fn make(run: &Path, problem: &Problem, nodes: u64) {
     let mut ledger = LedgerWriter::begin(run, problem, lock).expect("it can be written");
     let space = problem.space();
     let mut roadmap = Roadmap::new(&space);
-    let mut stream = Seed::of_set(1, "bench", 0).stream(Purpose::Sampling);
+    let mut stream = Seed::of_set(1, "bench", Ordinal(0)).stream(Purpose::Sampling);
     for index in 0..nodes / (u64::from(SET_NODES) * SETS_PER_ROUND) {
         let mut first = roadmap.configs().len() as u32;
-        let places = index * SETS_PER_ROUND..(index + 1) * SETS_PER_ROUND;
-        let sets: Vec<RoundSet> = places
-            .map(|place| {
+        let numbers = index * SETS_PER_ROUND..(index + 1) * SETS_PER_ROUND;
+        let sets: Vec<RoundSet> = numbers
+            .map(|number| {
                 let increment = Arc::new(increment(&space, &mut stream));
                 let joined = joined(first, &mut stream);
                 first += SET_NODES;
-                RoundSet { place, strategy: 0, ordinal: place, increment, joined }
+                let (number, ordinal) = (SetNumber(number), Ordinal(number));
+                RoundSet { number, strategy: StrategyIndex(0), ordinal, increment, joined }
             })
             .collect();
         let folded = sets.iter().map(|set| (&*set.increment, &set.joined.edges[..]));
         roadmap.fold_round(&space, folded);
-        ledger.round(&Round { index, sets }, problem, roadmap.tally()).expect("it can be written");
+        ledger
+            .round(&Round { number: RoundNumber(index), sets }, problem, roadmap.tally())
+            .expect("it can be written");
     }
 }
 
@@ -127,7 +131,7 @@ fn increment(space: &roadmill::space::Space, stream: &mut Stream) -> Increment {
     let edge = |index: u32, stream: &mut Stream| {
         let low = index % (SET_NODES - 1);
         let high = low + 1 + below(SET_NODES - 1 - low, stream);
-        Edge::metric(low, high, 0, stream.unit())
+        Edge::metric(NodeId(low), NodeId(high), 0, stream.unit())
     };
     let edges = (0..SET_NODES * EDGES_PER_NODE).map(|index| edge(index, stream)).collect();
     Increment { configs, edges, ..Increment::empty(0) }
@@ -138,7 +142,7 @@ fn joined(first: u32, stream: &mut Stream) -> Joined {
     let mut edges = Vec::new();
     for index in 0..JOINS_PER_SET.min(first) {
         let low = (stream.unit() * f64::from(first)) as u32;
-        edges.push(Edge::metric(low, first + index, 0, stream.unit()));
+        edges.push(Edge::metric(NodeId(low), NodeId(first + index), 0, stream.unit()));
     }
     Joined { edges, asked: Asked::default() }
 }

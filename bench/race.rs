@@ -25,6 +25,7 @@ use roadmill::connect::{Nearest, Within};
 use roadmill::model::Scratch;
 use roadmill::model::bodies::BodyValidity;
 use roadmill::model::bodies::validity::MotionChecking;
+use roadmill::numbers::Ordinal;
 use roadmill::problem::Problem;
 use roadmill::seed::Seed;
 use std::collections::BTreeMap;
@@ -236,7 +237,7 @@ impl Track<'_> {
             let begun = cpu_seconds();
             let set = sample(&cx, NODES, round as u64);
             let within = Nearest { neighbors: NEIGHBORS as u32, ..Nearest::default() };
-            let seed = Seed::of_set(1, "race", round as u64);
+            let seed = Seed::of_set(1, "race", Ordinal(round as u64));
             assert!(!within.connect(&cx, &seed, &set, &mut Scratch::new()).is_empty());
             ours.push(cpu_seconds() - begun);
             let words = [NODES, NEIGHBORS, round + 1].map(|number| number.to_string());

@@ -16,6 +16,7 @@ mod support;
 use roadmill::Context;
 use roadmill::img::Setup;
 use roadmill::model::Scratch;
+use roadmill::numbers::Ordinal;
 use roadmill::problem::Problem;
 use roadmill::roadmap::Configs;
 use roadmill::sampler::SamplerKind;
@@ -69,7 +70,7 @@ fn cost(cx: &Context, sampler: &SamplerKind) -> String {
     assert_eq!((method.complaint(), method.suits(cx)), (None, Ok(())));
     let (mut scratch, mut configs) = (Scratch::new(), Configs::new(cx.space().len()));
     let begun = cpu_seconds();
-    let seed = Seed::of_set(1, "cost", 0);
+    let seed = Seed::of_set(1, "cost", Ordinal(0));
     let done = method.sample(cx, &seed, 1000, &mut scratch, &mut configs);
     let micros = (cpu_seconds() - begun) * 1e3;
     done.unwrap_or_else(|error| panic!("{sampler:?}: {error}"));

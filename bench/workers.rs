@@ -31,6 +31,7 @@ mod virtual_pool;
 use roadmill::img::{Core, Job, Joined, Observer, Outcome, Replica, Setup, Task, drive};
 use roadmill::internal::wire;
 use roadmill::model::{ModelSpec, Scratch};
+use roadmill::numbers::{EvaluatorIndex, SetName, SetNumber};
 use roadmill::problem::{NODES_MAX, Problem};
 use roadmill::roadmap::Increment;
 use roadmill::sampler::SamplerKind;
@@ -151,15 +152,15 @@ fn measure(problem: &Problem, nodes: u64) -> Costs {
     let (mut replica, scratch) = (Replica::new(&setup), &mut Scratch::new());
     let mut costs = Costs::default();
     let (mut take_in, mut fold) = (Vec::new(), Vec::new());
-    let (mut place, mut met) = (0, problem.evaluators().is_empty());
+    let (mut number, mut met) = (SetNumber(0), problem.evaluators().is_empty());
     while (replica.roadmap().configs().len() as u64) < nodes {
-        let (bytes, generate) = timed(|| generate(&setup, &replica, place, scratch));
+        let (bytes, generate) = timed(|| generate(&setup, &replica, number, scratch));
         let ((), taking) = timed(|| take(&setup, &mut replica, &bytes));
-        let (Joined { edges, .. }, join) = timed(|| join(&setup, &replica, place, scratch));
+        let (Joined { edges, .. }, join) = timed(|| join(&setup, &replica, number, scratch));
         let ((), folding) = timed(|| replica.fold(&setup, std::iter::once(&edges[..])));
         if !met {
             let roadmap = replica.roadmap().clone();
-            let task = Task::Evaluate { evaluator: 0, roadmap };
+            let task = Task::Evaluate { evaluator: EvaluatorIndex(0), roadmap };
             let (outcome, seconds) = timed(|| task.run(&setup, scratch));
             let Outcome::Verdict(verdict) = outcome else { panic!("evaluations give verdicts") };
             met = verdict.satisfied;
@@ -167,7 +168,7 @@ fn measure(problem: &Problem, nodes: u64) -> Costs {
                 costs.evaluate = seconds;
             }
         }
-        place += 1;
+        number = number.next();
         if replica.roadmap().configs().len() as u64 > nodes / 2 {
             costs.generate.push(generate);
             costs.join.push(join);
@@ -180,9 +181,9 @@ fn measure(problem: &Problem, nodes: u64) -> Costs {
     costs.fold = fold.iter().sum::<f64>() / fold.len() as f64;
     let mut joins = Vec::new();
     for earlier in 0..ROUND {
-        let bytes = generate(&setup, &replica, place + earlier, scratch);
+        let bytes = generate(&setup, &replica, number + earlier, scratch);
         take(&setup, &mut replica, &bytes);
-        joins.push(timed(|| join(&setup, &replica, place + earlier, scratch)).1);
+        joins.push(timed(|| join(&setup, &replica, number + earlier, scratch)).1);
     }
     let quarter = joins.len() / 4;
     let late = median(&mut joins[3 * quarter..].to_vec());
@@ -196,9 +197,10 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     (work(), cpu_seconds() - begun)
 }
 
-fn generate(setup: &Setup, replica: &Replica, place: u64, scratch: &mut Scratch) -> Vec<u8> {
-    let (strategy, ordinal) = setup.plan().set_at(place).expect("the schedule does not adapt");
-    let job = Job::Generate { place, strategy, ordinal };
+fn generate(setup: &Setup, replica: &Replica, number: SetNumber, scratch: &mut Scratch) -> Vec<u8> {
+    let name = setup.plan().name_of(number).expect("the schedule does not adapt");
+    let SetName { strategy, ordinal } = name;
+    let job = Job::Generate { number, strategy, ordinal };
     let task = replica.task(setup, job).expect("sets can be generated");
     let Outcome::Increment(Ok(increment)) = task.run(setup, scratch) else {
         panic!("the scene has free configurations")
@@ -211,9 +213,10 @@ fn take(setup: &Setup, replica: &mut Replica, bytes: &[u8]) {
     replica.publish(setup, Arc::new(increment));
 }
 
-fn join(setup: &Setup, replica: &Replica, place: u64, scratch: &mut Scratch) -> Joined {
-    let (strategy, ordinal) = setup.plan().set_at(place).expect("the schedule does not adapt");
-    let job = Job::Join { place, strategy, ordinal };
+fn join(setup: &Setup, replica: &Replica, number: SetNumber, scratch: &mut Scratch) -> Joined {
+    let name = setup.plan().name_of(number).expect("the schedule does not adapt");
+    let SetName { strategy, ordinal } = name;
+    let job = Job::Join { number, strategy, ordinal };
     let task = replica.task(setup, job).expect("the set is published");
     let Outcome::Joined(joined) = task.run(setup, scratch) else { panic!("joins give edges") };
     joined

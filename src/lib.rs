@@ -49,6 +49,7 @@ pub mod math;
 pub mod methods;
 pub mod model;
 pub mod neighbor;
+pub mod numbers;
 pub mod problem;
 pub mod query;
 pub mod roadmap;

@@ -1,7 +1,31 @@
 //! The pattern by which a problem file chooses among methods.
 
-/// What is wrong with a method's setting: its key, what was found, what is expected.
-pub type Complaint = (&'static str, String, &'static str);
+use std::fmt;
+
+/// What is wrong with a method's setting.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Complaint {
+    /// The setting's key.
+    pub key: &'static str,
+    /// The value that was found.
+    pub found: String,
+    /// What is expected, in words.
+    pub expected: &'static str,
+}
+
+impl Complaint {
+    /// A complaint about the value `found` of the setting `key`.
+    pub fn new(key: &'static str, found: impl fmt::Display, expected: &'static str) -> Complaint {
+        Complaint { key, found: found.to_string(), expected }
+    }
+}
+
+/// As an error message: what was found, and what is expected.
+impl fmt::Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = {} found; {} expected", self.key, self.found, self.expected)
+    }
+}
 
 /// The most brackets that a method may have within one another as a problem file writes it, where the reader of TOML has
 /// its bound. A program could give methods within methods without end, which would overflow the stack.

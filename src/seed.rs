@@ -7,6 +7,7 @@
 //! generation method so far"*. BLAKE3 derives it, ChaCha8 draws from it.
 
 use crate::math;
+use crate::numbers::Ordinal;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -28,7 +29,7 @@ pub struct Seed {
     own: [u8; 32],
     /// What the sets of one label have in common.
     common: [u8; 32],
-    ordinal: u64,
+    ordinal: Ordinal,
 }
 
 impl std::fmt::Display for Seed {
@@ -38,14 +39,14 @@ impl std::fmt::Display for Seed {
 }
 
 impl Seed {
-    /// Seed of the set `ordinal` (counted from 0) of the strategy `label`.
-    pub fn of_set(base_seed: u64, label: &str, ordinal: u64) -> Seed {
+    /// Seed of the set `ordinal` of the strategy `label`.
+    pub fn of_set(base_seed: u64, label: &str, ordinal: Ordinal) -> Seed {
         let mut hasher = blake3::Hasher::new_derive_key("roadmill 1 set seed");
         hasher.update(&base_seed.to_le_bytes());
         hasher.update(&(label.len() as u64).to_le_bytes());
         hasher.update(label.as_bytes());
         let common = derived("roadmill 1 label seed", hasher.finalize().as_bytes(), 0);
-        hasher.update(&ordinal.to_le_bytes());
+        hasher.update(&ordinal.0.to_le_bytes());
         Seed { own: *hasher.finalize().as_bytes(), common, ordinal }
     }
 
@@ -55,19 +56,19 @@ impl Seed {
         hasher.update(&base_seed.to_le_bytes());
         hasher.update(path.as_bytes());
         let own = *hasher.finalize().as_bytes();
-        Seed { own, common: own, ordinal: 0 }
+        Seed { own, common: own, ordinal: Ordinal(0) }
     }
 
     /// The ordinal of the set within its label, so that sets can share out points that stand in a fixed
     /// order; 0 for an evaluator.
-    pub fn ordinal(&self) -> u64 {
+    pub fn ordinal(&self) -> Ordinal {
         self.ordinal
     }
 
     /// Seed `index` of those that are the same for all sets of the label.
     pub fn common(&self, index: u64) -> Seed {
         let own = derived("roadmill 1 common seed", &self.common, index);
-        Seed { own, common: own, ordinal: 0 }
+        Seed { own, common: own, ordinal: Ordinal(0) }
     }
 
     /// The seed of the same set for part `index` of a method that is made of several.
@@ -123,7 +124,7 @@ mod tests {
         let mut seen = std::collections::BTreeSet::new();
         for base_seed in [0, 1] {
             for label in ["uniform", "bridge"] {
-                for ordinal in [0, 1] {
+                for ordinal in [0, 1].map(Ordinal) {
                     for purpose in [Purpose::Sampling, Purpose::Accepting, Purpose::Connecting] {
                         let mut stream = Seed::of_set(base_seed, label, ordinal).stream(purpose);
                         assert!(seen.insert(stream.unit().to_bits()));
@@ -135,11 +136,12 @@ mod tests {
 
     #[test]
     fn sets_of_a_label_have_common_seeds_and_parts_of_their_own() {
-        let [first, second, other] =
-            [("a", 0), ("a", 1), ("b", 0)].map(|(label, ordinal)| Seed::of_set(0, label, ordinal));
+        let [first, second, other] = [("a", 0), ("a", 1), ("b", 0)]
+            .map(|(label, ordinal)| Seed::of_set(0, label, Ordinal(ordinal)));
         assert_eq!(first.common(0), second.common(0));
         assert_eq!(first.part(1).common(0), second.part(1).common(0));
-        assert_eq!((first.ordinal(), second.ordinal(), second.part(1).ordinal()), (0, 1, 1));
+        let ordinals = [first, second, second.part(1)].map(|seed| seed.ordinal().0);
+        assert_eq!(ordinals, [0, 1, 1]);
         let mut seeds = vec![first, second, other];
         for seed in [first, other] {
             seeds.extend([seed.common(0), seed.common(1), seed.part(0).common(0)]);
@@ -154,7 +156,7 @@ mod tests {
 
     #[test]
     fn the_first_numbers_of_a_set_are_golden() {
-        let mut stream = Seed::of_set(1, "uniform", 0).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(1, "uniform", Ordinal(0)).stream(Purpose::Sampling);
         let drawn = [stream.unit(), stream.unit()].map(f64::to_bits);
         assert_eq!(drawn, GOLDEN, "bits of a given seed changed: bump BITS_VERSION");
     }

@@ -2,6 +2,7 @@ use crate::connect::AmongKind;
 use crate::context::Context;
 use crate::generator::GeneratorKind;
 use crate::model::Scratch;
+use crate::numbers::Ordinal;
 use crate::roadmap::{Increment, Roadmap};
 use crate::sampler::GaveUp;
 use crate::seed::Seed;
@@ -49,7 +50,7 @@ impl Strategy {
     pub fn generate(
         &self,
         cx: &Context,
-        ordinal: u64,
+        ordinal: Ordinal,
         frozen: Option<&Roadmap>,
         scratch: &mut Scratch,
     ) -> Result<Increment, GaveUp> {

@@ -6,6 +6,7 @@ mod edges;
 use edges::with_edges;
 use roadmill::model::Scratch;
 use roadmill::model::bodies::validity::MotionChecking;
+use roadmill::numbers::Ordinal;
 use roadmill::problem::Problem;
 use roadmill::seed::{Purpose, Seed};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -50,7 +51,7 @@ fn nothing_is_allocated_once_the_scratch_is_warm() {
         for edges in [MotionChecking::Swept, MotionChecking::Sampled] {
             let cx = with_edges(&problem, edges).context();
             let scratch = &mut Scratch::new();
-            let mut stream = Seed::of_set(5, name, 0).stream(Purpose::Sampling);
+            let mut stream = Seed::of_set(5, name, Ordinal(0)).stream(Purpose::Sampling);
             let mut valid = Vec::new();
             while valid.len() < 40 {
                 let mut q = vec![0.0; cx.space().len()];

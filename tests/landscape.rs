@@ -158,9 +158,9 @@ fn edges_cost_what_energies_say_and_peaks_are_above_all_energies() {
     let (cx, scratch) = (setup.context(), &mut Scratch::new());
     let tolerance = 0.001;
     for (index, edge) in roadmap.edges().iter().enumerate() {
-        let ends = [edge.low, edge.high].map(|node| roadmap.configs().get(node as usize));
+        let ends = [edge.low, edge.high].map(|node| roadmap.configs().get(node.index()));
         let energies = ends.map(|q| cx.model().energy(q, scratch).expect("it has energies"));
-        let values = [edge.low, edge.high].map(|node| roadmap.values_of(node as usize, 1)[0]);
+        let values = [edge.low, edge.high].map(|node| roadmap.values_of(node, 1)[0]);
         assert_eq!(energies, values, "a milestone carries its energy");
         let Directed { forward, backward, peak } = edge.cost.directed().expect("a directed cost");
         // To the last bit: a climb is the peak less the energy at the end where it begins.

@@ -7,6 +7,7 @@ use roadmill::img::{
 use roadmill::model::ModelSpec;
 use roadmill::model::bodies::SpaceSpec;
 use roadmill::model::bodies::validity::{BoundsMeaning, MotionChecking};
+use roadmill::numbers::{Ordinal, RoundNumber, StrategyIndex};
 use roadmill::problem::{Limits, Problem, ProblemBuilder, StrategySpec};
 use roadmill::roadmap::Tally;
 use roadmill::schedule::Adaptive;
@@ -47,13 +48,13 @@ impl Observer for Keeper {
     type Error = Infallible;
 
     fn folded(&mut self, round: &Round, _: &Tally) -> Result<(), Infallible> {
-        assert_eq!(round.index, self.rounds.len() as u64);
+        assert_eq!(round.number, RoundNumber(self.rounds.len() as u64));
         self.rounds.push(round.clone());
         Ok(())
     }
 
     fn judged(&mut self, judgement: &Judgement) -> Result<(), Infallible> {
-        assert_eq!(judgement.round, self.judgements.len() as u64);
+        assert_eq!(judgement.round, RoundNumber(self.judgements.len() as u64));
         self.judgements.push(judgement.clone());
         Ok(())
     }
@@ -208,12 +209,12 @@ fn a_chapter_adds(name: &str, further: &Problem) {
         cut.go_on(&setup, &mut simulated, 2);
         assert_eq!(simulated.tally().digest(), whole.roadmap.digest(), "{seed}");
 
-        let mut next = vec![0; setup.problem().strategies().len()];
+        let mut next = vec![Ordinal(0); setup.problem().strategies().len()];
         for set in cut.rounds.iter().flat_map(|round| &round.sets) {
-            assert_eq!(set.ordinal, next[set.strategy as usize]);
-            next[set.strategy as usize] += 1;
+            assert_eq!(set.ordinal, next[set.strategy.index()]);
+            next[set.strategy.index()] = set.ordinal.next();
         }
-        assert!(next.iter().all(|sets| *sets > 0), "every strategy has sets: {next:?}");
+        assert!(next.iter().all(|sets| sets.0 > 0), "every strategy has sets: {next:?}");
         assert!(
             cut.rounds[before..].iter().all(|round| round.sets.len() > kept.rounds[0].sets.len())
         );
@@ -254,7 +255,7 @@ fn a_chapter_changes_nothing_that_sets_depend_on() {
     assert_eq!((next.digest(), next.limits()), (problem.digest(), limits));
     // Another one before the first round replaces the first.
     let labels = |problem: &Problem| -> Vec<String> {
-        let of = |strategy: &u32| problem.strategies()[*strategy as usize].label().to_owned();
+        let of = |strategy: &StrategyIndex| problem.strategies()[strategy.index()].label().to_owned();
         problem.schedule().iter().map(of).collect()
     };
     let next = problem.continued(&further(), 0).unwrap();

@@ -18,6 +18,7 @@ use roadmill::Context;
 use roadmill::model::bodies::BodyValidity;
 use roadmill::model::bodies::validity::{MotionChecking, TOLERANCE};
 use roadmill::model::{Scratch, Validity};
+use roadmill::numbers::Ordinal;
 use roadmill::problem::Problem;
 use roadmill::seed::{Purpose, Seed};
 use scenes::data;
@@ -50,7 +51,7 @@ fn real_scenes_are_judged_as_step_by_step() {
         let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled]
             .map(|edges| with_edges(&problem, edges).context());
         let scratch = &mut Scratch::new();
-        let mut stream = Seed::of_set(5, "real scenes", 0).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "real scenes", Ordinal(0)).stream(Purpose::Sampling);
         let (mut a, mut b) = (vec![0.0; swept.space().len()], vec![0.0; swept.space().len()]);
         let (mut motions, mut free, mut refused) = (0, 0, 0);
         while motions < count {
@@ -104,7 +105,7 @@ fn linkages_are_judged_as_by_every_pair_of_bodies() {
             .map(|edges| with_edges(&problem, edges).context());
         let brute = Brute::new(&problem);
         let scratch = &mut Scratch::new();
-        let mut stream = Seed::of_set(5, "linkages", 0).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "linkages", Ordinal(0)).stream(Purpose::Sampling);
         let (mut a, mut b) = (vec![0.0; swept.space().len()], vec![0.0; swept.space().len()]);
         let (mut motions, mut free) = (0, 0);
         while motions < 150 {

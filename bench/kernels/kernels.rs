@@ -9,6 +9,7 @@ use roadmill::internal::wire;
 use roadmill::model::Scratch;
 use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::neighbor::{Index, Searched, k_nearest, k_nearest_graph, radius_graph};
+use roadmill::numbers::{Ordinal, SetName, SetNumber};
 use roadmill::problem::Problem;
 use roadmill::query::{Attachment, solve};
 use roadmill::roadmap::{Configs, Increment};
@@ -68,7 +69,8 @@ fn problem(name: &str) -> Problem {
 
 /// Configurations drawn uniformly, valid or not.
 fn uniform(cx: &Context, count: usize) -> Configs {
-    let mut stream = Seed::of_set(1, "kernels", 0).stream(roadmill::seed::Purpose::Sampling);
+    let mut stream =
+        Seed::of_set(1, "kernels", Ordinal(0)).stream(roadmill::seed::Purpose::Sampling);
     let (mut configs, mut q) = (Configs::new(cx.space().len()), vec![0.0; cx.space().len()]);
     for _ in 0..count {
         cx.space().sample_uniform(&mut stream, &mut q);
@@ -128,7 +130,7 @@ fn samples(sampler: &str) -> Work {
     let mut scratch = Scratch::new();
     Box::new(move || {
         let mut configs = Configs::new(cx.space().len());
-        let seed = Seed::of_set(1, "kernels", 0);
+        let seed = Seed::of_set(1, "kernels", Ordinal(0));
         let sampled = sampler.method().sample(&cx, &seed, 50, &mut scratch, &mut configs);
         sampled.expect("the cage has room");
         configs.len()
@@ -230,7 +232,7 @@ fn connected() -> Work {
     let configs = sample(&cx, 500, 0);
     let mut scratch = Scratch::new();
     Box::new(move || {
-        let seed = Seed::of_set(1, "kernels", 0);
+        let seed = Seed::of_set(1, "kernels", Ordinal(0));
         let edges = Nearest::default().connect(&cx, &seed, &configs, &mut scratch);
         assert!(!edges.is_empty());
         configs.len()
@@ -241,19 +243,25 @@ fn connected() -> Work {
 fn grown(sets: u64) -> (Setup, Replica, Arc<Increment>) {
     let setup = Setup::new(problem("walls"));
     let (mut replica, mut scratch) = (Replica::new(&setup), Scratch::new());
-    for place in 0..sets {
-        let increment = generate(&setup, &replica, place, &mut scratch);
+    for number in SetNumber::each(SetNumber(0)..SetNumber(sets)) {
+        let increment = generate(&setup, &replica, number, &mut scratch);
         replica.publish(&setup, increment);
-        let edges = join(&setup, &replica, place, &mut scratch);
+        let edges = join(&setup, &replica, number, &mut scratch);
         replica.fold(&setup, std::iter::once(&edges[..]));
     }
-    let next = generate(&setup, &replica, sets, &mut scratch);
+    let next = generate(&setup, &replica, SetNumber(sets), &mut scratch);
     (setup, replica, next)
 }
 
-fn generate(setup: &Setup, replica: &Replica, place: u64, scratch: &mut Scratch) -> Arc<Increment> {
-    let (strategy, ordinal) = setup.plan().set_at(place).expect("the schedule does not adapt");
-    let task = replica.task(setup, Job::Generate { place, strategy, ordinal });
+fn generate(
+    setup: &Setup,
+    replica: &Replica,
+    number: SetNumber,
+    scratch: &mut Scratch,
+) -> Arc<Increment> {
+    let name = setup.plan().name_of(number).expect("the schedule does not adapt");
+    let SetName { strategy, ordinal } = name;
+    let task = replica.task(setup, Job::Generate { number, strategy, ordinal });
     match task.expect("sets can be generated").run(setup, scratch) {
         Outcome::Increment(Ok(increment)) => Arc::new(increment),
         other => panic!("no increment: {other:?}"),
@@ -263,11 +271,12 @@ fn generate(setup: &Setup, replica: &Replica, place: u64, scratch: &mut Scratch)
 fn join(
     setup: &Setup,
     replica: &Replica,
-    place: u64,
+    number: SetNumber,
     scratch: &mut Scratch,
 ) -> Vec<roadmill::roadmap::Edge> {
-    let (strategy, ordinal) = setup.plan().set_at(place).expect("the schedule does not adapt");
-    let task = replica.task(setup, Job::Join { place, strategy, ordinal });
+    let name = setup.plan().name_of(number).expect("the schedule does not adapt");
+    let SetName { strategy, ordinal } = name;
+    let task = replica.task(setup, Job::Join { number, strategy, ordinal });
     match task.expect("the set is published").run(setup, scratch) {
         Outcome::Joined(joined) => joined.edges,
         other => panic!("no edges: {other:?}"),
@@ -282,7 +291,7 @@ fn joined() -> Work {
     replica.publish(&setup, next);
     let mut scratch = Scratch::new();
     Box::new(move || {
-        std::hint::black_box(join(&setup, &replica, SETS, &mut scratch));
+        std::hint::black_box(join(&setup, &replica, SetNumber(SETS), &mut scratch));
         nodes
     })
 }
@@ -290,8 +299,8 @@ fn joined() -> Work {
 fn folded() -> Work {
     let (setup, mut replica, _) = grown(SETS);
     let increments: Vec<Arc<Increment>> = {
-        let (mut scratch, place) = (Scratch::new(), SETS);
-        (0..20).map(|i| generate(&setup, &replica, place + i, &mut scratch)).collect()
+        let (mut scratch, first) = (Scratch::new(), SetNumber(SETS));
+        (0..20).map(|i| generate(&setup, &replica, first + i, &mut scratch)).collect()
     };
     let nodes = increments.iter().map(|increment| increment.configs.len()).sum();
     // Every run adds the same sets to a roadmap that grows; the counted run is always the second.

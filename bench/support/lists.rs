@@ -4,6 +4,7 @@ use super::{pairs, sample};
 use roadmill::Context;
 use roadmill::model::bodies::BodyValidity;
 use roadmill::model::{Model, Scratch};
+use roadmill::numbers::Ordinal;
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Components, Configs};
 use roadmill::sampler::{Gaussian, Sampler};
@@ -68,7 +69,7 @@ pub fn near_obstacles(problem: &Problem, cx: &Context, count: usize) -> Configs 
     let deviation = problem.model().bodies().expect("bodies").robot().reach() / 2.0;
     let sampler = Gaussian { deviation, bounds: false, attempts: 1_000_000 };
     let mut configs = Configs::new(cx.space().len());
-    let seed = Seed::of_set(1, "near obstacles", 0);
+    let seed = Seed::of_set(1, "near obstacles", Ordinal(0));
     let sampled = sampler.sample(cx, &seed, count, &mut Scratch::new(), &mut configs);
     sampled.expect("the scene has obstacles");
     configs
@@ -88,7 +89,7 @@ pub fn nearest(cx: &Context, configs: &Configs) -> Vec<(usize, usize)> {
 
 /// So many pairs of any two of the configurations.
 pub fn any(configs: &Configs, count: usize) -> Vec<(usize, usize)> {
-    let mut stream = Seed::of_set(1, "any", 0).stream(Purpose::Sampling);
+    let mut stream = Seed::of_set(1, "any", Ordinal(0)).stream(Purpose::Sampling);
     let mut one = || ((stream.unit() * configs.len() as f64) as usize).min(configs.len() - 1);
     let mut pairs = Vec::new();
     while pairs.len() < count {

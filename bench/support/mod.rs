@@ -14,6 +14,7 @@ use roadmill::connect::AmongKind;
 use roadmill::img::{Core, Cut, Judgement, Observer, Progress, Round, Serial, Setup, Stop, drive};
 use roadmill::model::{Asked, Scratch};
 use roadmill::neighbor::k_nearest;
+use roadmill::numbers::Ordinal;
 use roadmill::roadmap::{Configs, Tally};
 use roadmill::sampler::{Sampler, SamplerKind, Uniform};
 use roadmill::seed::Seed;
@@ -148,7 +149,7 @@ impl Observer for Watch {
 /// Valid uniform configurations.
 pub fn sample(cx: &Context, count: usize, ordinal: u64) -> Configs {
     let mut configs = Configs::new(cx.space().len());
-    let seed = Seed::of_set(1, "race", ordinal);
+    let seed = Seed::of_set(1, "race", Ordinal(ordinal));
     let sampled = Uniform::default().sample(cx, &seed, count, &mut Scratch::new(), &mut configs);
     sampled.expect("the scene has free configurations");
     configs

@@ -6,6 +6,7 @@ use roadmill::evaluate::{Connectivity, Coverage, EvaluatorKind, Samples, Verdict
 use roadmill::img::{Core, Cut, Observer, Progress, Round, Serial, Setup, Stop, drive};
 use roadmill::local::Planner;
 use roadmill::model::Scratch;
+use roadmill::numbers::Ordinal;
 use roadmill::roadmap::{Configs, Roadmap, Tally};
 use roadmill::sampler::SamplerKind;
 use roadmill::seed::Seed;
@@ -45,7 +46,7 @@ pub fn listed(
 ) -> Samples {
     let mut configs = Configs::new(cx.space().len());
     for (ordinal, (sampler, count)) in drawn.iter().enumerate() {
-        let seed = Seed::of_set(seed, label, ordinal as u64);
+        let seed = Seed::of_set(seed, label, Ordinal(ordinal as u64));
         let _ = sampler.method().sample(cx, &seed, *count, &mut Scratch::new(), &mut configs);
     }
     Samples::Listed(configs.iter().map(<[f64]>::to_vec).collect())

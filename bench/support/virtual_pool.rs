@@ -3,6 +3,7 @@
 use roadmill::evaluate::Verdict;
 use roadmill::img::{Cut, Event, Executor, Finished, Job, Joined, Outcome, Round, Setup};
 use roadmill::model::Asked;
+use roadmill::numbers::SetNumber;
 use roadmill::roadmap::{Configs, Increment, Roadmap, Tally};
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, VecDeque};
@@ -125,14 +126,14 @@ impl<'a> VirtualPool<'a> {
     /// Seconds of a job; and of them, what it takes because its round has many sets.
     fn seconds_of(&self, job: Job) -> [f64; 2] {
         let costs = self.costs;
-        let of = |each: &[f64], place: u64| each[place as usize % each.len()];
+        let of = |each: &[f64], number: SetNumber| each[number.index() % each.len()];
         let earlier = match job {
-            Job::Join { place, .. } => (place % self.sets_per_round) as f64,
+            Job::Join { number, .. } => (number.0 % self.sets_per_round) as f64,
             Job::Generate { .. } | Job::Evaluate { .. } => 0.0,
         };
         let checking = match job {
-            Job::Generate { place, .. } => of(&costs.generate, place),
-            Job::Join { place, .. } => of(&costs.join, place),
+            Job::Generate { number, .. } => of(&costs.generate, number),
+            Job::Join { number, .. } => of(&costs.join, number),
             Job::Evaluate { .. } => costs.evaluate,
         };
         // Searching more sets takes no more checks.

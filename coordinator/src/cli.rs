@@ -4,6 +4,7 @@ use crate::exit;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use roadmill::export::{FORMATS, RoadmapFormat};
+use roadmill::numbers::Ordinal;
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -175,7 +176,7 @@ pub struct GenerateArguments {
     pub seed: Option<u64>,
     /// Which sets: those of a strategy from one ordinal to before another (uniform:0..64)
     #[arg(long, value_name = "LABEL:FIRST..END", value_parser = sets)]
-    pub sets: (String, Range<u64>),
+    pub sets: (String, Range<Ordinal>),
     /// The file to be written
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
@@ -402,11 +403,11 @@ fn bytes(text: &str) -> Result<u64, String> {
     bytes.filter(|bytes| *bytes > 0).ok_or_else(|| expected.to_owned())
 }
 
-fn sets(text: &str) -> Result<(String, Range<u64>), String> {
+fn sets(text: &str) -> Result<(String, Range<Ordinal>), String> {
     let parse = || {
         let (label, range) = text.rsplit_once(':')?;
         let (first, end) = range.split_once("..")?;
-        let range: Range<u64> = first.parse().ok()?..end.parse().ok()?;
+        let range = Ordinal(first.parse().ok()?)..Ordinal(end.parse().ok()?);
         (!range.is_empty()).then(|| (label.to_owned(), range))
     };
     parse().ok_or_else(|| "LABEL:FIRST..END expected, with FIRST below END".to_owned())

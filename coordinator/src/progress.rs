@@ -1,10 +1,8 @@
 //! Telling people and programs how far a build is.
 
 use crate::run::EvaluatorValue;
+use crate::work::Status;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use roadmill::img::Progress;
-use roadmill::problem::Problem;
-use roadmill::roadmap::Tally;
 use serde::Serialize;
 use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
@@ -88,13 +86,8 @@ impl Reporter {
     }
 
     /// Reports if it is time.
-    pub fn report(
-        &mut self,
-        problem: &Problem,
-        progress: &Progress,
-        tally: &Tally,
-        workers: (usize, usize),
-    ) {
+    pub fn report(&mut self, status: &Status) {
+        let Status { problem, progress, tally, .. } = status;
         let now = Instant::now();
         if now < self.next {
             return;
@@ -111,8 +104,8 @@ impl Reporter {
             components: tally.components(),
             nodes_per_second: progress.nodes as f64 / seconds.max(1e-9),
             evaluators: EvaluatorValue::all(problem, &progress.verdicts),
-            workers_alive: workers.0,
-            workers_wanted: workers.1,
+            workers_alive: status.workers_alive,
+            workers_wanted: status.workers_wanted,
         };
         let pause = match &mut self.kind {
             Kind::Terminal(bar) => {

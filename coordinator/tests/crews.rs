@@ -7,6 +7,7 @@ use roadmill::img::{
     Core, Cut, Executor, Job, Judgement, Observer, Progress, Round, Setup, Stop, drive,
 };
 use roadmill::internal::wire;
+use roadmill::numbers::{Ordinal, StrategyIndex};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Tally};
 use roadmill_coordinator::crew::{
@@ -284,7 +285,7 @@ fn endless() -> Problem {
 
 /// Of the strategy `b`, far enough on for some rounds to be complete.
 fn is_twelfth(job: &Job) -> bool {
-    matches!(job, Job::Generate { strategy: 1, ordinal: 12, .. })
+    matches!(job, Job::Generate { strategy: StrategyIndex(1), ordinal: Ordinal(12), .. })
 }
 
 /// A crew in which whoever is given that set goes away.

@@ -225,7 +225,7 @@ fn verify_names_the_first_difference_and_diff_the_reason() {
     };
     let diff = scratch.run(&["diff", "run", "other"]);
     diff.assert_code(7);
-    diff.assert_stderr(&["first difference: set one:0 (place 0, round 0): node 0, x: "]);
+    diff.assert_stderr(&["first difference: set one:0 (number 0, round 0): node 0, x: "]);
     assert!(diff.stdout.contains("seed: 2 and 3"), "{}", diff.stdout);
 
     let genuine: Vec<Vec<u8>> = payloads("run").collect();

@@ -12,6 +12,7 @@ pub use cancel::Cancel;
 use crate::img::{
     self, Cut, InProcess, Job, Judgement, Observer, Progress, Round, Serial, Setup, Stop, Threads,
 };
+use crate::numbers::RoundNumber;
 use crate::problem::Problem;
 use crate::roadmap::{Roadmap, Tally};
 use std::convert::Infallible;
@@ -62,11 +63,11 @@ pub enum BuildError {
         reason: String,
     },
     /// A job that panicked as often as it was tried.
-    #[error("{0:?} panicked {losses} times", losses = img::LOSSES_MAX)]
+    #[error("{0} panicked {losses} times", losses = img::LOSSES_MAX)]
     Panicked(Job),
     /// A job that came to something it cannot come to, or to two different things: the machine or the program is
     /// broken.
-    #[error("{0:?} came to what it cannot come to: the machine or the program is broken")]
+    #[error("{0} came to what it cannot come to: the machine or the program is broken")]
     Broken(Job),
 }
 
@@ -123,9 +124,9 @@ impl<'a> Build<'a> {
         };
         let past = std::mem::take(&mut self.past);
         let (setup, judged) = (&self.setup, watch.judgement.clone());
-        let judged = judged.filter(|judged| judged.round + 1 == past.len() as u64);
+        let judged = judged.filter(|judged| judged.round.next() == RoundNumber(past.len() as u64));
         let (stop, roadmap): (Stop, Roadmap) =
-            match img::grow(setup, executor, lookahead, (&past, judged), &mut watch) {
+            match img::grow(setup, executor, lookahead, &past, judged, &mut watch) {
                 Ok(ended) => ended,
                 Err(never) => match never {},
             };

@@ -6,7 +6,8 @@ use crate::context::Context;
 use crate::finder::{Finder, KNearest};
 use crate::local::{self, Planner};
 use crate::model::Scratch;
-use crate::neighbor::{Best, Neighbor};
+use crate::neighbor::{Best, Neighbor, Subset};
+use crate::numbers::NodeId;
 use crate::roadmap::{Component, Components, Configs, Edge};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -14,9 +15,16 @@ use std::collections::BTreeSet;
 /// The roadmap, or an earlier increment of the round.
 pub(super) struct NodeBlock<'a> {
     /// What its own node 0 is called after the round.
-    pub first: u32,
+    pub first: NodeId,
     pub configs: &'a Configs,
     pub components: &'a Components,
+}
+
+impl NodeBlock<'_> {
+    /// A node of the block, numbered within the block.
+    pub fn own(&self, node: NodeId) -> NodeId {
+        NodeId(node.since(self.first))
+    }
 }
 
 /// What came before an increment, and the increment.
@@ -24,15 +32,22 @@ pub(super) struct CandidatePairs<'a> {
     pub old: Vec<NodeBlock<'a>>,
     pub new: NodeBlock<'a>,
     /// Of an increment that grew from the roadmap: its pairs of a new and an old node that have an edge already.
-    linked: BTreeSet<(u32, u32)>,
+    linked: BTreeSet<NodePair>,
 }
 
 /// A pair to be tried; ids are those after the round.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CandidatePair {
     pub distance: f64,
-    pub new: u32,
-    pub old: u32,
+    pub new: NodeId,
+    pub old: NodeId,
+}
+
+/// The nodes of a pair; ids are those after the round.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct NodePair {
+    new: NodeId,
+    old: NodeId,
 }
 
 impl CandidatePair {
@@ -48,25 +63,27 @@ impl<'a> CandidatePairs<'a> {
     pub fn new(input: &'a JoinInput) -> Option<CandidatePairs<'a>> {
         let roadmap = &input.roadmap;
         let (configs, components) = (roadmap.configs(), roadmap.components());
-        let mut old = vec![NodeBlock { first: 0, configs, components }];
-        let mut first = configs.len() as u32;
+        let mut old = vec![NodeBlock { first: NodeId(0), configs, components }];
+        let mut first = NodeId(configs.len() as u32);
         for built in &input.increments {
             let (configs, components) = (&built.increment.configs, &built.components);
             old.push(NodeBlock { first, configs, components });
-            first += configs.len() as u32;
+            first = first + configs.len() as u32;
         }
         let new = old.pop().filter(|_| !input.increments.is_empty())?;
         let increment = &input.increments[input.increments.len() - 1].increment;
-        let linked =
-            increment.root_edges_from(new.first).map(|link| (link.high, link.low)).collect();
+        let linked = increment
+            .root_edges_from(new.first.0)
+            .map(|link| NodePair { new: link.high, old: link.low });
+        let linked = linked.collect();
         Some(CandidatePairs { old, new, linked })
     }
 
     /// Which components are joined before any pair is tried: those that root edges of a growing set join.
     pub fn joined(&self) -> Joined {
         let mut joined = Joined::default();
-        for (new, old) in &self.linked {
-            joined.unite([*old, *new].map(|node| self.component(node)));
+        for pair in &self.linked {
+            joined.unite([pair.old, pair.new].map(|node| self.component(node)));
         }
         joined
     }
@@ -83,7 +100,7 @@ impl<'a> CandidatePairs<'a> {
             let mut near = Vec::new();
             for part in &self.old {
                 for mut neighbor in finder.near(&cx.space, part.configs, part.components, q) {
-                    neighbor.id += part.first;
+                    neighbor.id += part.first.0;
                     near.push(neighbor);
                 }
             }
@@ -93,7 +110,7 @@ impl<'a> CandidatePairs<'a> {
             candidates.extend(near.iter().map(|neighbor| CandidatePair {
                 distance: neighbor.distance,
                 new,
-                old: neighbor.id,
+                old: NodeId(neighbor.id),
             }));
         }
         candidates
@@ -107,7 +124,7 @@ impl<'a> CandidatePairs<'a> {
         pair: CandidatePair,
         scratch: &mut Scratch,
     ) -> Option<Edge> {
-        if self.linked.contains(&(pair.new, pair.old)) {
+        if self.linked.contains(&NodePair { new: pair.new, old: pair.old }) {
             return None;
         }
         let ends = (self.config(pair.old), self.config(pair.new));
@@ -120,13 +137,13 @@ impl<'a> CandidatePairs<'a> {
     }
 
     /// The smallest id in the component of a node, without any joining edge of the round.
-    pub fn component(&self, node: u32) -> u32 {
+    pub fn component(&self, node: NodeId) -> NodeId {
         let part = self.part(node);
-        part.first + part.components.of_node(node - part.first).name
+        part.first + part.components.of_node(part.own(node)).name.0
     }
 
     /// The components, see [`CandidatePairs::component`], of a pair's two nodes.
-    pub fn components(&self, pair: CandidatePair) -> [u32; 2] {
+    pub fn components(&self, pair: CandidatePair) -> [NodeId; 2] {
         [pair.old, pair.new].map(|node| self.component(node))
     }
 
@@ -134,17 +151,17 @@ impl<'a> CandidatePairs<'a> {
     /// `count` of the roadmap's and then at most `count` of the round's earlier increments. The two are
     /// chosen apart, since the components of a round's increments, which are small and lie everywhere, would
     /// else take the places of the roadmap's, and a set that is joined to its round only is joined to little.
-    pub fn nearest_components(&self, cx: &Context, new: &Component, count: usize) -> Vec<u32> {
+    pub fn nearest_components(&self, cx: &Context, new: &Component, count: usize) -> Vec<NodeId> {
         let mut nearest = Vec::new();
         let (roadmap, increments) = self.old.split_at(1);
         for blocks in [roadmap, increments] {
             let mut best = Best::new(count);
             for block in blocks {
                 for near in block.components.nearest(&cx.space, &new.centre, count) {
-                    best.offer(Neighbor { id: block.first + near.id, ..near });
+                    best.offer(Neighbor { id: block.first.0 + near.id, ..near });
                 }
             }
-            nearest.extend(best.into_items().into_iter().map(|near| near.id));
+            nearest.extend(best.into_items().into_iter().map(|near| NodeId(near.id)));
         }
         nearest
     }
@@ -155,14 +172,14 @@ impl<'a> CandidatePairs<'a> {
         &self,
         cx: &Context,
         new: &Component,
-        old: u32,
+        old: NodeId,
         count: usize,
     ) -> Vec<CandidatePair> {
         let block = self.part(old);
-        let component = block.components.of_node(old - block.first);
-        let first = (self.new.configs, &new.members[..]);
-        let second = (block.configs, component);
-        let pairs = block.components.closest_pairs(&cx.space, first, second, count);
+        let component = block.components.of_node(block.own(old));
+        let first = Subset { all: self.new.configs, ids: &new.members };
+        let configs = block.configs;
+        let pairs = block.components.closest_pairs(&cx.space, first, configs, component, count);
         let named = pairs.into_iter().map(|pair| CandidatePair {
             distance: pair.distance,
             new: self.new.first + pair.first,
@@ -178,13 +195,13 @@ impl<'a> CandidatePairs<'a> {
         components
     }
 
-    fn config(&self, node: u32) -> &[f64] {
+    fn config(&self, node: NodeId) -> &[f64] {
         let part = self.part(node);
-        part.configs.get((node - part.first) as usize)
+        part.configs.get(part.own(node).index())
     }
 
     /// Where a node is from.
-    pub fn part(&self, node: u32) -> &NodeBlock<'a> {
+    pub fn part(&self, node: NodeId) -> &NodeBlock<'a> {
         let mut parts = self.old.iter().chain([&self.new]).rev();
         parts.find(|part| part.first <= node).expect("the first part begins at 0")
     }

@@ -65,10 +65,10 @@ impl Among for ComponentPairs {
 
     fn complaint(&self) -> Option<Complaint> {
         if self.components == 0 {
-            return Some(("components", "0".to_owned(), "at least 1"));
+            return Some(Complaint::new("components", "0", "at least 1"));
         }
         if self.pairs == 0 {
-            return Some(("pairs", "0".to_owned(), "at least 1"));
+            return Some(Complaint::new("pairs", "0", "at least 1"));
         }
         local::complaint(&self.planners)
     }

@@ -5,16 +5,16 @@
 //!
 //! ```
 //! use roadmill::connect::{Nearest, Within};
-//! use roadmill::{model::Scratch, problem::Problem, roadmap::Configs, seed::Seed};
+//! use roadmill::{model::Scratch, numbers::{NodeId, Ordinal}, problem::Problem, roadmap::Configs, seed::Seed};
 //!
 //! let cx = Problem::load("tests/problems/slide.toml".as_ref())?.context();
 //! let mut milestones = Configs::new(cx.space().len());
 //! for z in [-3.0, 0.0, 3.0] {
 //!     milestones.push(&[-3.0, -3.0, z]);
 //! }
-//! let (seed, scratch) = (Seed::of_set(1, "by hand", 0), &mut Scratch::new());
+//! let (seed, scratch) = (Seed::of_set(1, "by hand", Ordinal(0)), &mut Scratch::new());
 //! let edges = Nearest::default().connect(&cx, &seed, &milestones, scratch);
-//! assert!(edges.iter().any(|edge| (edge.low, edge.high) == (0, 1)));
+//! assert!(edges.iter().any(|edge| (edge.low, edge.high) == (NodeId(0), NodeId(1))));
 //! # Ok::<(), roadmill::problem::ProblemError>(())
 //! ```
 

@@ -4,6 +4,7 @@ use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::neighbor::k_nearest_graph;
+use crate::numbers::NodeId;
 use crate::roadmap::{Configs, Edge};
 use crate::seed::Seed;
 use bincode::{Decode, Encode};
@@ -47,8 +48,8 @@ impl Within for Nearest {
             let ends = (configs.get(low as usize), configs.get(high as usize));
             let joined = local::connect(cx, &self.planners, ends, 1, scratch);
             edges.extend(joined.map(|(planner, cost)| Edge {
-                low,
-                high,
+                low: NodeId(low),
+                high: NodeId(high),
                 planner: planner.tag(),
                 cost,
             }));
@@ -58,7 +59,7 @@ impl Within for Nearest {
 
     fn complaint(&self) -> Option<Complaint> {
         if self.neighbors == 0 {
-            return Some(("neighbors", "0".to_owned(), "at least 1"));
+            return Some(Complaint::new("neighbors", "0", "at least 1"));
         }
         local::complaint(&self.planners)
     }

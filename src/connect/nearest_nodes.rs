@@ -48,7 +48,7 @@ impl Among for NearestNodes {
 
 pub(super) fn complaint(neighbors: u32, planners: &[Planner]) -> Option<Complaint> {
     if neighbors == 0 {
-        return Some(("neighbors", "0".to_owned(), "at least 1"));
+        return Some(Complaint::new("neighbors", "0", "at least 1"));
     }
     local::complaint(planners)
 }

@@ -5,6 +5,7 @@ use crate::finder::FinderKind;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::Scratch;
+use crate::numbers::NodeId;
 use crate::roadmap::{Configs, Edge};
 use crate::seed::Seed;
 use bincode::{Decode, Encode};
@@ -50,8 +51,8 @@ impl Within for Neighbors {
             let ends = (configs.get(low as usize), configs.get(high as usize));
             let joined = local::connect(cx, &self.planners, ends, 1, scratch);
             edges.extend(joined.map(|(planner, cost)| Edge {
-                low,
-                high,
+                low: NodeId(low),
+                high: NodeId(high),
                 planner: planner.tag(),
                 cost,
             }));

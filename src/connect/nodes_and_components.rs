@@ -95,7 +95,7 @@ impl Among for NodesAndComponents {
         for component in candidates.new_components() {
             let count = self.components as usize;
             for old in candidates.nearest_components(cx, component, count) {
-                let sides = [old, candidates.new.first + component.name];
+                let sides = [old, candidates.new.first + component.name.0];
                 if joined.same(sides) {
                     continue;
                 }
@@ -113,7 +113,7 @@ impl Among for NodesAndComponents {
         let counts =
             [("neighbors", self.neighbors), ("components", self.components), ("pairs", self.pairs)];
         match counts.into_iter().find(|(_, count)| *count == 0) {
-            Some((key, _)) => Some((key, "0".to_owned(), "at least 1")),
+            Some((key, _)) => Some(Complaint::new(key, 0, "at least 1")),
             None => local::complaint(&self.planners),
         }
     }

@@ -1,6 +1,7 @@
 use super::*;
 use crate::img::{Setup, build};
 use crate::model::Asked;
+use crate::numbers::{NodeId, Ordinal};
 use crate::problem::Problem;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -16,7 +17,7 @@ fn input() -> (Setup, JoinInput) {
     let setup = Setup::new(problem.clone());
     let roadmap = Arc::new(build(&Arc::new(Setup::new(problem))).roadmap);
     let mut increments = Vec::new();
-    for ordinal in 2..5 {
+    for ordinal in (2..5).map(Ordinal) {
         let strategy = &setup.problem.strategies[1];
         let increment = strategy.generate(&setup.cx, ordinal, None, &mut Scratch::new()).unwrap();
         increments.push(Arc::new(Built::new(&setup.cx, Arc::new(increment))));
@@ -64,7 +65,7 @@ fn nearest_nodes_tries_every_new_node_with_the_nearest_of_all_old_ones() {
         }
     }
     assert!(!expected.is_empty() && expected.iter().any(|(low, _)| *low as usize >= new - 16));
-    let found: Vec<_> = edges.iter().map(|edge| (edge.low, edge.high)).collect();
+    let found: Vec<_> = edges.iter().map(|edge| (edge.low.0, edge.high.0)).collect();
     assert_eq!(found, expected);
     assert_eq!(asked.motions, (configs.len() - new) as u64 * u64::from(NEIGHBORS));
 }
@@ -83,7 +84,7 @@ fn until_joined_joins_what_nearest_nodes_joins_without_a_cycle() {
         Components::of(&setup.cx.space, &configs, &edges)
     };
     let (apart, by_all, by_few) = (components(&[]), components(&all), components(&few));
-    for node in 0..configs.len() as u32 {
+    for node in NodeId::each(NodeId(0)..NodeId(configs.len() as u32)) {
         assert_eq!(by_few.of_node(node).name, by_all.of_node(node).name);
     }
     // A forest: every edge joins two components.
@@ -115,8 +116,9 @@ fn components(setup: &Setup, input: &JoinInput, joins: &[Edge]) -> Components {
     Components::of(setup.context().space(), &configs, &[&inner[..], joins].concat())
 }
 
-fn names(components: &Components) -> Vec<u32> {
-    (0..components.nodes()).map(|node| components.of_node(node).name).collect()
+fn names(components: &Components) -> Vec<NodeId> {
+    let nodes = (0..components.nodes()).map(NodeId);
+    nodes.map(|node| components.of_node(node).name).collect()
 }
 
 #[test]
@@ -133,7 +135,8 @@ fn nodes_and_components_join_what_either_joins() {
     let (by_pairs, pairs_asked) = joined(&setup, &input, &pairs);
     let either = [by_nodes, by_pairs].concat();
     let expected = names(&components(&setup, &input, &either));
-    let tried_by_either: BTreeSet<(u32, u32)> = either.iter().map(|e| (e.low, e.high)).collect();
+    let tried_by_either: BTreeSet<(NodeId, NodeId)> =
+        either.iter().map(|e| (e.low, e.high)).collect();
     let mut counts = Vec::new();
     for cycles in [0, 1, NEIGHBORS] {
         let (edges, asked) = joined(&setup, &input, &by(cycles));
@@ -171,7 +174,8 @@ fn after(setup: &Setup, roadmap: Set, round: &[Set]) -> JoinInput {
     let increment = |(points, edges): Set| {
         let mut increment = Increment::empty(2);
         points.iter().for_each(|point| increment.configs.push(point));
-        increment.edges = edges.iter().map(|(a, b)| Edge::metric(*a, *b, 0, 1.0)).collect();
+        increment.edges =
+            edges.iter().map(|(a, b)| Edge::metric(NodeId(*a), NodeId(*b), 0, 1.0)).collect();
         increment
     };
     let mut old = Roadmap::new(space);
@@ -181,7 +185,7 @@ fn after(setup: &Setup, roadmap: Set, round: &[Set]) -> JoinInput {
 }
 
 fn ends(edges: &[Edge]) -> Vec<(u32, u32)> {
-    edges.iter().map(|edge| (edge.low, edge.high)).collect()
+    edges.iter().map(|edge| (edge.low.0, edge.high.0)).collect()
 }
 
 #[test]

@@ -35,7 +35,7 @@ impl Evaluator for All {
 
     fn complaint(&self) -> Option<Complaint> {
         if self.0.is_empty() {
-            return Some(("all", "[]".to_owned(), "at least one criterion"));
+            return Some(Complaint::new("all", "[]", "at least one criterion"));
         }
         self.0.iter().find_map(|part| part.method().complaint())
     }

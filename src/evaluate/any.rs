@@ -35,7 +35,7 @@ impl Evaluator for Any {
 
     fn complaint(&self) -> Option<Complaint> {
         if self.0.is_empty() {
-            return Some(("any", "[]".to_owned(), "at least one criterion"));
+            return Some(Complaint::new("any", "[]", "at least one criterion"));
         }
         self.0.iter().find_map(|part| part.method().complaint())
     }

@@ -2,7 +2,8 @@ use super::{Evaluator, Verdict};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::{Asked, Scratch};
-use crate::neighbor::farthest_pair;
+use crate::neighbor::{FarPair, farthest_pair};
+use crate::numbers::NodeId;
 use crate::roadmap::{Component, Components, Configs, Roadmap};
 use crate::space::Space;
 use bincode::{Decode, Encode};
@@ -104,13 +105,13 @@ impl Evaluator for Expansion {
 
     fn complaint(&self) -> Option<Complaint> {
         if !(1..=ROUNDS_MAX).contains(&self.rounds) {
-            return Some(("rounds", self.rounds.to_string(), "1 to 1000"));
+            return Some(Complaint::new("rounds", self.rounds, "1 to 1000"));
         }
         if !(1..=COMPONENTS_MAX).contains(&self.components) {
-            return Some(("components", self.components.to_string(), "1 to 1000"));
+            return Some(Complaint::new("components", self.components, "1 to 1000"));
         }
         let fits = self.percent > 0.0 && self.percent < 100.0;
-        (!fits).then(|| ("percent", self.percent.to_string(), "more than 0, less than 100"))
+        (!fits).then(|| Complaint::new("percent", self.percent, "more than 0, less than 100"))
     }
 }
 
@@ -119,8 +120,8 @@ type Distances = Vec<(f64, u128)>;
 
 /// The two distributions of a round.
 struct Layout {
-    /// Ids and distance of the farthest configurations of each component.
-    widths: Vec<(u32, u32, f64)>,
+    /// The farthest nodes of each component.
+    widths: Vec<FarPair>,
     width: Distances,
     separation: Distances,
 }
@@ -144,7 +145,7 @@ impl Expansion {
         for (index, component) in largest.iter().enumerate() {
             let ends = ends(space, roadmap.configs(), components, component, later);
             widths.push(ends);
-            width.push((ends.2, count(component)));
+            width.push((ends.distance, count(component)));
             separation.push((0.0, count(component) * count(component)));
             for other in &largest[..index] {
                 let distance = space.distance(&component.centre, &other.centre);
@@ -157,7 +158,7 @@ impl Expansion {
     }
 }
 
-/// The two farthest configurations of a component, and their distance. Components only grow: if the farthest pair of a
+/// The two farthest configurations of a component. Components only grow: if the farthest pair of a
 /// component of a later round lies in this component, then it is this component's farthest pair, too.
 fn ends(
     space: &Space,
@@ -165,17 +166,17 @@ fn ends(
     components: &Components,
     component: &Component,
     later: Option<&Layout>,
-) -> (u32, u32, f64) {
+) -> FarPair {
     let known = later.and_then(|later| {
-        later.widths.iter().find(|(low, high, _)| {
-            components.contains(component, *low) && components.contains(component, *high)
+        later.widths.iter().find(|pair| {
+            [pair.low, pair.high].iter().all(|node| components.contains(component, NodeId(*node)))
         })
     });
     if let Some(ends) = known {
         return *ends;
     }
-    farthest_pair(space, configs, &component.members, &component.centre)
-        .map_or((component.name, component.name, 0.0), |pair| (pair.low, pair.high, pair.distance))
+    let alone = FarPair { distance: 0.0, low: component.name.0, high: component.name.0 };
+    farthest_pair(space, configs, &component.members, &component.centre).unwrap_or(alone)
 }
 
 fn mean(distances: &Distances) -> f64 {
@@ -249,7 +250,7 @@ mod tests {
         assert_eq!(earth_movers(&now.separation, &then.separation), 0.0);
         // They merge: (0, 0) to (1.5, 12) are √146.25, and nothing is apart.
         let (then, now) = fold(&[[1.5, 5.0]], &[(4, 6), (5, 6)]);
-        assert_eq!(now.widths, [(0, 3, 146.25f64.sqrt())]);
+        assert_eq!(now.widths, [FarPair { distance: 146.25f64.sqrt(), low: 0, high: 3 }]);
         assert_eq!(mean(&now.separation), 0.0);
         assert_eq!(earth_movers(&now.separation, &then.separation), 5.0);
         assert_eq!(earth_movers(&now.width, &then.width), 146.25f64.sqrt() - 3.5);

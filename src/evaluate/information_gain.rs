@@ -2,6 +2,7 @@ use super::{Evaluator, Verdict};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::{Asked, Scratch};
+use crate::numbers::NodeId;
 use crate::roadmap::Roadmap;
 use crate::space::Space;
 use bincode::{Decode, Encode};
@@ -51,14 +52,15 @@ impl InformationGain {
         let before = roadmap.rounds().iter().rev().nth(self.rounds as usize);
         before.filter(|before| before.nodes > 0).map_or([1.0, 1.0], |before| {
             let old = roadmap.components_at(space, *before);
-            let mut old_nodes: BTreeMap<u32, u64> = BTreeMap::new();
+            let mut old_nodes: BTreeMap<NodeId, u64> = BTreeMap::new();
             for component in old.iter() {
                 let now = roadmap.components().of_node(component.name).name;
                 *old_nodes.entry(now).or_default() += component.members.len() as u64;
             }
-            let new = before.nodes as u32..roadmap.configs().len() as u32;
-            let all = new.len() as f64;
-            let name = |node: u32| roadmap.components().of_node(node).name;
+            let all_nodes = roadmap.configs().len();
+            let new = NodeId::each(NodeId(before.nodes as u32)..NodeId(all_nodes as u32));
+            let all = (all_nodes - before.nodes) as f64;
+            let name = |node: NodeId| roadmap.components().of_node(node).name;
             let unreached = new.filter(|node| !old_nodes.contains_key(&name(*node))).count();
 
             let pairs = |nodes: u64| u128::from(nodes) * u128::from(nodes.saturating_sub(1)) / 2;
@@ -96,10 +98,10 @@ impl Evaluator for InformationGain {
 
     fn complaint(&self) -> Option<Complaint> {
         if self.rounds == 0 {
-            return Some(("rounds", "0".to_owned(), "at least 1"));
+            return Some(Complaint::new("rounds", "0", "at least 1"));
         }
         let fits = self.percent > 0.0 && self.percent < 100.0;
-        (!fits).then(|| ("percent", self.percent.to_string(), "more than 0, less than 100"))
+        (!fits).then(|| Complaint::new("percent", self.percent, "more than 0, less than 100"))
     }
 }
 

@@ -75,7 +75,7 @@ impl Evaluator for LowestBarrier {
 
     fn complaint(&self) -> Option<Complaint> {
         if !self.energy.is_finite() {
-            return Some(("energy", self.energy.to_string(), "a finite energy"));
+            return Some(Complaint::new("energy", self.energy, "a finite energy"));
         }
         self.how().complaint()
     }

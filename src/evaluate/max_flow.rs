@@ -5,6 +5,7 @@ use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::Scratch;
+use crate::numbers::NodeId;
 use crate::query::{Attachment, attach, attach_for_good};
 use crate::roadmap::{Edge, Roadmap};
 use bincode::{Decode, Encode};
@@ -98,7 +99,7 @@ impl Evaluator for MaxFlow {
             attach
         };
         for (index, q) in from.iter().chain(to).enumerate() {
-            let id = (nodes + index) as u32;
+            let id = NodeId((nodes + index) as u32);
             edges.extend(attach(cx, roadmap, q, id, &self.how(), scratch));
         }
         let least = self.least_weight(cx);
@@ -109,25 +110,21 @@ impl Evaluator for MaxFlow {
             network.add(edge.high, edge.low, whole(edge.cost.backward()));
         }
         let ids = |first: usize, count: usize| {
-            (first..first + count).map(|id| id as u32).collect::<Vec<u32>>()
+            (first..first + count).map(|id| NodeId(id as u32)).collect::<Vec<_>>()
         };
         let (sources, sinks) = (ids(nodes, from.len()), ids(nodes + from.len(), to.len()));
         let (flow, near) = network.flow(&sources, &sinks);
 
         let real = |capacity: u64| capacity as f64 / SCALE / least;
+        let severed = |from, to, weight| CutEdge { from, to, capacity: real(whole(weight)) };
         let mut cut = Vec::new();
         for edge in &edges {
             let (there, back) = (edge.cost.forward(), edge.cost.backward());
-            let severed = match [edge.low, edge.high].map(|node| near[node as usize]) {
-                [true, false] => Some((edge.low, edge.high, there)),
-                [false, true] => Some((edge.high, edge.low, back)),
+            cut.extend(match [edge.low, edge.high].map(|node| near[node.index()]) {
+                [true, false] => Some(severed(edge.low, edge.high, there)),
+                [false, true] => Some(severed(edge.high, edge.low, back)),
                 _ => None,
-            };
-            cut.extend(severed.map(|(from, to, weight)| CutEdge {
-                from,
-                to,
-                capacity: real(whole(weight)),
-            }));
+            });
         }
         let asked = scratch.take_asked();
         Verdict { cut: Some(cut), ..Verdict::at_least(self.flow, real(flow), asked) }
@@ -143,14 +140,14 @@ impl Evaluator for MaxFlow {
 
     fn complaint(&self) -> Option<Complaint> {
         if !(self.flow > 0.0 && self.flow.is_finite()) {
-            return Some(("flow", self.flow.to_string(), "a positive number"));
+            return Some(Complaint::new("flow", self.flow, "a positive number"));
         }
         if let Some(least) = self.least_weight.filter(|least| !(1e-30..=1e30).contains(least)) {
-            return Some(("least_weight", least.to_string(), "1e-30 to 1e30"));
+            return Some(Complaint::new("least_weight", least, "1e-30 to 1e30"));
         }
         let most = self.from.len().max(self.to.len());
         if most > ENDS_MAX {
-            return Some(("from, to", most.to_string(), "at most 10000 configurations"));
+            return Some(Complaint::new("from, to", most, "at most 10000 configurations"));
         }
         self.how().complaint()
     }

@@ -1,5 +1,6 @@
 //! Maximum flow, and the cut that bounds it.
 
+use crate::numbers::NodeId;
 use petgraph::algo::dinics;
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::visit::EdgeRef;
@@ -21,23 +22,25 @@ impl Network {
     }
 
     /// Adds an arc.
-    pub fn add(&mut self, from: u32, to: u32, capacity: u64) {
-        self.graph.add_edge(NodeIndex::from(from), NodeIndex::from(to), capacity);
+    pub fn add(&mut self, from: NodeId, to: NodeId, capacity: u64) {
+        self.graph.add_edge(NodeIndex::from(from.0), NodeIndex::from(to.0), capacity);
     }
 
     /// The value of a maximum flow from all of `sources` to all of `sinks`, and for each node whether it is on the
     /// sources' side of the minimum cut nearest to the sources: the nodes reachable from them in the residual network,
     /// which are the same for every maximum flow.
-    pub fn flow(mut self, sources: &[u32], sinks: &[u32]) -> (u64, Vec<bool>) {
-        let nodes = self.graph.node_count() as u32 - 2;
-        let (source, sink) = (nodes, nodes + 1);
+    pub fn flow(mut self, sources: &[NodeId], sinks: &[NodeId]) -> (u64, Vec<bool>) {
+        let nodes = self.graph.node_count() - 2;
+        let source = NodeId(nodes as u32);
+        let sink = source.next();
         sources.iter().for_each(|from| self.add(source, *from, UNBOUNDED));
         sinks.iter().for_each(|to| self.add(*to, sink, UNBOUNDED));
-        let (value, flows) = dinics(&self.graph, NodeIndex::from(source), NodeIndex::from(sink));
+        let (value, flows) =
+            dinics(&self.graph, NodeIndex::from(source.0), NodeIndex::from(sink.0));
 
         let mut reached = vec![false; self.graph.node_count()];
-        reached[source as usize] = true;
-        let mut open = vec![NodeIndex::from(source)];
+        reached[source.index()] = true;
+        let mut open = vec![NodeIndex::from(source.0)];
         while let Some(node) = open.pop() {
             let onward =
                 self.graph.edges(node).filter(|arc| flows[arc.id().index()] < *arc.weight());
@@ -49,7 +52,7 @@ impl Network {
                 }
             }
         }
-        reached.truncate(nodes as usize);
+        reached.truncate(nodes);
         (value, reached)
     }
 }
@@ -74,15 +77,18 @@ mod tests {
             sources in 1u32..8, sinks in 1u32..8,
         ) {
             let mut network = Network::new(NODES as usize, arcs.len());
-            arcs.iter().for_each(|(from, to, capacity)| network.add(*from, *to, *capacity));
+            arcs.iter().for_each(|(from, to, capacity)| network.add(NodeId(*from), NodeId(*to), *capacity));
             // Of the first three nodes and of the last three.
-            let sources: Vec<u32> = (0..3).filter(|i| sources >> i & 1 == 1).collect();
-            let sinks: Vec<u32> = (0..3).filter(|i| sinks >> i & 1 == 1).map(|i| i + 4).collect();
+            let chosen = |from: u32, bits: u32| -> Vec<NodeId> {
+                (0..3).filter(|i| bits >> i & 1 == 1).map(|i| NodeId(from + i)).collect()
+            };
+            let (sources, sinks) = (chosen(0, sources), chosen(4, sinks));
             let (flow, side) = network.flow(&sources, &sinks);
 
             let has = |set: u32, node: u32| set >> node & 1 == 1;
             let cuts = (0..1u32 << NODES).filter(|set| {
-                sources.iter().all(|node| has(*set, *node)) && !sinks.iter().any(|node| has(*set, *node))
+                sources.iter().all(|node| has(*set, node.0))
+                    && !sinks.iter().any(|node| has(*set, node.0))
             });
             let cuts: Vec<(u64, u32)> =
                 cuts.map(|set| (capacity(&arcs, |node| has(set, node)), set)).collect();

@@ -5,6 +5,7 @@ use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::{BRACKETS_OF_SETTINGS, Complaint};
 use crate::model::{Asked, Scratch};
+use crate::numbers::NodeId;
 use crate::query::Attachment;
 use crate::roadmap::{Configs, Roadmap};
 use crate::sampler::SamplerKind;
@@ -66,16 +67,16 @@ impl Samples {
     pub(super) fn complaint(&self) -> Option<Complaint> {
         match self {
             Samples::Random(count) if !(2..=SAMPLES_MAX).contains(count) => {
-                Some(("samples.random", count.to_string(), "2 to 1000000"))
+                Some(Complaint::new("samples.random", count, "2 to 1000000"))
             }
             Samples::Listed(list) if list.len() < 2 => {
-                Some(("samples.listed", list.len().to_string(), "at least 2 configurations"))
+                Some(Complaint::new("samples.listed", list.len(), "at least 2 configurations"))
             }
             Samples::Drawn(parts) if parts.iter().any(|part| part.count == 0) => {
-                Some(("samples.drawn: count", "0".to_owned(), "at least 1"))
+                Some(Complaint::new("samples.drawn: count", "0", "at least 1"))
             }
             Samples::Drawn(_) if !(2..=SAMPLES_MAX as usize).contains(&self.count()) => {
-                Some(("samples.drawn", self.count().to_string(), "2 to 1000000 together"))
+                Some(Complaint::new("samples.drawn", self.count(), "2 to 1000000 together"))
             }
             Samples::Drawn(parts) => {
                 parts.iter().find_map(|part| part.sampler.method().complaint())
@@ -147,13 +148,14 @@ impl Samples {
         roadmap: &Roadmap,
         attachment: &Attachment,
         scratch: &mut Scratch,
-    ) -> Vec<BTreeSet<u32>> {
+    ) -> Vec<BTreeSet<NodeId>> {
         let configs = roadmap.configs();
         let mut reached = vec![BTreeSet::new(); self.count()];
         for (components, q) in reached.iter_mut().zip(self.configs(cx, path, scratch).iter()) {
             for neighbor in roadmap.k_nearest(&cx.space, q, attachment.neighbors as usize) {
-                let name = roadmap.components().of_node(neighbor.id).name;
-                let ends = (configs.get(neighbor.id as usize), q);
+                let node = NodeId(neighbor.id);
+                let name = roadmap.components().of_node(node).name;
+                let ends = (configs.get(node.index()), q);
                 let planners = &attachment.planners;
                 if !components.contains(&name)
                     && local::connect(cx, planners, ends, 1, scratch).is_some()
@@ -179,7 +181,7 @@ pub(super) fn complaint(
     attachment: &Attachment,
 ) -> Option<Complaint> {
     if !(percent > 0.0 && percent <= 100.0) {
-        return Some(("percent", percent.to_string(), "more than 0, at most 100"));
+        return Some(Complaint::new("percent", percent, "more than 0, at most 100"));
     }
     samples.complaint().or_else(|| attachment.complaint())
 }

@@ -1,5 +1,6 @@
 use super::*;
 use crate::img::{Setup, build};
+use crate::numbers::NodeId;
 use crate::problem::Problem;
 use crate::roadmap::{Configs, Edge, Increment};
 use crate::space::{BaseJoint, Space, rigid_space};
@@ -43,7 +44,7 @@ pub(super) fn grow(space: &Space, roadmap: &mut Roadmap, nodes: &[[f64; 2]], joi
     let mut configs = Configs::new(2);
     nodes.iter().for_each(|q| configs.push(q));
     let increment = Increment { configs, ..Increment::empty(2) };
-    let edge = |(low, high): &(u32, u32)| Edge::metric(*low, *high, 0, 1.0);
+    let edge = |(low, high): &(u32, u32)| Edge::metric(NodeId(*low), NodeId(*high), 0, 1.0);
     let joins: Vec<Edge> = joins.iter().map(edge).collect();
     roadmap.fold_round(space, [(&increment, &joins[..])]);
 }

@@ -1,4 +1,5 @@
 use crate::model::Asked;
+use crate::numbers::NodeId;
 use crate::query::Answer;
 use crate::wire::decode_nested;
 use bincode::{Decode, Encode};
@@ -44,9 +45,9 @@ pub enum Bound {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Encode, Decode)]
 pub struct CutEdge {
     /// The end on the sources' side.
-    pub from: u32,
+    pub from: NodeId,
     /// The end on the sinks' side.
-    pub to: u32,
+    pub to: NodeId,
     /// The most that can flow through the edge.
     pub capacity: f64,
 }

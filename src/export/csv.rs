@@ -38,12 +38,12 @@ pub fn nodes_csv(problem: &Problem, roadmap: &Roadmap) -> String {
     names.push("component".to_owned());
     names.extend(values.iter().map(|value| field(&format!("{} [{}]", value.name, value.unit))));
     let mut csv = format!("node,{}\n", names.join(","));
-    for (node, q) in roadmap.configs().iter().enumerate() {
+    for (node, q) in roadmap.nodes().zip(roadmap.configs().iter()) {
         put(&mut csv, format_args!("{node}"));
         for value in q {
             put(&mut csv, format_args!(",{value}"));
         }
-        let component = roadmap.components().of_node(node as u32).name;
+        let component = roadmap.components().of_node(node).name;
         put(&mut csv, format_args!(",{component}"));
         for value in roadmap.values_of(node, values.len()) {
             put(&mut csv, format_args!(",{value}"));

@@ -82,8 +82,8 @@ pub fn graphml(problem: &Problem, roadmap: &Roadmap) -> String {
     put(format_args!("<data key=\"problem\">{}</data>", escaped(&problem.name)));
     put(format_args!("<data key=\"seed\">{}</data>", problem.seed));
     put(format_args!("<data key=\"digest\">{}</data>", roadmap.digest()));
-    for (node, q) in roadmap.configs().iter().enumerate() {
-        let component = roadmap.components().of_node(node as u32).name;
+    for (node, q) in roadmap.nodes().zip(roadmap.configs().iter()) {
+        let component = roadmap.components().of_node(node).name;
         let dofs: String = (q.iter().enumerate())
             .map(|(index, value)| format!("<data key=\"q{index}\">{value}</data>"))
             .collect();

@@ -16,6 +16,19 @@ const STEPS: usize = 32;
 /// Pieces into which a path in 3D is cut, each painted in its own turn, so that walls can hide parts of the path.
 const CUTS: usize = 160;
 
+/// How a solid is painted.
+#[derive(Clone, Copy)]
+struct Look<'a> {
+    /// The colours of surfaces in the shade and in the light: red, green and blue, from 0 to 255.
+    shades: [[f64; 3]; 2],
+    /// Opacity of the surfaces, from 0 to 1.
+    opacity: &'a str,
+    /// Colour of the edges.
+    edge: &'a str,
+    /// Width of the edges.
+    width: &'a str,
+}
+
 /// The configurations at these fractions of a path's length, ascending from 0 to 1.
 fn along(space: &Space, path: &query::Path, fractions: &[f64]) -> Vec<Vec<f64>> {
     let mut fine = vec![(0.0, path.configs.get(0).to_vec())];
@@ -56,21 +69,17 @@ impl Drawing<'_> {
     }
 
     fn obstacle(&self, solid: &Solid) -> String {
-        match self.planar {
-            true => self.solid(solid, "obstacle", STONE, ("1", "1"), &blend(STONE, 0.0)),
-            false => self.solid(solid, "obstacle", STONE, ("0.6", "0.9"), INK),
-        }
+        let edge = blend(STONE, 0.0);
+        let look = match self.planar {
+            true => Look { shades: STONE, opacity: "1", edge: &edge, width: "1" },
+            false => Look { shades: STONE, opacity: "0.6", edge: INK, width: "0.9" },
+        };
+        self.solid(solid, "obstacle", look)
     }
 
     /// A solid, lighter where it faces the light, with its edges on top.
-    fn solid(
-        &self,
-        solid: &Solid,
-        class: &str,
-        shades: [[f64; 3]; 2],
-        (opacity, width): (&str, &str),
-        stroke: &str,
-    ) -> String {
+    fn solid(&self, solid: &Solid, class: &str, look: Look) -> String {
+        let Look { shades, opacity, edge, width } = look;
         let mut text = format!("<g class=\"{class}\">");
         for patch in &solid.patches {
             let mut outline = String::new();
@@ -94,7 +103,7 @@ impl Drawing<'_> {
         let edges: String = solid.edges.iter().map(|edge| self.line(edge.ends)).collect();
         write!(
             text,
-            "<path d=\"{edges}\" stroke=\"{stroke}\" stroke-width=\"{width}\" fill=\"none\"/></g>"
+            "<path d=\"{edges}\" stroke=\"{edge}\" stroke-width=\"{width}\" fill=\"none\"/></g>"
         )
         .expect("writing to memory cannot fail");
         text
@@ -123,19 +132,20 @@ impl Drawing<'_> {
         let shades =
             [tone.map(|value| value * 0.86), tone.map(|value| value + (255.0 - value) * 0.35)];
         let ends = share == 0.0 || share == 1.0;
-        let look = match (self.planar, ends) {
+        let (opacity, width) = match (self.planar, ends) {
             (true, true) => ("0.9", "1.6"),
             (true, false) => ("0.22", "1.3"),
             (false, true) => ("0.92", "1"),
             (false, false) => ("0.5", "0.8"),
         };
-        let stroke = if ends { INK } else { &full };
+        let edge = if ends { INK } else { &full };
         let parts = self.stand(&self.figure.bodies_at(q));
         parts
             .into_iter()
             .map(|solid| {
                 let shades = if self.planar { [tone; 2] } else { shades };
-                let text = self.solid(&solid, "robot", shades, look, stroke);
+                let look = Look { shades, opacity, edge, width };
+                let text = self.solid(&solid, "robot", look);
                 (solid, text)
             })
             .collect()

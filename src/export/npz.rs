@@ -45,18 +45,17 @@ impl RoadmapFormat for Npz {
 pub fn npz(problem: &Problem, roadmap: &Roadmap) -> io::Result<Vec<u8>> {
     let space = problem.space();
     let (nodes, edges) = (roadmap.configs(), roadmap.edges());
-    let ids = 0..nodes.len() as u32;
     let names = space.dofs().iter().map(|dof| dof.name.as_str()).collect::<Vec<_>>();
     let units = space.dofs().iter().map(|dof| dof.unit).collect::<Vec<_>>();
     let mut archive = Archive(ZipWriter::new(Cursor::new(Vec::new())));
     let shape = format!("({}, {})", nodes.len(), nodes.dofs());
     let bytes = nodes.values().flat_map(|value| value.to_le_bytes());
     archive.add("nodes", "<f8", &shape, bytes)?;
-    let components = ids.map(|node| roadmap.components().of_node(node).name);
+    let components = roadmap.nodes().map(|node| roadmap.components().of_node(node).name.0);
     let shape = format!("({},)", nodes.len());
     archive.add("components", "<u4", &shape, components.flat_map(u32::to_le_bytes))?;
     let shape = format!("({}, 2)", edges.len());
-    let ends = edges.iter().flat_map(|edge| [edge.low, edge.high]);
+    let ends = edges.iter().flat_map(|edge| [edge.low.0, edge.high.0]);
     archive.add("edges", "<u4", &shape, ends.flat_map(u32::to_le_bytes))?;
     let shape = format!("({},)", edges.len());
     let bytes = edges.iter().flat_map(|edge| edge.weight().to_le_bytes());

@@ -41,8 +41,8 @@ pub fn parasol_map(problem: &Problem, cx: &Context, roadmap: &Roadmap) -> String
     let (space, nodes) = (&cx.space, roadmap.configs());
     let mut adjacent: Vec<Vec<usize>> = vec![Vec::new(); nodes.len()];
     for (index, edge) in roadmap.edges().iter().enumerate() {
-        adjacent[edge.low as usize].push(index);
-        adjacent[edge.high as usize].push(index);
+        adjacent[edge.low.index()].push(index);
+        adjacent[edge.high.index()].push(index);
     }
     // In the file a name is a single word.
     let name: String =
@@ -54,10 +54,10 @@ pub fn parasol_map(problem: &Problem, cx: &Context, roadmap: &Roadmap) -> String
         put(&mut map, format_args!("\n{node} {} {} ", line(space, q), adjacent[node].len()));
         for index in &adjacent[node] {
             let edge = roadmap.edges().get(*index);
-            let forwards = edge.low as usize == node;
+            let forwards = edge.low.index() == node;
             let target = if forwards { edge.high } else { edge.low };
             let planner = Planner::from_tag(edge.planner).expect("edges carry known planners");
-            let ends = [edge.low, edge.high].map(|end| nodes.get(end as usize));
+            let ends = [edge.low, edge.high].map(|end| nodes.get(end.index()));
             let motion = planner.motion(cx, ends[0], ends[1]);
             let mut turns: Vec<&[f64]> = (1..motion.len() - 1).map(|i| motion.get(i)).collect();
             if !forwards {

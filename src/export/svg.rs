@@ -3,6 +3,7 @@ use super::format::{CannotExport, ExportFile, Exported, RoadmapFormat};
 use super::markup::escaped;
 use super::view::{MARGIN_PX, View};
 use crate::model::Figure;
+use crate::numbers::NodeId;
 use crate::problem::Problem;
 use crate::query;
 use crate::roadmap::Roadmap;
@@ -163,28 +164,29 @@ impl Drawing<'_> {
     /// Nodes and edges, one element per component: the largest below, the others above it.
     fn roadmap(&mut self, roadmap: &Roadmap) {
         let components = roadmap.components();
-        let mut ranked: Vec<(usize, u32)> =
+        let mut ranked: Vec<(usize, NodeId)> =
             components.iter().map(|c| (c.members.len(), c.name)).collect();
         ranked.sort_by_key(|(size, name)| (usize::MAX - size, *name));
         let Some((_, largest)) = ranked.first().copied() else {
             return;
         };
 
-        let mut drawn: BTreeSet<u32> = (0..roadmap.configs().len() as u32)
+        let mut drawn: BTreeSet<NodeId> = roadmap
+            .nodes()
             .filter(|node| components.of_node(*node).name != largest)
             .take(NODES_MAX / 2)
             .collect();
-        for node in 0..roadmap.configs().len() as u32 {
+        for node in roadmap.nodes() {
             if drawn.len() >= NODES_MAX {
                 break;
             }
             drawn.insert(node);
         }
-        let place = |node: u32| self.figure.marker(roadmap.configs().get(node as usize));
+        let place = |node: NodeId| self.figure.marker(roadmap.configs().get(node.index()));
         let mut layers = vec![(String::new(), String::new()); ranked.len()];
-        let rank_of = |node: u32| {
+        let rank_of = |node: NodeId| {
             let component = components.of_node(node);
-            let key = |(size, name): (usize, u32)| (usize::MAX - size, name);
+            let key = |(size, name): (usize, NodeId)| (usize::MAX - size, name);
             let own = key((component.members.len(), component.name));
             ranked.partition_point(|other| key(*other) < own)
         };

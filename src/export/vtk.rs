@@ -42,13 +42,13 @@ impl RoadmapFormat for Vtk {
         }
 
         put(&mut out, format_args!("POINT_DATA {nodes}"));
-        let components = (0..nodes as u32).map(|node| roadmap.components().of_node(node).name);
+        let components = roadmap.nodes().map(|node| roadmap.components().of_node(node).name);
         column(&mut out, "component unsigned_int", components);
         let values = description.node_values();
         for (index, value) in values.iter().enumerate() {
             // Names are single words.
             let name = value.name.replace(char::is_whitespace, "_");
-            let numbers = (0..nodes).map(|node| roadmap.values_of(node, values.len())[index]);
+            let numbers = roadmap.nodes().map(|node| roadmap.values_of(node, values.len())[index]);
             column(&mut out, &format!("{name} double"), numbers);
         }
         if edges > 0 {
@@ -157,15 +157,15 @@ mod tests {
         let Parsed { points, lines, columns } = parse(&text);
         let names: Vec<&str> = columns.keys().map(|name| &**name).collect();
         assert_eq!(names, ["component", "energy", "peak", "weight", "weight_back"]);
-        for (node, q) in roadmap.configs().iter().enumerate() {
-            assert_eq!(points[node], [q[0], q[1], 0.0]);
-            assert_eq!(columns["energy"][node], roadmap.values_of(node, 1)[0]);
-            let component = roadmap.components().of_node(node as u32).name;
-            assert_eq!(columns["component"][node], f64::from(component));
+        for (node, q) in roadmap.nodes().zip(roadmap.configs().iter()) {
+            assert_eq!(points[node.index()], [q[0], q[1], 0.0]);
+            assert_eq!(columns["energy"][node.index()], roadmap.values_of(node, 1)[0]);
+            let component = roadmap.components().of_node(node).name;
+            assert_eq!(columns["component"][node.index()], f64::from(component.0));
         }
         assert_eq!(points.len(), roadmap.configs().len());
         for (index, edge) in roadmap.edges().iter().enumerate() {
-            assert_eq!(lines[index], [edge.low, edge.high]);
+            assert_eq!(lines[index], [edge.low.0, edge.high.0]);
             let cost = edge.cost.directed().expect("it depends on the direction");
             let found = ["weight", "weight_back", "peak"].map(|name| columns[name][index]);
             assert_eq!(found, [cost.forward, cost.backward, cost.peak]);

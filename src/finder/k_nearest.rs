@@ -45,6 +45,6 @@ impl Finder for KNearest {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        (self.neighbors == 0).then(|| ("neighbors", "0".to_owned(), "at least 1"))
+        (self.neighbors == 0).then(|| Complaint::new("neighbors", "0", "at least 1"))
     }
 }

@@ -53,8 +53,8 @@ impl Finder for Radius {
 
     fn complaint(&self) -> Option<Complaint> {
         if !(self.radius > 0.0 && self.radius <= crate::scene::LENGTH_MAX) {
-            return Some(("radius", self.radius.to_string(), "a positive length"));
+            return Some(Complaint::new("radius", self.radius, "a positive length"));
         }
-        (self.most == Some(0)).then(|| ("most", "0".to_owned(), "at least 1"))
+        (self.most == Some(0)).then(|| Complaint::new("most", "0", "at least 1"))
     }
 }

@@ -1,6 +1,7 @@
 //! The laws that every neighbour finder keeps: what it gives is in order, and is what it would be by looking at all.
 
 use super::*;
+use crate::numbers::Ordinal;
 use crate::seed::{Purpose, Seed};
 use crate::space::{BaseJoint, rigid_space};
 use proptest::prelude::*;
@@ -21,7 +22,7 @@ proptest! {
         ordinal in any::<u64>(), count in 1usize..300, neighbors in 1u32..20,
     ) {
         let space = rigid_space(BaseJoint::Rigid2d, [0.0; 3], [3.0; 3], 0.5);
-        let mut stream = Seed::of_set(1, "finders", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(1, "finders", Ordinal(ordinal)).stream(Purpose::Sampling);
         let (mut configs, mut q) = (Configs::new(space.len()), vec![0.0; space.len()]);
         for _ in 0..count {
             space.sample_uniform(&mut stream, &mut q);

@@ -3,6 +3,7 @@ use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::{Scratch, Validity};
+use crate::numbers::NodeId;
 use crate::roadmap::{Edge, EdgeCost, Increment, Roadmap};
 use crate::sampler::GaveUp;
 use crate::seed::{Purpose, Seed, Stream};
@@ -105,18 +106,18 @@ impl Generator for ExpansionStep {
 
     fn complaint(&self) -> Option<Complaint> {
         if !(self.step > 0.0 && self.step <= crate::scene::LENGTH_MAX) {
-            return Some(("step", self.step.to_string(), "a positive length"));
+            return Some(Complaint::new("step", self.step, "a positive length"));
         }
         if self.halvings > HALVINGS_MAX {
-            return Some(("halvings", self.halvings.to_string(), "0 to 30"));
+            return Some(Complaint::new("halvings", self.halvings, "0 to 30"));
         }
         if !(1..=STEPS_MAX).contains(&self.steps) {
-            return Some(("steps", self.steps.to_string(), "1 to 1000000"));
+            return Some(Complaint::new("steps", self.steps, "1 to 1000000"));
         }
         if self.bounces == 0 {
-            return Some(("bounces", "0".to_owned(), "at least 1"));
+            return Some(Complaint::new("bounces", "0", "at least 1"));
         }
-        (self.attempts == 0).then(|| ("attempts", "0".to_owned(), "at least 1"))
+        (self.attempts == 0).then(|| Complaint::new("attempts", "0", "at least 1"))
     }
 }
 
@@ -128,8 +129,8 @@ impl Weights {
         let Some(frozen) = frozen else { return Weights(Vec::new()) };
         let mut degrees = vec![0u32; frozen.configs().len()];
         for edge in frozen.edges().iter() {
-            degrees[edge.low as usize] += 1;
-            degrees[edge.high as usize] += 1;
+            degrees[edge.low.index()] += 1;
+            degrees[edge.high.index()] += 1;
         }
         let mut sum = 0.0;
         let sums = degrees.into_iter().map(|degree| {
@@ -140,10 +141,10 @@ impl Weights {
     }
 
     /// A node and where it is; `None` in a roadmap without nodes.
-    fn choose<'a>(&self, stream: &mut Stream, frozen: &'a Roadmap) -> Option<(u32, &'a [f64])> {
+    fn choose<'a>(&self, stream: &mut Stream, frozen: &'a Roadmap) -> Option<(NodeId, &'a [f64])> {
         let drawn = stream.unit() * self.0.last()?;
         let node = self.0.partition_point(|sum| *sum <= drawn).min(self.0.len() - 1);
-        Some((node as u32, frozen.configs().get(node)))
+        Some((NodeId(node as u32), frozen.configs().get(node)))
     }
 }
 
@@ -161,21 +162,22 @@ struct Walks<'a> {
 #[derive(Clone, Copy)]
 enum Start {
     /// At a node that was there before.
-    Old(u32),
+    Old(NodeId),
     /// At a milestone of this set.
-    New(u32),
+    New(NodeId),
 }
 
 impl Walks<'_> {
     /// One walk from a node, until the set has `count` milestones. In a roadmap without nodes it begins at a
     /// valid configuration drawn uniformly, which becomes a milestone.
-    fn walk(&mut self, from: Option<(u32, &[f64])>, count: usize) -> Result<(), GaveUp> {
+    fn walk(&mut self, from: Option<(NodeId, &[f64])>, count: usize) -> Result<(), GaveUp> {
         let (mut start, mut at) = match from {
             Some((node, q)) => (Start::Old(node), q.to_vec()),
             None => {
                 let q = self.draw()?;
+                let first = self.next_node();
                 self.made.configs.push(&q);
-                (Start::New(self.made.configs.len() as u32 - 1), q)
+                (Start::New(first), q)
             }
         };
         for _ in 0..self.expansion.bounces {
@@ -183,7 +185,7 @@ impl Walks<'_> {
                 break;
             }
             let (there, cost) = self.leg(&at)?;
-            let (planner, high) = (Planner::StraightLine.tag(), self.made.configs.len() as u32);
+            let (planner, high) = (Planner::StraightLine.tag(), self.next_node());
             self.made.configs.push(&there);
             match start {
                 Start::Old(low) => self.made.root_edges.push(Edge { low, high, planner, cost }),
@@ -192,6 +194,11 @@ impl Walks<'_> {
             (start, at) = (Start::New(high), there);
         }
         Ok(())
+    }
+
+    /// The id of the next milestone within the set.
+    fn next_node(&self) -> NodeId {
+        NodeId(self.made.configs.len() as u32)
     }
 
     /// A valid configuration drawn uniformly.

@@ -6,12 +6,12 @@
 //!
 //! ```
 //! use roadmill::generator::{Generator, Sample};
-//! use roadmill::{model::Scratch, problem::Problem, seed::Seed};
+//! use roadmill::{model::Scratch, numbers::Ordinal, problem::Problem, seed::Seed};
 //!
 //! let cx = Problem::load("tests/problems/slide.toml".as_ref())?.context();
 //! // Uniform milestones, each tried with its nearest.
 //! let generator = Sample { sampler: Default::default(), within: Default::default() };
-//! let seed = Seed::of_set(1, "uniform", 0);
+//! let seed = Seed::of_set(1, "uniform", Ordinal(0));
 //! let increment = generator.generate(&cx, &seed, 20, None, &mut Scratch::new());
 //! let increment = increment.expect("there is room for 20 milestones");
 //! assert_eq!(increment.configs.len(), 20);

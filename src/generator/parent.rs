@@ -1,4 +1,5 @@
 use crate::digest::Digest;
+use crate::numbers::NodeId;
 use crate::roadmap::Roadmap;
 use crate::space::Space;
 use bincode::Encode;
@@ -37,7 +38,7 @@ pub struct ParentRoadmap {
     dofs: u32,
     /// `dofs` values per node.
     values: Vec<f64>,
-    edges: Vec<[u32; 2]>,
+    edges: Vec<[NodeId; 2]>,
 }
 
 /// A run that was read: what a [`Runs`] gives.
@@ -170,8 +171,8 @@ impl ParentRoadmap {
         &self.values[node * dofs..(node + 1) * dofs]
     }
 
-    /// The edges in the order of the run, by the numbers of their ends, lower first.
-    pub fn edges(&self) -> &[[u32; 2]] {
+    /// The edges in the order of the run, by the ids of their ends, lower first.
+    pub fn edges(&self) -> &[[NodeId; 2]] {
         &self.edges
     }
 }
@@ -191,7 +192,7 @@ impl<Context> Decode<Context> for ParentRoadmap {
         let nodes = roadmap.len();
         let sound = roadmap.values.len() == nodes * roadmap.dofs()
             && roadmap.values.iter().all(|value| value.is_finite())
-            && roadmap.edges.iter().all(|[low, high]| low < high && (*high as usize) < nodes);
+            && roadmap.edges.iter().all(|[low, high]| low < high && high.index() < nodes);
         if sound { Ok(roadmap) } else { Err(DecodeError::Other("a roadmap that cannot be")) }
     }
 }

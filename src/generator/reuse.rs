@@ -3,6 +3,7 @@ use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::Scratch;
+use crate::numbers::NodeId;
 use crate::roadmap::{Configs, Edge, EdgeCost, Increment, Roadmap};
 use crate::sampler::GaveUp;
 use crate::seed::{Purpose, Seed};
@@ -59,7 +60,7 @@ impl Generator for Reuse {
         let (parent, mut moving) = (self.parent.roadmap(), seed.stream(Purpose::Sampling));
         let mut made = Increment::empty(cx.space.len());
         // In 128 bits, since nothing bounds a set's number.
-        let taken = u128::from(seed.ordinal()) * count as u128;
+        let taken = u128::from(seed.ordinal().0) * count as u128;
         let nodes = parent.len() as u128;
         if nodes == 0 {
             return Err(GaveUp { attempts: 0 });
@@ -94,9 +95,9 @@ impl Generator for Reuse {
 
     fn complaint(&self) -> Option<Complaint> {
         if !(self.spread > 0.0 && self.spread <= crate::scene::LENGTH_MAX) {
-            return Some(("spread", self.spread.to_string(), "a positive length"));
+            return Some(Complaint::new("spread", self.spread, "a positive length"));
         }
-        (self.attempts == 0).then(|| ("attempts", "0".to_owned(), "at least 1"))
+        (self.attempts == 0).then(|| Complaint::new("attempts", "0", "at least 1"))
     }
 }
 
@@ -115,8 +116,8 @@ impl Reuse {
         let mut edges = Vec::new();
         // A set larger than the parent's roadmap holds several copies of it.
         for copy in taken / nodes..=(taken + count - 1) / nodes {
-            let milestone = |node: u32| {
-                let index = (copy * nodes + u128::from(node)).checked_sub(taken)?;
+            let milestone = |node: NodeId| {
+                let index = (copy * nodes + u128::from(node.0)).checked_sub(taken)?;
                 (index < count).then_some(index as usize)
             };
             for [low, high] in parent.edges() {
@@ -124,8 +125,8 @@ impl Reuse {
                 let (a, b) = (configs.get(low), configs.get(high));
                 let Some(cost) = cx.model.motion(a, b, 1, scratch) else { continue };
                 edges.push(Edge {
-                    low: low as u32,
-                    high: high as u32,
+                    low: NodeId(low as u32),
+                    high: NodeId(high as u32),
                     planner: Planner::StraightLine.tag(),
                     cost: EdgeCost::of(cost, cx.space.distance(a, b)),
                 });

@@ -4,6 +4,7 @@ use super::{GeneratorKind, ParentRun, Reads, Runs};
 use crate::digest::Digest;
 use crate::img::{Setup, build};
 use crate::model::Scratch;
+use crate::numbers::Ordinal;
 use crate::problem::Problem;
 use crate::roadmap::{Edge, Increment, Roadmap, SetForm};
 use crate::sampler::tests::statistics::fits;
@@ -51,7 +52,8 @@ fn with(scene: &str, generator: &str, parent: &Roadmap) -> Problem {
 
 fn make(problem: &Problem, ordinal: u64, frozen: &Roadmap) -> Increment {
     let cx = problem.context();
-    let made = problem.strategies[0].generate(&cx, ordinal, Some(frozen), &mut Scratch::new());
+    let strategy = &problem.strategies[0];
+    let made = strategy.generate(&cx, Ordinal(ordinal), Some(frozen), &mut Scratch::new());
     made.unwrap_or_else(|gave_up| panic!("{gave_up:?}"))
 }
 
@@ -86,7 +88,7 @@ fn every_set_has_as_many_valid_milestones_as_it_should_and_valid_edges() {
                 [(&made.edges, &made.configs), (&made.root_edges, frozen.configs())]
             {
                 for Edge { low, high, .. } in edges {
-                    let (a, b) = (from.get(*low as usize), made.configs.get(*high as usize));
+                    let (a, b) = (from.get(low.index()), made.configs.get(high.index()));
                     assert!(cx.model.motion(a, b, 1, scratch).is_some(), "{generator}");
                 }
             }
@@ -120,8 +122,8 @@ fn expansion_chooses_nodes_by_one_over_one_and_their_degree() {
     );
     let mut degrees = vec![0u32; frozen.configs().len()];
     for edge in frozen.edges().iter() {
-        degrees[edge.low as usize] += 1;
-        degrees[edge.high as usize] += 1;
+        degrees[edge.low.index()] += 1;
+        degrees[edge.high.index()] += 1;
     }
     assert!(degrees.iter().max() > degrees.iter().min(), "{degrees:?}");
     let problem = with(&scene(4.0), "{ expansion = { step = 0.2, bounces = 1 } }", &frozen);
@@ -130,7 +132,7 @@ fn expansion_chooses_nodes_by_one_over_one_and_their_degree() {
         make(&problem, ordinal, &frozen)
             .root_edges
             .iter()
-            .for_each(|link| chosen[link.low as usize] += 1);
+            .for_each(|link| chosen[link.low.index()] += 1);
     }
     let weights: Vec<f64> = degrees.iter().map(|degree| 1.0 / (1.0 + f64::from(*degree))).collect();
     fits(&chosen, &weights);

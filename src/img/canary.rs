@@ -1,6 +1,7 @@
 use super::{Outcome, Setup, Task};
 use crate::digest::Digest;
 use crate::model::Scratch;
+use crate::numbers::{Ordinal, StrategyIndex};
 use crate::roadmap::Roadmap;
 use std::sync::Arc;
 
@@ -15,9 +16,10 @@ pub fn canary(setup: &Setup) -> Digest {
         strategy.nodes = strategy.nodes.min(NODES);
     }
     let small = Setup { problem, cx: setup.problem.context(), plan: setup.plan.clone() };
+    let strategy = StrategyIndex(0);
     // A strategy that grows finds no node to grow from.
-    let frozen = setup.grows(0).then(|| Arc::new(Roadmap::new(&setup.cx.space)));
-    let task = Task::Generate { strategy: 0, ordinal: u64::MAX, frozen };
+    let frozen = setup.grows(strategy).then(|| Arc::new(Roadmap::new(&setup.cx.space)));
+    let task = Task::Generate { strategy, ordinal: Ordinal(u64::MAX), frozen };
     let outcome: Outcome = task.run(&small, &mut Scratch::new());
     Digest::of(&crate::wire::encode(&outcome))
 }

@@ -2,6 +2,7 @@
 
 use super::{Finished, Job, Outcome, Setup};
 use crate::evaluate::Verdict;
+use crate::numbers::{EvaluatorIndex, Ordinal, RoundNumber, SetName, SetNumber, StrategyIndex};
 use crate::problem::Limits;
 use crate::roadmap::{Digest, Increment, Joined, Round, RoundSet, SetForm};
 use crate::sampler::GaveUp;
@@ -38,7 +39,7 @@ pub enum Event {
 /// What is to be done, in this order.
 #[derive(Clone, Debug)]
 pub enum Command {
-    /// Make the increment at the next place known to the jobs that come.
+    /// Make the increment of the next set known to the jobs that come.
     Publish(Arc<Increment>),
     /// Fold the published increments: the round is complete.
     Fold(Round),
@@ -54,7 +55,7 @@ pub enum Command {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
     /// The round.
-    pub round: u64,
+    pub round: RoundNumber,
     /// One verdict per evaluator of the problem.
     pub verdicts: Vec<Verdict>,
 }
@@ -95,9 +96,9 @@ pub enum Stop {
     /// A generator found no milestone.
     GaveUp {
         /// The strategy.
-        strategy: u32,
-        /// The set.
-        ordinal: u64,
+        strategy: StrategyIndex,
+        /// The set's number within it.
+        ordinal: Ordinal,
         /// How hard it tried.
         gave_up: GaveUp,
     },
@@ -163,19 +164,19 @@ pub struct Core {
     lookahead: u64,
 
     /// The round to be folded next.
-    round: u64,
-    /// Increments that came before those of smaller places.
-    early: BTreeMap<u64, Result<Increment, GaveUp>>,
+    round: RoundNumber,
+    /// Increments that came before those of sets with smaller numbers.
+    early: BTreeMap<SetNumber, Result<Increment, GaveUp>>,
     published: Vec<Arc<Increment>>,
-    joined: BTreeMap<u64, Joined>,
+    joined: BTreeMap<SetNumber, Joined>,
     /// Verdicts on the round before `round`, while they are awaited.
-    awaited: Option<BTreeMap<u32, Verdict>>,
+    awaited: Option<BTreeMap<EvaluatorIndex, Verdict>>,
     /// Of a build that goes on: whether its last round has been judged.
     is_judged: bool,
-    next_generate: u64,
-    /// Places whose sets grow from a roadmap that is not there yet.
-    waiting: VecDeque<u64>,
-    /// Nodes of the roadmap after the round of the last place to be generated.
+    next_generate: SetNumber,
+    /// Sets that grow from a roadmap that is not there yet.
+    waiting: VecDeque<SetNumber>,
+    /// Nodes of the roadmap after the round of the last set to be generated.
     nodes_ahead: u64,
     /// Jobs at work, and how many workers died at each ([`Loss::Death`]).
     at_work: BTreeMap<Job, u32>,
@@ -195,7 +196,8 @@ impl Core {
     /// that come.
     pub fn resume(setup: &Setup, lookahead: u64, past: Past) -> Core {
         let strategies = &setup.problem.strategies;
-        let sets = setup.plan.places_of(past.rounds).start;
+        let round = RoundNumber(past.rounds);
+        let first_set = setup.plan.sets_of(round).start;
         let is_judged = past.verdicts.is_some();
         Core {
             plan: past.plan,
@@ -205,20 +207,20 @@ impl Core {
             limits: setup.problem.limits,
             evaluators: setup.problem.evaluators.len() as u32,
             lookahead,
-            round: past.rounds,
+            round,
             early: BTreeMap::new(),
             published: Vec::new(),
             joined: BTreeMap::new(),
             awaited: None,
             is_judged,
-            next_generate: sets,
+            next_generate: first_set,
             waiting: VecDeque::new(),
             nodes_ahead: past.nodes,
             at_work: BTreeMap::new(),
             done: BTreeMap::new(),
             progress: Progress {
-                sets_generated: sets,
-                sets_joined: sets,
+                sets_generated: first_set.0,
+                sets_joined: first_set.0,
                 rounds: past.rounds,
                 nodes: past.nodes,
                 verdicts: past.verdicts.unwrap_or_default(),
@@ -230,11 +232,11 @@ impl Core {
     /// The first commands.
     pub fn start(&mut self) -> Vec<Command> {
         let mut commands = Vec::new();
-        match self.round.checked_sub(1) {
+        match self.round.0.checked_sub(1) {
             None => {}
             // It may have been the last round.
             Some(_) if self.is_judged => self.decide(&mut commands),
-            Some(last) => self.evaluate(last, &mut commands),
+            Some(last) => self.evaluate(RoundNumber(last), &mut commands),
         }
         self.advance(&mut commands);
         commands
@@ -292,13 +294,13 @@ impl Core {
         }
         self.done.insert(job, finished.digest);
         match (job, finished.outcome) {
-            (Job::Generate { place, .. }, Outcome::Increment(increment)) => {
+            (Job::Generate { number, .. }, Outcome::Increment(increment)) => {
                 self.progress.sets_generated += 1;
-                self.early.insert(place, increment);
+                self.early.insert(number, increment);
             }
-            (Job::Join { place, .. }, Outcome::Joined(joined)) => {
+            (Job::Join { number, .. }, Outcome::Joined(joined)) => {
                 self.progress.sets_joined += 1;
-                self.joined.insert(place, joined);
+                self.joined.insert(number, joined);
             }
             (Job::Evaluate { evaluator, .. }, Outcome::Verdict(verdict)) => {
                 if let Some(awaited) = &mut self.awaited {
@@ -314,20 +316,20 @@ impl Core {
         match (job, outcome) {
             (Job::Generate { .. }, Outcome::Increment(Err(_))) => true,
             (Job::Generate { strategy, .. }, Outcome::Increment(Ok(increment))) => {
-                let nodes = self.set_nodes[strategy as usize];
+                let nodes = self.set_nodes[strategy.index()];
                 // What does not grow has no links: it may have been made before the round's start.
-                let before = if self.grows[strategy as usize] { self.folded() } else { 0 };
+                let before = if self.grows[strategy.index()] { self.folded() } else { 0 };
                 increment.is_sound(self.form, before) && increment.configs.len() as u64 == nodes
             }
-            (Job::Join { place, .. }, Outcome::Joined(joined)) => {
-                let offset = (place - self.plan.places_of(self.round).start) as usize;
+            (Job::Join { number, .. }, Outcome::Joined(joined)) => {
+                let offset = number.since(self.current().start) as usize;
                 let before = &self.published[..offset.min(self.published.len())];
                 let first = self.progress.nodes
                     + before.iter().map(|increment| increment.configs.len() as u64).sum::<u64>();
                 let own = self.published.get(offset).map_or(0, |own| own.configs.len() as u64);
                 joined.edges.iter().all(|edge| {
-                    u64::from(edge.low) < first
-                        && (first..first + own).contains(&u64::from(edge.high))
+                    u64::from(edge.low.0) < first
+                        && (first..first + own).contains(&u64::from(edge.high.0))
                         && self.form.has_cost(edge)
                 })
             }
@@ -357,7 +359,7 @@ impl Core {
             return;
         };
         let verdicts: Vec<Verdict> = awaited.into_values().collect();
-        let judgement = Judgement { round: self.round - 1, verdicts };
+        let judgement = Judgement { round: RoundNumber(self.round.0 - 1), verdicts };
         self.progress.verdicts = judgement.verdicts.clone();
         commands.push(Command::Judge(judgement));
         self.decide(commands);
@@ -369,7 +371,7 @@ impl Core {
             self.stop(Stop::Satisfied, commands);
         } else if self.progress.nodes >= self.limits.nodes {
             self.stop(Stop::NodeLimit, commands);
-        } else if self.current().start >= self.limits.sets {
+        } else if self.current().start.0 >= self.limits.sets {
             self.stop(Stop::SetLimit, commands);
         }
     }
@@ -378,16 +380,16 @@ impl Core {
     /// before the last round is judged: a join depends on folded rounds only.
     fn publish(&mut self, commands: &mut Vec<Command>) {
         loop {
-            let place = self.current().start + self.published.len() as u64;
-            if self.stopped || place == self.current().end {
+            let number = self.current().start + self.published.len() as u64;
+            if self.stopped || number == self.current().end {
                 return;
             }
-            match self.early.get(&place) {
+            match self.early.get(&number) {
                 None => return,
                 Some(Err(gave_up)) => {
                     // Not before the judgement: it may say that the set was never needed.
                     if self.awaited.is_none() {
-                        let (strategy, ordinal) = self.set_at(place);
+                        let SetName { strategy, ordinal } = self.name_of(number);
                         let gave_up = gave_up.clone();
                         self.stop(Stop::GaveUp { strategy, ordinal, gave_up }, commands);
                     }
@@ -395,45 +397,45 @@ impl Core {
                 }
                 Some(Ok(_)) => {}
             }
-            if let Some(Ok(increment)) = self.early.remove(&place) {
+            if let Some(Ok(increment)) = self.early.remove(&number) {
                 let increment = Arc::new(increment);
                 self.published.push(increment.clone());
                 commands.push(Command::Publish(increment));
-                let (strategy, ordinal) = self.set_at(place);
-                self.submit(Job::Join { place, strategy, ordinal }, commands);
+                let SetName { strategy, ordinal } = self.name_of(number);
+                self.submit(Job::Join { number, strategy, ordinal }, commands);
             }
         }
     }
 
     /// Folds the current round if it is complete and the one before it judged.
     fn fold(&mut self, commands: &mut Vec<Command>) -> bool {
-        let places = self.current();
-        let count = (places.end - places.start) as usize;
+        let numbers = self.current();
+        let count = numbers.end.since(numbers.start) as usize;
         if self.awaited.is_some() || self.published.len() < count || self.joined.len() < count {
             return false;
         }
         let joined = std::mem::take(&mut self.joined).into_values();
         let mut sets = Vec::with_capacity(count);
         let published = std::mem::take(&mut self.published).into_iter();
-        for (increment, (place, joined)) in published.zip(places.zip(joined)) {
+        for (increment, (number, joined)) in published.zip(SetNumber::each(numbers).zip(joined)) {
             self.progress.nodes += increment.configs.len() as u64;
-            let (strategy, ordinal) = self.set_at(place);
-            sets.push(RoundSet { place, strategy, ordinal, increment, joined });
+            let SetName { strategy, ordinal } = self.name_of(number);
+            sets.push(RoundSet { number, strategy, ordinal, increment, joined });
         }
         let round = self.round;
-        let folded = Round { index: round, sets };
+        let folded = Round { number: round, sets };
         self.plan.observe(&folded);
         commands.push(Command::Fold(folded));
-        self.round += 1;
+        self.round = round.next();
         self.progress.rounds += 1;
         self.evaluate(round, commands);
         true
     }
 
     /// Hands out the evaluations of the last round.
-    fn evaluate(&mut self, round: u64, commands: &mut Vec<Command>) {
+    fn evaluate(&mut self, round: RoundNumber, commands: &mut Vec<Command>) {
         self.awaited = Some(BTreeMap::new());
-        for evaluator in 0..self.evaluators {
+        for evaluator in (0..self.evaluators).map(EvaluatorIndex) {
             self.submit(Job::Evaluate { round, evaluator }, commands);
         }
     }
@@ -442,37 +444,37 @@ impl Core {
     /// whose strategy depends on rounds to come.
     fn generate(&mut self, commands: &mut Vec<Command>) {
         let current = self.current();
-        while let Some(place) =
-            self.waiting.front().copied().filter(|place| current.contains(place))
+        while let Some(number) =
+            self.waiting.front().copied().filter(|number| current.contains(number))
         {
             self.waiting.pop_front();
-            self.submit_set(place, commands);
+            self.submit_set(number, commands);
         }
         let end = (self.current().end + self.lookahead).min(self.plan.known_until());
         while self.next_generate < end {
-            let place = self.next_generate;
-            let round = self.plan.places_of(self.plan.round_of(place));
-            let enough = self.nodes_ahead >= self.limits.nodes || place >= self.limits.sets;
-            if place == round.start && enough {
+            let number = self.next_generate;
+            let round = self.plan.sets_of(self.plan.round_of(number));
+            let enough = self.nodes_ahead >= self.limits.nodes || number.0 >= self.limits.sets;
+            if number == round.start && enough {
                 return;
             }
-            if place == round.start {
-                let nodes = |place| self.set_nodes[self.set_at(place).0 as usize];
-                self.nodes_ahead += round.map(nodes).sum::<u64>();
+            if number == round.start {
+                let nodes = |number| self.set_nodes[self.name_of(number).strategy.index()];
+                self.nodes_ahead += SetNumber::each(round).map(nodes).sum::<u64>();
             }
-            self.next_generate += 1;
-            let grows = self.grows[self.set_at(place).0 as usize];
-            if grows && !self.current().contains(&place) {
-                self.waiting.push_back(place);
+            self.next_generate = number.next();
+            let grows = self.grows[self.name_of(number).strategy.index()];
+            if grows && !self.current().contains(&number) {
+                self.waiting.push_back(number);
             } else {
-                self.submit_set(place, commands);
+                self.submit_set(number, commands);
             }
         }
     }
 
-    fn submit_set(&mut self, place: u64, commands: &mut Vec<Command>) {
-        let (strategy, ordinal) = self.set_at(place);
-        self.submit(Job::Generate { place, strategy, ordinal }, commands);
+    fn submit_set(&mut self, number: SetNumber, commands: &mut Vec<Command>) {
+        let SetName { strategy, ordinal } = self.name_of(number);
+        self.submit(Job::Generate { number, strategy, ordinal }, commands);
     }
 
     fn submit(&mut self, job: Job, commands: &mut Vec<Command>) {
@@ -481,9 +483,9 @@ impl Core {
         commands.push(Command::Submit(job));
     }
 
-    /// The set at a place of the current round, or of one that was generated ahead.
-    fn set_at(&self, place: u64) -> (u32, u64) {
-        self.plan.set_at(place).expect("nothing is generated where the schedule is not known")
+    /// The name of a set of the current round, or of one that was generated ahead.
+    fn name_of(&self, number: SetNumber) -> SetName {
+        self.plan.name_of(number).expect("nothing is generated where the schedule is not known")
     }
 
     /// Nodes of the roadmap at the start of the current round.
@@ -491,7 +493,8 @@ impl Core {
         self.progress.nodes
     }
 
-    fn current(&self) -> Range<u64> {
-        self.plan.places_of(self.round)
+    /// The sets of the current round.
+    fn current(&self) -> Range<SetNumber> {
+        self.plan.sets_of(self.round)
     }
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 /// Whatever does the jobs. It may do them in any order and in any place, more than once, or lose
 /// them and say so.
 pub trait Executor {
-    /// Makes the increment at the next place known to the jobs that come.
+    /// Makes the increment of the next set known to the jobs that come.
     fn publish(&mut self, increment: &Arc<Increment>);
 
     /// Folds the increments published since the last fold.

@@ -2,11 +2,13 @@ use super::Setup;
 use crate::connect::JoinInput;
 use crate::evaluate::Verdict;
 use crate::model::Scratch;
+use crate::numbers::{EvaluatorIndex, Ordinal, RoundNumber, SetNumber, StrategyIndex};
 use crate::roadmap::{Digest, Full, Increment, Joined, Roadmap};
 use crate::sampler::GaveUp;
 use bincode::de::{Decode, Decoder};
 use bincode::enc::{Encode, Encoder};
 use bincode::error::{DecodeError, EncodeError};
+use std::fmt;
 use std::sync::Arc;
 
 /// A piece of work, named by what it makes. The order is that of urgency.
@@ -15,28 +17,45 @@ pub enum Job {
     /// Judge the roadmap after `round` by one of the problem's evaluators.
     Evaluate {
         /// The round just folded.
-        round: u64,
-        /// Index of the evaluator.
-        evaluator: u32,
+        round: RoundNumber,
+        /// The evaluator.
+        evaluator: EvaluatorIndex,
     },
-    /// Find the edges that join the set at `place` to what came before it.
+    /// Find the edges that join the set `number` to what came before it.
     Join {
-        /// The set's place.
-        place: u64,
-        /// Index of its strategy.
-        strategy: u32,
-        /// Its ordinal within the strategy.
-        ordinal: u64,
+        /// The set's number in the sequence of all sets.
+        number: SetNumber,
+        /// Its strategy.
+        strategy: StrategyIndex,
+        /// Its number within the strategy.
+        ordinal: Ordinal,
     },
-    /// Make the increment of the set at `place`.
+    /// Make the increment of the set `number`.
     Generate {
-        /// The set's place.
-        place: u64,
-        /// Index of its strategy.
-        strategy: u32,
-        /// Its ordinal within the strategy.
-        ordinal: u64,
+        /// The set's number in the sequence of all sets.
+        number: SetNumber,
+        /// Its strategy.
+        strategy: StrategyIndex,
+        /// Its number within the strategy.
+        ordinal: Ordinal,
     },
+}
+
+/// Names the job by numbers; who knows the problem can name strategies and evaluators better.
+impl fmt::Display for Job {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Job::Evaluate { round, evaluator } => {
+                write!(f, "judging round {round} by evaluator {evaluator}")
+            }
+            Job::Join { number, strategy, ordinal } => {
+                write!(f, "joining set {number} (set {ordinal} of strategy {strategy})")
+            }
+            Job::Generate { number, strategy, ordinal } => {
+                write!(f, "generating set {number} (set {ordinal} of strategy {strategy})")
+            }
+        }
+    }
 }
 
 /// What a job made.
@@ -99,24 +118,24 @@ impl Finished {
 pub enum Task {
     /// See [`Job::Generate`].
     Generate {
-        /// Index of the strategy.
-        strategy: u32,
-        /// The set's ordinal within it.
-        ordinal: u64,
+        /// The strategy.
+        strategy: StrategyIndex,
+        /// The set's number within it.
+        ordinal: Ordinal,
         /// Of a set that grows from the roadmap: the roadmap at the start of its round.
         frozen: Option<Arc<Roadmap>>,
     },
     /// See [`Job::Join`].
     Join {
-        /// Index of the strategy.
-        strategy: u32,
+        /// The strategy.
+        strategy: StrategyIndex,
         /// What was there before, and the set.
         input: JoinInput,
     },
     /// See [`Job::Evaluate`].
     Evaluate {
-        /// Index of the evaluator.
-        evaluator: u32,
+        /// The evaluator.
+        evaluator: EvaluatorIndex,
         /// The roadmap.
         roadmap: Arc<Roadmap>,
     },
@@ -129,18 +148,18 @@ impl Task {
         let cx = &setup.cx;
         match self {
             Task::Generate { strategy, ordinal, frozen } => {
-                let strategy = &setup.problem.strategies[*strategy as usize];
+                let strategy = &setup.problem.strategies[strategy.index()];
                 let frozen = frozen.as_deref();
                 Outcome::Increment(strategy.generate(cx, *ordinal, frozen, scratch))
             }
             Task::Join { strategy, input } => {
-                let strategy = &setup.problem.strategies[*strategy as usize];
+                let strategy = &setup.problem.strategies[strategy.index()];
                 scratch.take_asked();
                 let edges = strategy.among.method().connect(cx, input, scratch);
                 Outcome::Joined(Joined { edges, asked: scratch.take_asked() })
             }
             Task::Evaluate { evaluator, roadmap } => {
-                let method = setup.problem.evaluators[*evaluator as usize].method();
+                let method = setup.problem.evaluators[evaluator.index()].method();
                 let verdict = method.evaluate(cx, &evaluator.to_string(), roadmap, scratch);
                 Outcome::Verdict(Box::new(verdict))
             }

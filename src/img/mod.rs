@@ -30,6 +30,7 @@ pub use threads::Threads;
 
 use crate::context::Context;
 use crate::model::Model;
+use crate::numbers::StrategyIndex;
 use crate::problem::Problem;
 use crate::roadmap::Roadmap;
 use std::sync::Arc;
@@ -75,8 +76,8 @@ impl Setup {
     }
 
     /// Whether the sets of a strategy grow from the roadmap at the start of their round.
-    pub fn grows(&self, strategy: u32) -> bool {
-        self.problem.strategies[strategy as usize].generator.grows()
+    pub fn grows(&self, strategy: StrategyIndex) -> bool {
+        self.problem.strategies[strategy.index()].generator.grows()
     }
 }
 
@@ -124,7 +125,7 @@ pub fn resume_with(
         }
     }
     let mut last = Last(judgement.clone());
-    match grow(setup, executor, lookahead, (rounds, judgement), &mut last) {
+    match grow(setup, executor, lookahead, rounds, judgement, &mut last) {
         Ok((stop, roadmap)) => Grown { roadmap, stop, judgement: last.0 },
         Err(never) => match never {},
     }
@@ -135,7 +136,8 @@ pub(crate) fn grow<O: Observer>(
     setup: &Arc<Setup>,
     mut executor: impl InProcess,
     lookahead: u64,
-    (rounds, judgement): (&[Round], Option<Judgement>),
+    rounds: &[Round],
+    judgement: Option<Judgement>,
     observer: &mut O,
 ) -> Result<(Stop, Roadmap), O::Error> {
     let mut past = Past::new(setup);

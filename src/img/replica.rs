@@ -1,30 +1,31 @@
 use super::{Job, Setup, Task};
 use crate::connect::{Built, JoinInput};
-use crate::roadmap::{Edge, Increment, Roadmap};
+use crate::numbers::SetNumber;
+use crate::roadmap::{Edge, Increment, Roadmap, SetToFold};
 use crate::shelf::Shelf;
 use std::sync::Arc;
 
 /// Where a build stands: which jobs have what they read.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Front {
-    /// Place of the first set of the round that comes next.
-    first: u64,
+    /// The first set of the round that comes next.
+    first: SetNumber,
     /// Sets of it that are published.
     published: u64,
 }
 
 impl Front {
-    /// The place of the set that is published next.
-    pub fn next(&self) -> u64 {
+    /// The set that is published next.
+    pub fn next(&self) -> SetNumber {
         self.first + self.published
     }
 
     /// Whether a job makes a set that is still to be published.
     pub fn is_ahead(&self, job: Job) -> bool {
-        matches!(job, Job::Generate { place, .. } if place >= self.next())
+        matches!(job, Job::Generate { number, .. } if number >= self.next())
     }
 
-    /// Takes note of the increment at the next place.
+    /// Takes note of the increment of the next set.
     pub fn publish(&mut self) {
         self.published += 1;
     }
@@ -38,11 +39,11 @@ impl Front {
     /// by the worker believed dead, and the build has moved on.
     pub fn has(&self, setup: &Setup, job: Job) -> bool {
         match job {
-            Job::Generate { place, strategy, .. } => {
-                !setup.grows(strategy) || setup.plan.round_start(place) == self.first
+            Job::Generate { number, strategy, .. } => {
+                !setup.grows(strategy) || setup.plan.round_start(number) == self.first
             }
-            Job::Join { place, .. } => (self.first..self.next()).contains(&place),
-            Job::Evaluate { round, .. } => setup.plan.places_of(round).end == self.first,
+            Job::Join { number, .. } => (self.first..self.next()).contains(&number),
+            Job::Evaluate { round, .. } => setup.plan.sets_of(round).end == self.first,
         }
     }
 }
@@ -73,7 +74,7 @@ impl Replica {
         Replica { roadmap: Arc::new(roadmap), ..Replica::new(setup) }
     }
 
-    /// Takes in the increment at the next place.
+    /// Takes in the increment of the next set.
     pub fn publish(&mut self, setup: &Setup, increment: Arc<Increment>) {
         self.front.publish();
         self.increments.push(Arc::new(Built::new(&setup.cx, increment)));
@@ -90,7 +91,8 @@ impl Replica {
             Err(shared) => shared.components.clone(),
         });
         let sets = kept.iter().zip(components).zip(joins);
-        let sets = sets.map(|((increment, components), joins)| (&**increment, components, joins));
+        let sets =
+            sets.map(|((increment, components), joins)| SetToFold { increment, components, joins });
         Arc::make_mut(&mut self.roadmap).fold_components(&setup.cx.space, sets);
     }
 
@@ -116,8 +118,9 @@ impl Replica {
                 let frozen = setup.grows(strategy).then(|| self.roadmap.clone());
                 Task::Generate { strategy, ordinal, frozen }
             }
-            Job::Join { place, strategy, .. } => {
-                let increments = self.increments[..=(place - self.front.first) as usize].to_vec();
+            Job::Join { number, strategy, .. } => {
+                let offset = number.since(self.front.first) as usize;
+                let increments = self.increments[..=offset].to_vec();
                 let input = JoinInput { roadmap: self.roadmap.clone(), increments };
                 Task::Join { strategy, input }
             }

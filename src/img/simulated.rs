@@ -2,6 +2,7 @@
 
 use super::{Event, Executor, Finished, InProcess, Job, Loss, Replica, Round, Setup, Task};
 use crate::model::Scratch;
+use crate::numbers::Ordinal;
 use crate::roadmap::{Digest, Full, Increment, Roadmap, Tally};
 use crate::seed::{Purpose, Seed, Stream};
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,7 +41,7 @@ impl<'a> Simulated<'a> {
             setup,
             published: Vec::new(),
             memo,
-            stream: Seed::of_set(seed, "simulation", 0).stream(Purpose::Sampling),
+            stream: Seed::of_set(seed, "simulation", Ordinal(0)).stream(Purpose::Sampling),
             workers,
             waiting: BTreeSet::new(),
             running: Vec::new(),

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::model::Scratch;
+use crate::numbers::{NodeId, Ordinal, SetName, SetNumber};
 use crate::problem::Problem;
 use crate::roadmap::Tally;
 use crate::sampler::GaveUp;
@@ -36,12 +37,16 @@ fn setup() -> Arc<Setup> {
 }
 
 /// Of the only strategy.
-fn generate(place: u64) -> Job {
-    Job::Generate { place, strategy: 0, ordinal: place }
+fn generate(number: u64) -> Job {
+    Job::Generate {
+        number: SetNumber(number),
+        strategy: StrategyIndex(0),
+        ordinal: Ordinal(number),
+    }
 }
 
-fn join(place: u64) -> Job {
-    Job::Join { place, strategy: 0, ordinal: place }
+fn join(number: u64) -> Job {
+    Job::Join { number: SetNumber(number), strategy: StrategyIndex(0), ordinal: Ordinal(number) }
 }
 
 fn jobs(commands: &[Command]) -> Vec<Job> {
@@ -116,7 +121,7 @@ fn impossible_answers_end_the_build() {
     let Outcome::Increment(Ok(mut increment)) = task.run(&setup, &mut Scratch::new()) else {
         panic!("the sampler finds milestones");
     };
-    increment.edges.push(crate::roadmap::Edge::metric(0, 4, 0, 1.0));
+    increment.edges.push(crate::roadmap::Edge::metric(NodeId(0), NodeId(4), 0, 1.0));
     let no_such_node = Outcome::Increment(Ok(increment));
     let joined = Outcome::Joined(Joined { edges: Vec::new(), asked: Default::default() });
     let gave_up = Outcome::Increment(Err(GaveUp { attempts: 1 }));
@@ -199,11 +204,11 @@ fn a_sampler_that_gives_up_ends_the_build_with_its_name() {
             0 => build(&setup),
             _ => build_in_threads(&setup, threads),
         };
-        let Stop::GaveUp { strategy: 0, ordinal, gave_up } = built.stop else {
+        let Stop::GaveUp { strategy: StrategyIndex(0), ordinal, gave_up } = built.stop else {
             panic!("{:?}", built.stop);
         };
         assert_eq!(gave_up, GaveUp { attempts: 50 });
-        assert!(ordinal >= built.roadmap.sets());
+        assert!(ordinal.0 >= built.roadmap.sets());
     }
 }
 
@@ -226,18 +231,19 @@ fn nothing_is_generated_whose_strategy_depends_on_rounds_to_come() {
     let Ok(_) = drive(&mut Core::new(&setup, 100), &mut Serial::new(setup.clone()), &mut kept);
     // The plan alone, told of the rounds so far, knows the next round and no other.
     let mut plan = setup.plan.clone();
-    let mut sets_of = vec![0; setup.problem.strategies.len()];
+    let mut sets_of = vec![Ordinal(0); setup.problem.strategies.len()];
     for round in &kept.0 {
-        assert_eq!(plan.known_until(), plan.places_of(round.index).end);
-        assert_eq!(plan.set_at(plan.known_until()), None);
+        assert_eq!(plan.known_until(), plan.sets_of(round.number).end);
+        assert_eq!(plan.name_of(plan.known_until()), None);
         for set in &round.sets {
-            assert_eq!(plan.set_at(set.place), Some((set.strategy, set.ordinal)));
-            assert_eq!(set.ordinal, sets_of[set.strategy as usize]);
-            sets_of[set.strategy as usize] += 1;
+            let name = SetName { strategy: set.strategy, ordinal: set.ordinal };
+            assert_eq!(plan.name_of(set.number), Some(name));
+            assert_eq!(set.ordinal, sets_of[set.strategy.index()]);
+            sets_of[set.strategy.index()] = set.ordinal.next();
         }
         plan.observe(round);
     }
-    assert!(sets_of.iter().all(|sets| *sets > 0), "every one is tried: {sets_of:?}");
+    assert!(sets_of.iter().all(|sets| sets.0 > 0), "every one is tried: {sets_of:?}");
     let (least, most) = (sets_of.iter().min(), sets_of.iter().max());
     assert!(least < most, "and some more than others: {sets_of:?}");
 }

@@ -87,6 +87,7 @@ pub(crate) fn kept(
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::numbers::Ordinal;
     use crate::seed::{Purpose, Seed, Stream};
     use std::collections::BTreeMap;
     use std::sync::Mutex;
@@ -107,7 +108,7 @@ pub(crate) mod tests {
 
     impl Flaky {
         pub(crate) fn new(often: f64, ordinal: u64) -> Flaky {
-            let stream = Seed::of_set(1, "shelf", ordinal).stream(Purpose::Sampling);
+            let stream = Seed::of_set(1, "shelf", Ordinal(ordinal)).stream(Purpose::Sampling);
             let state = State { blocks: BTreeMap::new(), stream, made: 0 };
             Flaky { often, state: Mutex::new(state) }
         }

@@ -117,7 +117,7 @@ impl fmt::Display for Planner {
 /// What is wrong with a list of planners to be tried.
 pub fn complaint(planners: &[Planner]) -> Option<Complaint> {
     if planners.is_empty() {
-        return Some(("planners", "[]".to_owned(), "at least one local planner"));
+        return Some(Complaint::new("planners", "[]", "at least one local planner"));
     }
     planners.iter().find_map(|planner| planner.method().complaint())
 }

@@ -51,6 +51,6 @@ impl LocalPlanner for RotateAt {
 
     fn complaint(&self) -> Option<Complaint> {
         let fits = self.percent <= PERCENT_MAX;
-        (!fits).then(|| ("percent", self.percent.to_string(), "0 to 100"))
+        (!fits).then(|| Complaint::new("percent", self.percent, "0 to 100"))
     }
 }

@@ -47,21 +47,29 @@ pub fn in_radius(
     ball.into_neighbors()
 }
 
-/// The at most `count` closest pairs, by [`Space::distance`], of a configuration of `first` and one of `second`, each
-/// given with the ids that take part. Closest first, ties by the first id, then by the second.
-pub fn closest_pairs(
-    space: &Space,
-    first: (&Configs, &[u32]),
-    second: (&Configs, &[u32]),
-    count: usize,
-) -> Vec<NearPair> {
+/// Some of many configurations.
+#[derive(Clone, Copy, Debug)]
+pub struct Subset<'a> {
+    /// All of them.
+    pub all: &'a Configs,
+    /// The ids of those that are meant.
+    pub ids: &'a [u32],
+}
+
+impl<'a> Subset<'a> {
+    /// The configurations that are meant, in the order of their ids.
+    pub fn configs(self) -> impl Iterator<Item = &'a [f64]> {
+        self.ids.iter().map(move |id| self.all.get(*id as usize))
+    }
+}
+
+/// The at most `count` closest pairs, by [`Space::distance`], of a configuration of `first` and one of `second`, closest
+/// first, ties by the first id, then by the second.
+pub fn closest_pairs(space: &Space, first: Subset, second: Subset, count: usize) -> Vec<NearPair> {
     let mut best: Best<NearPair> = Best::new(count);
-    for a in first.1 {
-        let q = first.0.get(*a as usize);
-        for b in second.1 {
-            if let Some(distance) =
-                space.distance_unless_above(q, second.0.get(*b as usize), best.bound())
-            {
+    for (a, q) in first.ids.iter().zip(first.configs()) {
+        for (b, p) in second.ids.iter().zip(second.configs()) {
+            if let Some(distance) = space.distance_unless_above(q, p, best.bound()) {
                 best.offer(NearPair { distance, first: *a, second: *b });
             }
         }
@@ -72,6 +80,7 @@ pub fn closest_pairs(
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::numbers::Ordinal;
     use crate::seed::{Purpose, Seed};
     use crate::space::{BaseJoint, rigid_space};
     use proptest::prelude::*;
@@ -79,7 +88,7 @@ pub(super) mod tests {
     /// Random configurations, half of them on a coarse grid so that ties occur.
     pub(in crate::neighbor) fn configs(motion: BaseJoint, ordinal: u64) -> (Space, Configs) {
         let space = rigid_space(motion, [0.0; 3], [3.0; 3], 0.5);
-        let mut stream = Seed::of_set(1, "neighbours", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(1, "neighbours", Ordinal(ordinal)).stream(Purpose::Sampling);
         let mut configs = Configs::new(space.len());
         let mut q = vec![0.0; space.len()];
         for i in 0..80 {
@@ -154,7 +163,8 @@ pub(super) mod tests {
                 a.distance.total_cmp(&b.distance).then((a.first, a.second).cmp(&(b.first, b.second)))
             });
             all.truncate(count);
-            prop_assert_eq!(closest_pairs(&space, (&configs, &first), (&configs, &second), count), all);
+            let [first, second] = [&first, &second].map(|ids| Subset { all: &configs, ids });
+            prop_assert_eq!(closest_pairs(&space, first, second, count), all);
         }
     }
 }

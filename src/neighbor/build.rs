@@ -3,6 +3,7 @@
 use super::embedding::{Embedding, FAN, length};
 use super::layout::{Head, Layout, NONE};
 use bytemuck::{cast_slice, cast_slice_mut};
+use std::ops::Range;
 
 /// About so many points, evenly spaced in their order, are looked at to find the axis of the widest spread.
 const SAMPLED: usize = 32;
@@ -18,11 +19,12 @@ pub(super) struct Source<'a, 'q> {
     pub configs: u32,
 }
 
-/// Fills a block of zeros with the tree over the `len` configurations from id `first` on.
-pub(super) fn fill(source: &Source, layout: &Layout, (first, len): (u32, u32), block: &mut [u8]) {
+/// Fills a block of zeros with the tree over the configurations of these ids.
+pub(super) fn fill(source: &Source, layout: &Layout, ids: Range<u32>, block: &mut [u8]) {
+    let (first, len) = (ids.start, ids.end - ids.start);
     let axes = source.embedding.axes();
     let mut rows = Vec::with_capacity(len as usize * axes);
-    (first..first + len).for_each(|id| source.embedding.embed((source.config_of)(id), &mut rows));
+    ids.for_each(|id| source.embedding.embed((source.config_of)(id), &mut rows));
     let mut order: Vec<u32> = (0..len).collect();
     let mut build = Build { axes, rows, keys: Vec::new() };
     build.arrange(layout.levels[0].count, &mut order);
@@ -35,7 +37,7 @@ pub(super) fn fill(source: &Source, layout: &Layout, (first, len): (u32, u32), b
     let mut longest: f64 = 0.0;
     for (leaf, rows) in order.chunks_mut(FAN).enumerate() {
         rows.sort_unstable();
-        longest = longest.max(build.leaf(source, layout, first, (leaf, rows), block));
+        longest = longest.max(build.leaf(source, layout, first, leaf, rows, block));
     }
     for level in 1..layout.levels.len() {
         enclose(source, layout, level, block);
@@ -145,7 +147,8 @@ impl Build {
         source: &Source,
         layout: &Layout,
         first: u32,
-        (leaf, rows): (usize, &[u32]),
+        leaf: usize,
+        rows: &[u32],
         block: &mut [u8],
     ) -> f64 {
         let (axes, level) = (self.axes, &layout.levels[0]);

@@ -1,4 +1,5 @@
 use super::best::{NearPair, Neighbor, Ranked};
+use super::brute::Subset;
 use super::build::Source;
 use super::embedding::{Embedding, length};
 use super::searched::Searched;
@@ -7,7 +8,7 @@ use super::shared_segments;
 use super::shortlist::{Candidate, Shortlist};
 use super::tree::Tree;
 use crate::shelf::{self, Shelf};
-use crate::space::{Configs, Space};
+use crate::space::Space;
 use std::sync::Arc;
 
 /// An index of configurations, numbered from 0 to [`Index::len`], to which more can be added. Its searches return
@@ -100,7 +101,7 @@ impl Index {
         });
         self.segments.truncate(self.shared + kept.map_or(0, |last| last + 1));
         if count > 0 {
-            let tree = Tree::new(&source, (end - count, count), shelf::private);
+            let tree = Tree::new(&source, end - count..end, shelf::private);
             self.segments.push(Arc::new(tree));
         }
     }
@@ -115,24 +116,23 @@ impl Index {
         q: &[f64],
         k: usize,
     ) -> Vec<Neighbor> {
-        self.nearest((space, searched, end), &[q], k, |_, near| near)
+        self.nearest(space, searched, end, &[q], k, |_, near| near)
     }
 
-    /// The at most `count` closest pairs of a configuration of `first`, given with the ids that take part, and an
-    /// eligible configuration of the index. Closest first, ties by the id of the first configuration, then by the
+    /// The at most `count` closest pairs of a configuration of `first` and an eligible configuration of the index. Closest first, ties by the id of the first configuration, then by the
     /// name of the second. `end` is as in [`Index::k_nearest`].
     pub fn closest_pairs(
         &self,
         space: &Space,
-        first: (&Configs, &[u32]),
+        first: Subset,
         searched: &impl Searched,
         end: u32,
         count: usize,
     ) -> Vec<NearPair> {
-        let queries: Vec<_> = first.1.iter().map(|id| first.0.get(*id as usize)).collect();
-        self.nearest((space, searched, end), &queries, count, |query, near| NearPair {
+        let queries: Vec<_> = first.configs().collect();
+        self.nearest(space, searched, end, &queries, count, |query, near| NearPair {
             distance: near.distance,
-            first: first.1[query as usize],
+            first: first.ids[query as usize],
             second: near.id,
         })
     }
@@ -141,7 +141,9 @@ impl Index {
     /// Short segments are searched first, for all queries: what they give bounds the search of the long ones.
     fn nearest<T: Ranked>(
         &self,
-        (space, searched, end): (&Space, &impl Searched, u32),
+        space: &Space,
+        searched: &impl Searched,
+        end: u32,
         queries: &[&[f64]],
         most: usize,
         item: impl Fn(u32, Neighbor) -> T,

@@ -22,7 +22,7 @@ pub fn k_nearest_graph(space: &Space, configs: &Configs, k: usize) -> Vec<(u32, 
     let end = count as u32;
     let source =
         Source { embedding: &embedding, config_of: &config_of, label_of: &|_| 0, configs: end };
-    let tree = Tree::new(&source, (0, end), shelf::private);
+    let tree = Tree::new(&source, 0..end, shelf::private);
     let error_bounds = embedding.error_bounds(2.0 * tree.longest());
     let shortlist = Shortlist::new(k, error_bounds);
     let mut others = Others { space, configs, id: NONE, shortlist };

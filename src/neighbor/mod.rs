@@ -24,7 +24,7 @@ mod shortlist;
 mod tree;
 
 pub use best::{Best, NearPair, Neighbor, Ranked};
-pub use brute::{closest_pairs, in_radius, k_nearest};
+pub use brute::{Subset, closest_pairs, in_radius, k_nearest};
 pub use farthest::{FarPair, farthest_pair};
 pub use index::Index;
 pub use k_nearest_graph::k_nearest_graph;

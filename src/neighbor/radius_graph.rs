@@ -20,7 +20,7 @@ pub fn radius_graph(space: &Space, configs: &Configs, radius: f64) -> Vec<(u32, 
     let config_of = |id: u32| configs.get(id as usize);
     let source =
         Source { embedding: &embedding, config_of: &config_of, label_of: &|_| 0, configs: count };
-    let tree = Tree::new(&source, (0, count), shelf::private);
+    let tree = Tree::new(&source, 0..count, shelf::private);
     let pruning_bound = embedding.error_bounds(2.0 * tree.longest()).pruning_bound(radius * radius);
     let mut higher = Higher { space, configs, radius, pruning_bound, id: 0, pairs: Vec::new() };
     let mut point = Point::new();

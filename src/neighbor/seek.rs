@@ -125,7 +125,7 @@ impl<'a, S: Seeker> Search<'a, S> {
         let values = FAN * self.point.len();
         let points = &self.points[leaf * values..(leaf + 1) * values];
         let ids = &self.ids[leaf * FAN..(leaf + 1) * FAN];
-        offer_leaf(self.embedding, self.point, (ids, points), eligible, self.seeker);
+        offer_leaf(self.embedding, self.point, ids, points, eligible, self.seeker);
     }
 }
 
@@ -133,7 +133,8 @@ impl<'a, S: Seeker> Search<'a, S> {
 fn offer_leaf(
     embedding: &Embedding,
     point: &[f32],
-    (ids, points): (&[u32], &[f32]),
+    ids: &[u32],
+    points: &[f32],
     eligible: bool,
     seeker: &mut impl Seeker,
 ) {
@@ -182,7 +183,7 @@ impl Leaves {
         let values = FAN * point.len();
         for (leaf, ids) in self.ids.chunks_exact(FAN).enumerate() {
             let points = &self.points[leaf * values..(leaf + 1) * values];
-            offer_leaf(embedding, point, (ids, points), true, seeker);
+            offer_leaf(embedding, point, ids, points, true, seeker);
         }
     }
 }

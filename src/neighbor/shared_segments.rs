@@ -7,6 +7,7 @@
 use super::build::Source;
 use super::tree::Tree;
 use crate::shelf::{self, BlockName, Claim, Shelf};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Number of configurations in the shortest shared segment.
@@ -35,9 +36,9 @@ impl SharedSegment {
         SHORTEST << self.level
     }
 
-    /// The first id and the number of configurations.
-    fn range(self) -> (u32, u32) {
-        (self.number * self.len(), self.len())
+    /// The ids of its configurations.
+    fn range(self) -> Range<u32> {
+        self.number * self.len()..(self.number + 1) * self.len()
     }
 
     /// The name of its block on the shelf.
@@ -62,8 +63,9 @@ pub(super) fn update(old: &[Arc<Tree>], shelf: &dyn Shelf, source: &Source) -> V
     let mut trees: Vec<Arc<Tree>> = Vec::new();
     let mut claim = None;
     for segment in SharedSegment::all(source.configs) {
-        let (first, len) = segment.range();
-        let known = old.iter().find(|tree| (tree.first(), tree.len()) == (first, len)).cloned();
+        let ids = segment.range();
+        let first = ids.start;
+        let known = old.iter().find(|tree| (tree.first()..tree.end()) == ids).cloned();
         match known.or_else(|| find_or_build(segment, shelf, source, &mut claim).map(Arc::new)) {
             Some(tree) => trees.push(tree),
             None => {
@@ -84,7 +86,8 @@ fn find_or_build(
     claim: &mut Option<Claim>,
 ) -> Option<Tree> {
     let range = segment.range();
-    let find = || Tree::found(source.embedding, range, |bytes| shelf.find(segment.name(), bytes));
+    let find =
+        || Tree::found(source.embedding, range.clone(), |bytes| shelf.find(segment.name(), bytes));
     let tree = find().or_else(|| {
         if claim.is_none() {
             *claim = Some(shelf.claim()?);
@@ -95,7 +98,7 @@ fn find_or_build(
                 let kept = shelf.put(segment.name(), bytes, fill);
                 kept.unwrap_or_else(|| shelf::private(bytes, fill))
             };
-            Tree::new(source, range, put)
+            Tree::new(source, range.clone(), put)
         }))
     })?;
     // Whoever has built a segment may have died before it discarded those that are superseded, so all who come
@@ -115,12 +118,13 @@ mod tests {
             let segments: Vec<SharedSegment> = SharedSegment::all(configs).collect();
             let mut end = 0;
             for segment in &segments {
-                let (first, len) = segment.range();
-                assert_eq!(first, end);
-                end += len;
+                let own = segment.range();
+                assert_eq!(own.start, end);
+                end = own.end;
                 let shorter: Vec<_> = segment.superseded().map(SharedSegment::range).collect();
-                assert!(shorter.iter().all(|(at, len)| first <= *at && at + len <= end));
-                assert_eq!(shorter.iter().map(|(_, len)| len).sum::<u32>(), segment.level * len);
+                assert!(shorter.iter().all(|ids| own.start <= ids.start && ids.end <= own.end));
+                let covered: usize = shorter.iter().map(ExactSizeIterator::len).sum();
+                assert_eq!(covered, segment.level as usize * own.len());
             }
             assert_eq!(end, count * SHORTEST);
             assert!(segments.windows(2).all(|pair| pair[0].level > pair[1].level));

@@ -4,6 +4,7 @@ use super::build::{self, Source};
 use super::embedding::{Embedding, FAN};
 use super::layout::{Head, Layout, Level};
 use crate::shelf::Block;
+use std::ops::Range;
 
 /// A balanced tree of axis-aligned bounding boxes. Each leaf is a bucket of [`FAN`] points, but for the last, which
 /// may have fewer. Every [`FAN`] consecutive leaves have a common box, every [`FAN`] consecutive boxes of a level
@@ -17,31 +18,32 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    /// Builds the tree over the `len` configurations from id `first` on. `keep` provides the block: it is given
+    /// Builds the tree over the configurations of these ids. `keep` provides the block: it is given
     /// the block's length in bytes and the function that fills a block of zeros.
     pub(super) fn new(
         source: &Source,
-        (first, len): (u32, u32),
+        ids: Range<u32>,
         keep: impl FnOnce(usize, &mut dyn FnMut(&mut [u8])) -> Block,
     ) -> Tree {
-        let layout = Layout::new(source.embedding.axes(), len as usize);
-        let mut fill = |block: &mut [u8]| build::fill(source, &layout, (first, len), block);
+        let layout = Layout::new(source.embedding.axes(), ids.len());
+        let mut fill = |block: &mut [u8]| build::fill(source, &layout, ids.clone(), block);
         let block = keep(layout.bytes, &mut fill);
         Tree { head: Head::read(&block), layout, block }
     }
 
-    /// The tree over the `len` configurations from id `first` on, built earlier, if `find` has its block. `find` is
+    /// The tree over the configurations of these ids, built earlier, if `find` has its block. `find` is
     /// given the block's length in bytes.
     pub(super) fn found(
         embedding: &Embedding,
-        (first, len): (u32, u32),
+        ids: Range<u32>,
         find: impl FnOnce(usize) -> Option<Block>,
     ) -> Option<Tree> {
         let axes = embedding.axes();
-        let layout = Layout::new(axes, len as usize);
+        let layout = Layout::new(axes, ids.len());
         let block = find(layout.bytes)?;
         let head = Head::read(&block);
-        let as_expected = (head.first, head.len, head.axes) == (first, len, axes as u32);
+        let as_expected =
+            head.first == ids.start && head.len as usize == ids.len() && head.axes == axes as u32;
         as_expected.then_some(Tree { head, layout, block })
     }
 

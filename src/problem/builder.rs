@@ -63,7 +63,7 @@ impl Problem {
         let builder = match self.adaptive {
             Some(adaptive) => builder.adaptive(adaptive),
             None => builder.schedule(
-                self.schedule.iter().map(|index| self.strategies[*index as usize].label.clone()),
+                self.schedule.iter().map(|index| self.strategies[index.index()].label.clone()),
             ),
         };
         let builder = match &self.query {

@@ -6,6 +6,7 @@ use crate::connect::WithinKind;
 use crate::evaluate::{self, EvaluatorKind};
 use crate::generator::{GeneratorKind, Sample};
 use crate::methods::{BRACKETS_MAX, too_deep};
+use crate::numbers::StrategyIndex;
 use crate::sampler::SamplerKind;
 use crate::schedule::Adaptive;
 use crate::source::ProblemError;
@@ -20,10 +21,14 @@ const SETS_PER_ROUND_MAX: u64 = 1_000_000;
 const DEFAULT_SETS_PER_ROUND: u64 = 5;
 const DEFAULT_NODES_MAX: u64 = 100_000;
 
-pub(super) fn strategies_of(
-    source: &Source,
-    file: &File,
-) -> Result<(Vec<Strategy>, Vec<u32>, u32), ProblemError> {
+/// Which sets are made, in which order: what [`Problem`](super::Problem) says of it.
+pub(super) struct Sets {
+    pub strategies: Vec<Strategy>,
+    pub schedule: Vec<StrategyIndex>,
+    pub sets_per_round: u32,
+}
+
+pub(super) fn sets_of(source: &Source, file: &File) -> Result<Sets, ProblemError> {
     let default = [StrategySpec::uniform()];
     let specs = if file.strategies.is_empty() { &default[..] } else { &file.strategies };
     let mut strategies: Vec<Strategy> = Vec::new();
@@ -66,8 +71,8 @@ pub(super) fn strategies_of(
         };
         let among = ("among", spec.among.method().complaint());
         for (role, complaint) in complaints.into_iter().chain([among]) {
-            if let Some((key, found, expected)) = complaint {
-                return fail(&[role], format!("{key} = {found} found; {expected} expected"));
+            if let Some(complaint) = complaint {
+                return fail(&[role], complaint.to_string());
             }
         }
         strategies.push(Strategy {
@@ -80,7 +85,9 @@ pub(super) fn strategies_of(
 
     let place = [Key("img"), Key("schedule")];
     let schedule = match &file.img.schedule {
-        None | Some(ScheduleTable::Policy(_)) => (0..strategies.len() as u32).collect(),
+        None | Some(ScheduleTable::Policy(_)) => {
+            (0..strategies.len() as u32).map(StrategyIndex).collect()
+        }
         Some(ScheduleTable::Labels(labels)) => {
             let mut schedule = Vec::new();
             for label in labels {
@@ -91,7 +98,7 @@ pub(super) fn strategies_of(
                         format!("`{label}` found; labels of strategies expected: {known}");
                     return Err(source.error(&place, message));
                 };
-                schedule.push(index as u32);
+                schedule.push(StrategyIndex(index as u32));
             }
             schedule
         }
@@ -99,8 +106,9 @@ pub(super) fn strategies_of(
     if schedule.is_empty() {
         return Err(source.error(&place, "[] found; at least one label expected".to_owned()));
     }
-    if let Some(idle) = (0..strategies.len()).find(|i| !schedule.contains(&(*i as u32))) {
-        let label = &strategies[idle].label;
+    let indices = (0..strategies.len() as u32).map(StrategyIndex);
+    if let Some(idle) = indices.into_iter().find(|index| !schedule.contains(index)) {
+        let label = &strategies[idle.index()].label;
         return Err(source.error(&place, format!("the strategy `{label}` has no place in it")));
     }
     let sets = file.img.sets_per_round.unwrap_or(DEFAULT_SETS_PER_ROUND);
@@ -108,7 +116,7 @@ pub(super) fn strategies_of(
         let message = format!("{sets} found; 1 to {SETS_PER_ROUND_MAX} expected");
         return Err(source.error(&[Key("img"), Key("sets_per_round")], message));
     }
-    Ok((strategies, schedule, sets as u32))
+    Ok(Sets { strategies, schedule, sets_per_round: sets as u32 })
 }
 
 /// How the schedule adapts, if it does.
@@ -123,8 +131,8 @@ pub(super) fn adaptive_of(source: &Source, file: &File) -> Result<Option<Adaptiv
     }
 }
 
-/// What a problem that says nothing of it is built with: strategies, schedule, sets per round.
-pub(super) fn defaults() -> (Vec<Strategy>, Vec<u32>, u32) {
+/// The sets of a problem that says nothing of them.
+pub(super) fn default_sets() -> Sets {
     let spec = StrategySpec::uniform();
     let sample = Sample { sampler: SamplerKind::default(), within: WithinKind::default() };
     let strategy = Strategy {
@@ -133,7 +141,11 @@ pub(super) fn defaults() -> (Vec<Strategy>, Vec<u32>, u32) {
         generator: GeneratorKind::Sample(sample),
         among: spec.among,
     };
-    (vec![strategy], vec![0], DEFAULT_SETS_PER_ROUND as u32)
+    Sets {
+        strategies: vec![strategy],
+        schedule: vec![StrategyIndex(0)],
+        sets_per_round: DEFAULT_SETS_PER_ROUND as u32,
+    }
 }
 
 /// The limits of a problem that has none.
@@ -189,9 +201,8 @@ pub(super) fn evaluators_of(
     for (index, evaluator) in evaluators.iter().enumerate() {
         let place = [Key("evaluators"), Index(index)];
         let method = evaluator.method();
-        if let Some((key, found, expected)) = method.complaint() {
-            let message = format!("{key} = {found} found; {expected} expected");
-            return Err(source.error(&place, message));
+        if let Some(complaint) = method.complaint() {
+            return Err(source.error(&place, complaint.to_string()));
         }
         if method.needs_query() && file.query.is_none() {
             let message = format!("the {} evaluator needs a [query] table", method.name());

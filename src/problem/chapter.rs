@@ -2,6 +2,7 @@
 //! strategies. What is there already stays what it was.
 
 use super::Problem;
+use crate::numbers::StrategyIndex;
 use crate::schedule::Adaptive;
 use bincode::{Decode, Encode};
 
@@ -11,7 +12,7 @@ pub struct Earlier {
     /// How many rounds.
     pub rounds: u64,
     /// As [`Problem::schedule`].
-    pub schedule: Vec<u32>,
+    pub schedule: Vec<StrategyIndex>,
     /// As [`Problem::adaptive`].
     pub adaptive: Option<Adaptive>,
     /// As [`Problem::sets_per_round`].
@@ -42,13 +43,13 @@ impl Problem {
                     strategy.label
                 ));
             }
-            index.push(known.unwrap_or(strategies.len()) as u32);
+            index.push(StrategyIndex(known.unwrap_or(strategies.len()) as u32));
             if known.is_none() {
                 strategies.push(strategy.clone());
             }
         }
-        let schedule: Vec<u32> =
-            changed.schedule.iter().map(|strategy| index[*strategy as usize]).collect();
+        let schedule: Vec<StrategyIndex> =
+            changed.schedule.iter().map(|strategy| index[strategy.index()]).collect();
         let mut earlier = self.earlier.clone();
         let present = (&self.schedule, self.adaptive, self.sets_per_round);
         if (&schedule, changed.adaptive, changed.sets_per_round) != present {
@@ -105,22 +106,22 @@ impl Problem {
         Some(format!("{what} is not what it was{file}"))
     }
 
-    /// Whether places, rounds, strategies and the roadmaps they read fit together, as they do in every problem that was read
+    /// Whether sets, rounds, strategies and the roadmaps they read fit together, as they do in every problem that was read
     /// from a file: what decoded bytes must show.
     pub fn schedule_is_sound(&self) -> bool {
-        let fits = |schedule: &[u32], sets_per_round: u32| {
-            let known = |strategy: &u32| (*strategy as usize) < self.strategies.len();
+        let fits = |schedule: &[StrategyIndex], sets_per_round: u32| {
+            let known = |strategy: &StrategyIndex| strategy.index() < self.strategies.len();
             !schedule.is_empty() && sets_per_round > 0 && schedule.iter().all(known)
         };
-        let places = self.earlier.iter().try_fold(0u64, |places, earlier| {
+        let sets = self.earlier.iter().try_fold(0u64, |sets, earlier| {
             let own = earlier.rounds.checked_mul(u64::from(earlier.sets_per_round))?;
-            places.checked_add(own).filter(|places| *places < COUNT_MAX)
+            sets.checked_add(own).filter(|sets| *sets < COUNT_MAX)
         });
         let dofs = self.space().len();
         let parents = self.strategies.iter().filter_map(|known| known.generator.method().parent());
         fits(&self.schedule, self.sets_per_round)
             && parents.into_iter().all(|parent| parent.roadmap().dofs() == dofs)
-            && places.is_some()
+            && sets.is_some()
             && self.earlier.iter().all(|e| e.rounds > 0 && fits(&e.schedule, e.sets_per_round))
     }
 }

@@ -30,7 +30,7 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     let labels: Vec<_> = problem
         .schedule
         .iter()
-        .map(|index| problem.strategies[*index as usize].label.as_str())
+        .map(|index| problem.strategies[index.index()].label.as_str())
         .collect();
     writeln!(
         out,

@@ -1,6 +1,7 @@
 //! Problems that files of other programs describe, with the defaults that a problem file would have.
 
-use super::{DEFAULT_SEED, Problem, building};
+use super::building::{self, Sets};
+use super::{DEFAULT_SEED, Problem};
 use crate::context::Ends;
 use crate::evaluate::{EvaluatorKind, Query};
 use crate::model::Imported;
@@ -10,7 +11,7 @@ use std::path::Path;
 /// The problem of what was read from the file `path`.
 pub(super) fn problem_of(path: &Path, imported: Imported) -> Result<Problem, ProblemError> {
     let Imported { name, model, query, notes, sources } = imported;
-    let (strategies, schedule, sets_per_round) = building::defaults();
+    let Sets { strategies, schedule, sets_per_round } = building::default_sets();
     let mut problem = Problem {
         name,
         seed: DEFAULT_SEED,

@@ -14,6 +14,7 @@ use crate::evaluate::EvaluatorKind;
 use crate::generator::{GeneratorKind, Sample};
 use crate::model::ModelKind;
 use crate::model::bodies::Bodies;
+use crate::numbers::StrategyIndex;
 use crate::sampler::SamplerKind;
 use crate::schedule::Adaptive;
 use crate::strategy::Strategy;
@@ -74,7 +75,7 @@ struct SecondProblem {
 struct Rest<S> {
     query: Option<Ends>,
     strategies: Vec<S>,
-    schedule: Vec<u32>,
+    schedule: Vec<StrategyIndex>,
     adaptive: Option<Adaptive>,
     sets_per_round: u32,
     evaluators: Vec<EvaluatorKind>,

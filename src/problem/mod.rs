@@ -29,6 +29,7 @@ use crate::digest::{Digest, SourceFile};
 use crate::evaluate::EvaluatorKind;
 use crate::generator::{NoRuns, Runs};
 use crate::model::{self, ModelKind, SceneOptions};
+use crate::numbers::StrategyIndex;
 use crate::query::Attachment;
 use crate::scene::is_mesh_file;
 use crate::schedule::Adaptive;
@@ -55,8 +56,8 @@ pub struct Problem {
     pub(crate) query: Option<Ends>,
     /// The strategies.
     pub(crate) strategies: Vec<Strategy>,
-    /// Indices of strategies; set by set, over and over.
-    pub(crate) schedule: Vec<u32>,
+    /// Which strategy makes the next set; set by set, over and over.
+    pub(crate) schedule: Vec<StrategyIndex>,
     /// Where the schedule adapts: how sets are given out among those of `schedule`.
     pub(crate) adaptive: Option<Adaptive>,
     /// Sets per round (TR05-007: *k*).
@@ -153,8 +154,8 @@ impl Problem {
         &self.strategies
     }
 
-    /// Indices of strategies; set by set, over and over.
-    pub fn schedule(&self) -> &[u32] {
+    /// Which strategy makes the next set; set by set, over and over.
+    pub fn schedule(&self) -> &[StrategyIndex] {
         &self.schedule
     }
 

@@ -1,6 +1,6 @@
 //! From what a problem asks for to a checked problem.
 
-use super::building::{adaptive_of, evaluators_of, limits_of, strategies_of};
+use super::building::{Sets, adaptive_of, evaluators_of, limits_of, sets_of};
 use super::file::{File, KEYS};
 use super::{DEFAULT_SEED, Problem};
 use crate::context::Ends;
@@ -35,7 +35,7 @@ pub(super) fn resolve(
 
     let name = name_of(&source, file)?;
     let model = ModelKind::resolve(model, &source, &mut notes)?;
-    let (mut strategies, schedule, sets_per_round) = strategies_of(&source, file)?;
+    let Sets { mut strategies, schedule, sets_per_round } = sets_of(&source, file)?;
     take_in_parents(&source, runs, &model.description().space(), &mut strategies)?;
     let adaptive = adaptive_of(&source, file)?;
     let limits = limits_of(&source, file)?;

@@ -1,6 +1,7 @@
 use super::*;
 use crate::model::bodies::Bodies;
 use crate::model::bodies::validity::MotionChecking;
+use crate::numbers::StrategyIndex;
 
 const WALLS: &str = include_str!("../../problems/walls.toml");
 
@@ -12,7 +13,7 @@ fn parse(text: &str) -> Result<Problem, String> {
 fn every_choice_is_noted_and_every_default_is_the_papers() {
     let problem = parse(WALLS).unwrap();
     assert_eq!((problem.name.as_str(), problem.seed), ("walls", DEFAULT_SEED));
-    assert_eq!((problem.sets_per_round, problem.schedule.as_slice()), (5, &[0][..]));
+    assert_eq!((problem.sets_per_round, problem.schedule.as_slice()), (5, &[StrategyIndex(0)][..]));
     assert_eq!(problem.strategies[0].nodes, 50);
     let described = problem.describe();
     for expected in

@@ -53,7 +53,7 @@ fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
     if let Some(query) = &problem.query {
         writeln!(out, "\n[query]\nstart = {:?}\ngoal = {:?}", query.start, query.goal)?;
     }
-    let labels = problem.schedule.iter().map(|index| &problem.strategies[*index as usize].label);
+    let labels = problem.schedule.iter().map(|index| &problem.strategies[index.index()].label);
     let labels: Vec<&String> = labels.collect();
     writeln!(out, "\n[img]\nsets_per_round = {}", problem.sets_per_round)?;
     match &problem.adaptive {

@@ -5,6 +5,7 @@ use crate::context::Context;
 use crate::local;
 use crate::model::Scratch;
 use crate::neighbor::{Best, Neighbor};
+use crate::numbers::NodeId;
 use crate::roadmap::{Edge, Roadmap};
 use std::collections::BTreeSet;
 
@@ -14,12 +15,12 @@ pub(crate) fn attach(
     cx: &Context,
     roadmap: &Roadmap,
     q: &[f64],
-    id: u32,
+    id: NodeId,
     attachment: &Attachment,
     scratch: &mut Scratch,
 ) -> Vec<Edge> {
     let near = roadmap.k_nearest(&cx.space, q, attachment.neighbors as usize);
-    to_nodes(cx, roadmap, (q, id), near.iter().map(|near| near.id), attachment, scratch)
+    to_nodes(cx, roadmap, q, id, near.iter().map(|near| NodeId(near.id)), attachment, scratch)
 }
 
 /// The same, to all nodes that were among the nearest at the end of some round, in the order of their ids. What is
@@ -28,7 +29,7 @@ pub(crate) fn attach_for_good(
     cx: &Context,
     roadmap: &Roadmap,
     q: &[f64],
-    id: u32,
+    id: NodeId,
     attachment: &Attachment,
     scratch: &mut Scratch,
 ) -> Vec<Edge> {
@@ -44,21 +45,22 @@ pub(crate) fn attach_for_good(
         next = extent.nodes;
         near.extend(best.clone().into_items().into_iter().map(|near| near.id));
     }
-    to_nodes(cx, roadmap, (q, id), near.into_iter(), attachment, scratch)
+    to_nodes(cx, roadmap, q, id, near.into_iter().map(NodeId), attachment, scratch)
 }
 
 fn to_nodes(
     cx: &Context,
     roadmap: &Roadmap,
-    (q, id): (&[f64], u32),
-    nodes: impl Iterator<Item = u32>,
+    q: &[f64],
+    id: NodeId,
+    nodes: impl Iterator<Item = NodeId>,
     attachment: &Attachment,
     scratch: &mut Scratch,
 ) -> Vec<Edge> {
     let configs = roadmap.configs();
     let mut edges = Vec::new();
     for low in nodes {
-        let ends = (configs.get(low as usize), q);
+        let ends = (configs.get(low.index()), q);
         let joined = local::connect(cx, &attachment.planners, ends, 1, scratch);
         let high = id;
         edges.extend(joined.map(|(planner, cost)| Edge {

@@ -25,6 +25,7 @@ use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::Scratch;
+use crate::numbers::NodeId;
 use crate::roadmap::{Edge, Graph, Roadmap, Route};
 use bincode::{Decode, Encode};
 use std::collections::BTreeSet;
@@ -52,7 +53,7 @@ impl Attachment {
     /// What is wrong with it.
     pub fn complaint(&self) -> Option<Complaint> {
         if self.neighbors == 0 {
-            return Some(("neighbors", "0".to_owned(), "at least 1"));
+            return Some(Complaint::new("neighbors", "0", "at least 1"));
         }
         local::complaint(&self.planners)
     }
@@ -81,11 +82,11 @@ pub fn solve(
     attachment: &Attachment,
     scratch: &mut Scratch,
 ) -> Answer {
-    let nodes = roadmap.configs().len() as u32;
-    let from_start = attach(cx, roadmap, start, nodes, attachment, scratch);
-    let from_goal = attach(cx, roadmap, goal, nodes + 1, attachment, scratch);
+    let [from, to] = end_ids(roadmap);
+    let from_start = attach(cx, roadmap, start, from, attachment, scratch);
+    let from_goal = attach(cx, roadmap, goal, to, attachment, scratch);
     let search = Search { cx, roadmap, ends: [start, goal], attached: [from_start, from_goal] };
-    let shortest = |graph: &Graph, failed: &BTreeSet<u32>| graph.shortest(nodes, nodes + 1, failed);
+    let shortest = |graph: &Graph, failed: &BTreeSet<u32>| graph.shortest(from, to, failed);
     search.answer(shortest, scratch)
 }
 
@@ -129,19 +130,25 @@ pub fn lowest_barrier(
     attachment: &Attachment,
     scratch: &mut Scratch,
 ) -> (f64, Answer) {
-    let nodes = roadmap.configs().len() as u32;
-    let from_start = attach_for_good(cx, roadmap, start, nodes, attachment, scratch);
-    let from_goal = attach_for_good(cx, roadmap, goal, nodes + 1, attachment, scratch);
+    let [from, to] = end_ids(roadmap);
+    let from_start = attach_for_good(cx, roadmap, start, from, attachment, scratch);
+    let from_goal = attach_for_good(cx, roadmap, goal, to, attachment, scratch);
     let energy = cx.model.energy(start, scratch).unwrap_or(f64::NEG_INFINITY);
     let search = Search { cx, roadmap, ends: [start, goal], attached: [from_start, from_goal] };
     let mut barrier = f64::INFINITY;
     let lowest = |graph: &Graph, failed: &BTreeSet<u32>| {
-        let (found, route) = graph.lowest_barrier(nodes, nodes + 1, energy, failed)?;
+        let (found, route) = graph.lowest_barrier(from, to, energy, failed)?;
         barrier = found;
         Some(route)
     };
     let answer = search.answer(lowest, scratch);
     (if answer.path.is_some() { barrier } else { f64::INFINITY }, answer)
+}
+
+/// The ids that start and goal have beside a roadmap's nodes while a path is looked for: those that follow.
+fn end_ids(roadmap: &Roadmap) -> [NodeId; 2] {
+    let next = NodeId(roadmap.configs().len() as u32);
+    [next, next.next()]
 }
 
 /// A question to a roadmap: its ends, and the edges that attach them.
@@ -161,8 +168,7 @@ impl Search<'_> {
         scratch: &mut Scratch,
     ) -> Answer {
         let Search { cx, roadmap, ends: [start, goal], attached: [from_start, from_goal] } = self;
-        let nodes = roadmap.configs().len() as u32;
-        let reached = |edges: &[Edge]| -> BTreeSet<u32> {
+        let reached = |edges: &[Edge]| -> BTreeSet<NodeId> {
             edges.iter().map(|edge| roadmap.components().of_node(edge.low).name).collect()
         };
         let mut answer = Answer {
@@ -178,12 +184,13 @@ impl Search<'_> {
         let mut edges: Vec<Edge> = roadmap.edges().iter().collect();
         edges.extend(from_start);
         edges.extend(from_goal);
-        let config = |node: u32| match node.checked_sub(nodes) {
-            None => roadmap.configs().get(node as usize),
-            Some(0) => start,
-            Some(_) => goal,
+        let [from, to] = end_ids(roadmap);
+        let config = |node: NodeId| match node {
+            node if node == from => start,
+            node if node == to => goal,
+            node => roadmap.configs().get(node.index()),
         };
-        let graph = Graph::new(nodes as usize + 2, &edges);
+        let graph = Graph::new(to.index() + 1, &edges);
         let (mut passed, mut failed) = (BTreeSet::new(), BTreeSet::new());
         while let Some(route) = find(&graph, &failed) {
             let blocked = route.edges.iter().find(|index| {

@@ -1,5 +1,6 @@
 use crate::context::Context;
 use crate::local::Planner;
+use crate::numbers::NodeId;
 use crate::roadmap::{Configs, Edge, Route};
 use crate::space::Space;
 use bincode::{Decode, Encode};
@@ -20,7 +21,7 @@ impl Path {
         cx: &Context,
         route: &Route,
         edges: &[Edge],
-        config: impl Fn(u32) -> &'a [f64],
+        config: impl Fn(NodeId) -> &'a [f64],
     ) -> Path {
         let mut configs = Configs::new(cx.space.len());
         configs.push(config(route.nodes[0]));
@@ -60,7 +61,7 @@ impl Path {
         let mut q = vec![0.0; space.len()];
         for i in 0..count {
             let at = whole * (i as f64 / (count - 1) as f64);
-            let (leg, t) = leg(&lengths, at);
+            let OnPath { leg, t } = on_path(&lengths, at);
             space.interpolate(self.configs.get(leg), self.configs.get(leg + 1), t, &mut q);
             sampled.push(&q);
         }
@@ -78,11 +79,19 @@ impl<'a> IntoIterator for &'a Path {
     }
 }
 
-/// The leg of a path that holds the place `at`, a length from its start, and how far along it that
-/// is, as a fraction.
-pub(super) fn leg(lengths: &[f64], at: f64) -> (usize, f64) {
+/// A point on a path.
+#[derive(Clone, Copy)]
+pub(super) struct OnPath {
+    /// The leg that holds it: the motion from this configuration of the path to the next.
+    pub leg: usize,
+    /// How far along the leg it is, as a fraction.
+    pub t: f64,
+}
+
+/// The point at `at`, a length from the path's start. `lengths` are those of [`Path::lengths`].
+pub(super) fn on_path(lengths: &[f64], at: f64) -> OnPath {
     let after = lengths.partition_point(|length| *length <= at).clamp(1, lengths.len() - 1);
     let (from, to) = (lengths[after - 1], lengths[after]);
     let t = if to > from { ((at - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
-    (after - 1, t)
+    OnPath { leg: after - 1, t }
 }

@@ -1,5 +1,5 @@
 use super::PATH_REFINEMENT;
-use super::path::{Path, leg};
+use super::path::{OnPath, Path, on_path};
 use crate::context::Context;
 use crate::model::{Cost, Scratch};
 use crate::roadmap::Configs;
@@ -40,12 +40,12 @@ pub fn shorten(cx: &Context, path: &Path, tries: u32, scratch: &mut Scratch) -> 
 fn shortcut(cx: &Context, path: &Path, from: f64, to: f64, scratch: &mut Scratch) -> Option<Path> {
     let lengths = path.lengths(&cx.space);
     let whole = lengths[lengths.len() - 1];
-    let (first, last) = (leg(&lengths, from * whole), leg(&lengths, to * whole));
+    let (first, last) = (on_path(&lengths, from * whole), on_path(&lengths, to * whole));
     // Between two places of one leg the path is straight already.
-    if first.0 == last.0 {
+    if first.leg == last.leg {
         return None;
     }
-    let place = |(leg, t): (usize, f64)| {
+    let place = |OnPath { leg, t }| {
         let mut q = vec![0.0; cx.space.len()];
         cx.space.interpolate(path.configs.get(leg), path.configs.get(leg + 1), t, &mut q);
         cx.space.canonicalize(&mut q).ok().map(|()| q)
@@ -59,15 +59,15 @@ fn shortcut(cx: &Context, path: &Path, from: f64, to: f64, scratch: &mut Scratch
             configs.push(q);
         }
     };
-    (0..=first.0).for_each(|i| push(path.configs.get(i)));
+    (0..=first.leg).for_each(|i| push(path.configs.get(i)));
     push(&a);
     push(&b);
-    (last.0 + 1..path.configs.len()).for_each(|i| push(path.configs.get(i)));
+    (last.leg + 1..path.configs.len()).for_each(|i| push(path.configs.get(i)));
     let mut shorter = Path { configs, length: 0.0 };
-    let ends = (path.configs.get(first.0), path.configs.get(last.0 + 1));
+    let ends = (path.configs.get(first.leg), path.configs.get(last.leg + 1));
     if cx.model.energy(&a, scratch).is_some() {
         let valid = cx.model.is_valid(&a, scratch) && cx.model.is_valid(&b, scratch);
-        let replaced = (first.0..=last.0 + 1).map(|i| path.configs.get(i));
+        let replaced = (first.leg..=last.leg + 1).map(|i| path.configs.get(i));
         let (before, highest) = climb(cx, replaced, scratch)?;
         let (after, reached) = climb(cx, [ends.0, &a, &b, ends.1].into_iter(), scratch)?;
         if !(valid && after < before && reached <= highest) {

@@ -101,12 +101,13 @@ fn principal(upper: &[f64], count: f64) -> Option<[f64; 4]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numbers::Ordinal;
     use crate::seed::{Purpose, Seed};
     use crate::space::{BaseJoint, rigid_space};
 
     #[test]
     fn the_centre_of_one_configuration_is_itself_and_of_two_their_middle() {
-        let mut stream = Seed::of_set(1, "centre", 0).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(1, "centre", Ordinal(0)).stream(Purpose::Sampling);
         for motion in [BaseJoint::Translation3d, BaseJoint::Rigid2d, BaseJoint::Rigid3d] {
             let space = rigid_space(motion, [-1.0; 3], [1.0; 3], 0.5);
             let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);

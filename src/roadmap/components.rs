@@ -2,6 +2,7 @@ use super::Configs;
 use super::centre::CentreSum;
 use super::component::Component;
 use super::indices::Indices;
+use crate::numbers::NodeId;
 use crate::shelf::Shelf;
 use crate::space::Space;
 use std::sync::Arc;
@@ -45,7 +46,7 @@ impl Components {
         let mut components = Components::default();
         for (node, q) in nodes.enumerate() {
             let slot = components.put(Component {
-                name: node as u32,
+                name: NodeId(node as u32),
                 members: vec![node as u32],
                 centre: Vec::new(),
                 sum: CentreSum::of(space, q),
@@ -70,18 +71,18 @@ impl Components {
     }
 
     /// The component of a node.
-    pub fn of_node(&self, node: u32) -> &Component {
-        self.slots[self.slot_of[node as usize] as usize].as_ref().expect("labels are current")
+    pub fn of_node(&self, node: NodeId) -> &Component {
+        self.slots[self.slot_of[node.index()] as usize].as_ref().expect("labels are current")
     }
 
     /// Whether two nodes are connected.
-    pub fn same(&self, a: u32, b: u32) -> bool {
-        self.slot_of[a as usize] == self.slot_of[b as usize]
+    pub fn same(&self, a: NodeId, b: NodeId) -> bool {
+        self.slot_of[a.index()] == self.slot_of[b.index()]
     }
 
     /// Whether a node, which need not be one of the graph, is in a component.
-    pub fn contains(&self, component: &Component, node: u32) -> bool {
-        (node as usize) < self.slot_of.len() && self.of_node(node).name == component.name
+    pub fn contains(&self, component: &Component, node: NodeId) -> bool {
+        node.index() < self.slot_of.len() && self.of_node(node).name == component.name
     }
 
     /// All components, in an order that depends on nothing but the graph's history.
@@ -90,8 +91,8 @@ impl Components {
     }
 
     /// The slot of a node's component; valid until the graph next changes.
-    pub(super) fn slot_of(&self, node: u32) -> u32 {
-        self.slot_of[node as usize]
+    pub(super) fn slot_of(&self, node: NodeId) -> u32 {
+        self.slot_of[node.index()]
     }
 
     /// The components by slot.
@@ -105,7 +106,7 @@ impl Components {
         let mut slot_of = Vec::with_capacity(other.slots.len());
         for component in other.slots {
             slot_of.push(component.map_or(u32::MAX, |mut component| {
-                component.name += first;
+                component.name = component.name + first;
                 component.members.iter_mut().for_each(|node| *node += first);
                 self.put(component)
             }));
@@ -129,7 +130,7 @@ impl Components {
     }
 
     /// Unites the components of two nodes.
-    pub(super) fn unite(&mut self, a: u32, b: u32) {
+    pub(super) fn unite(&mut self, a: NodeId, b: NodeId) {
         let (a, b) = (self.slot_of(a), self.slot_of(b));
         if a == b {
             return;
@@ -159,7 +160,7 @@ impl Components {
             if let Some(component) = &mut self.slots[*slot as usize]
                 && component.centre.is_empty()
             {
-                let fallback = configs.get(component.name as usize);
+                let fallback = configs.get(component.name.index());
                 component.centre = component.sum.centre(space, fallback);
             }
         }
@@ -187,21 +188,21 @@ mod tests {
             let edges: Vec<Edge> = edges
                 .into_iter()
                 .filter(|(a, b)| a < b)
-                .map(|(low, high)| Edge::metric(low, high, 0, 1.0))
+                .map(|(low, high)| Edge::metric(NodeId(low), NodeId(high), 0, 1.0))
                 .collect();
             let components = Components::of(&space, &configs, &edges);
 
             let mut label: Vec<u32> = (0..30).collect();
             for _ in 0..30 {
                 for edge in &edges {
-                    let least = label[edge.low as usize].min(label[edge.high as usize]);
-                    label[edge.low as usize] = least;
-                    label[edge.high as usize] = least;
+                    let least = label[edge.low.index()].min(label[edge.high.index()]);
+                    label[edge.low.index()] = least;
+                    label[edge.high.index()] = least;
                 }
             }
             for node in 0..30u32 {
-                let component = components.of_node(node);
-                prop_assert_eq!(component.name, label[node as usize]);
+                let component = components.of_node(NodeId(node));
+                prop_assert_eq!(component.name.0, label[node as usize]);
                 prop_assert!(component.members.contains(&node));
                 let mean = component.members.iter().map(|m| f64::from(*m)).sum::<f64>()
                     / component.members.len() as f64;

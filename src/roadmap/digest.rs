@@ -60,8 +60,8 @@ impl RoadmapHasher {
 }
 
 fn push_edge(bytes: &mut Vec<u8>, edge: &Edge) {
-    bytes.extend(edge.low.to_le_bytes());
-    bytes.extend(edge.high.to_le_bytes());
+    bytes.extend(edge.low.0.to_le_bytes());
+    bytes.extend(edge.high.0.to_le_bytes());
     bytes.push(edge.planner);
     bytes.extend((edge.weight() + 0.0).to_bits().to_le_bytes());
 }

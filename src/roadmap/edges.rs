@@ -1,5 +1,6 @@
 use super::{Edge, EdgeCost};
 use crate::model::Directed;
+use crate::numbers::NodeId;
 use crate::shelf::{self, Block, BlockName, Shelf};
 use bytemuck::{cast_slice, cast_slice_mut};
 
@@ -70,8 +71,8 @@ impl Edges {
                 self.is_directed = edge.cost.directed().is_some();
             }
             let Rest { weights, back, peaks, low, high, planners } = &mut self.rest;
-            low.push(edge.low);
-            high.push(edge.high);
+            low.push(edge.low.0);
+            high.push(edge.high.0);
             planners.push(edge.planner);
             weights.push(edge.cost.forward());
             if self.is_directed {
@@ -149,7 +150,7 @@ impl Columns<'_> {
     }
 
     fn edge(&self, index: usize) -> Edge {
-        let [low, high] = self.ids.map(|ids| ids[index]);
+        let [low, high] = self.ids.map(|ids| NodeId(ids[index]));
         let forward = self.weights[index];
         let cost = match self.directed {
             None => EdgeCost::Metric(forward),

@@ -6,7 +6,8 @@
 use super::component::Component;
 use super::components::Components;
 use super::indices::{Centres, NO_ENTRY, TAIL, read};
-use crate::neighbor::{self, Best, Index, NearPair, Neighbor, Searched};
+use crate::neighbor::{self, Best, Index, NearPair, Neighbor, Searched, Subset};
+use crate::numbers::NodeId;
 use crate::space::{Configs, Space};
 use std::sync::RwLockReadGuard;
 use std::sync::atomic::Ordering;
@@ -20,7 +21,7 @@ const FEW_MEMBERS: usize = 256;
 const FEW_COMPONENTS: usize = 64;
 
 /// Searches of nodes and components. Distances are those of [`Space::distance`], `configs` are those of the graph's
-/// nodes, queries are in stored form.
+/// nodes, queries are in stored form. The ids of what is found are the integers in those of the nodes.
 impl Components {
     /// The at most `k` of the graph's nodes nearest to `q`, nearest first, ties by id.
     pub fn k_nearest(
@@ -57,20 +58,22 @@ impl Components {
         index.in_radius(space, &All(configs), self.nodes(), q, radius, most)
     }
 
-    /// The at most `count` closest pairs of a configuration of `first`, given with the ids that take part, and a node
-    /// of `component`. Closest first, ties by the first id, then by the second.
+    /// The at most `count` closest pairs of a configuration of `first` and a node of `component`. Closest first, ties by
+    /// the first id, then by the second.
     pub fn closest_pairs(
         &self,
         space: &Space,
-        first: (&Configs, &[u32]),
-        (configs, component): (&Configs, &Component),
+        first: Subset,
+        configs: &Configs,
+        component: &Component,
         count: usize,
     ) -> Vec<NearPair> {
-        let brute = || neighbor::closest_pairs(space, first, (configs, &component.members), count);
+        let members = Subset { all: configs, ids: &component.members };
+        let brute = || neighbor::closest_pairs(space, first, members, count);
         if component.members.len() <= FEW_MEMBERS {
             return brute();
         }
-        let index = self.index(space, configs, first.1.len() as u32);
+        let index = self.index(space, configs, first.ids.len() as u32);
         let index = index.as_ref().expect("made");
         if component.members.len() <= (self.nodes() - index.len()) as usize {
             return brute();
@@ -80,13 +83,13 @@ impl Components {
     }
 
     /// The at most `count` components whose centres are nearest to `centre`, nearest first, ties by name. The id of
-    /// each is its component's name.
+    /// each is the integer in its component's name.
     pub fn nearest(&self, space: &Space, centre: &[f64], count: usize) -> Vec<Neighbor> {
         let mut best = Best::new(count);
         let mut offer = |component: &Component| {
             let bound = best.bound();
             if let Some(distance) = space.distance_unless_above(centre, &component.centre, bound) {
-                best.offer(Neighbor { distance, id: component.name });
+                best.offer(Neighbor { distance, id: component.name.0 });
             }
         };
         if self.count() <= FEW_COMPONENTS {
@@ -131,7 +134,11 @@ impl Components {
         let mut index = indices.nodes.write().expect("no search panics");
         let made = index.get_or_insert_with(|| Index::with_shelf(space, indices.shelf.clone()));
         if wanted {
-            made.extend(self.nodes(), |node| configs.get(node as usize), |node| self.slot_of(node));
+            made.extend(
+                self.nodes(),
+                |node| configs.get(node as usize),
+                |node| self.slot_of(NodeId(node)),
+            );
             indices.searches.store(0, Ordering::Relaxed);
         }
         drop(index);
@@ -161,7 +168,7 @@ impl Searched for Members<'_> {
     }
 
     fn is_eligible(&self, node: u32) -> bool {
-        self.components.slot_of(node) == self.slot
+        self.components.slot_of(NodeId(node)) == self.slot
     }
 
     fn label_is_eligible(&self, node: u32) -> Option<bool> {
@@ -192,6 +199,6 @@ impl Searched for Entries<'_> {
     }
 
     fn name(&self, entry: u32) -> u32 {
-        self.component(entry).map_or(NO_ENTRY, |component| component.name)
+        self.component(entry).map_or(NO_ENTRY, |component| component.name.0)
     }
 }

@@ -1,3 +1,5 @@
+use crate::numbers::NodeId;
+
 /// Which nodes of a graph are connected, in four bytes per node: a union-find forest (R. E. Tarjan 1975).
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Forest {
@@ -18,11 +20,11 @@ impl Forest {
 
     /// Unites the components of two nodes. Returns the lowest nodes that the two components had, the lower one first;
     /// they are the same if it was one component already.
-    pub fn unite(&mut self, a: u32, b: u32) -> [u32; 2] {
-        let (a, b) = (self.lowest(a), self.lowest(b));
+    pub fn unite(&mut self, a: NodeId, b: NodeId) -> [NodeId; 2] {
+        let (a, b) = (self.lowest(a.0), self.lowest(b.0));
         let (low, high) = (a.min(b), a.max(b));
         self.lower[high as usize] = low;
-        [low, high]
+        [low, high].map(NodeId)
     }
 
     /// The lowest node of a node's component; halves the path to it on the way.

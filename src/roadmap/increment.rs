@@ -1,13 +1,14 @@
 use super::Configs;
 use crate::model::{Asked, Cost, Description, Directed};
+use crate::numbers::NodeId;
 
 /// An edge between two milestones that a local planner found valid from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
-    /// The lower node id.
-    pub low: u32,
-    /// The higher node id.
-    pub high: u32,
+    /// The node with the lower id.
+    pub low: NodeId,
+    /// The node with the higher id.
+    pub high: NodeId,
     /// Tag of the local planner that succeeded.
     pub planner: u8,
     /// What the edge costs.
@@ -67,7 +68,7 @@ impl EdgeCost {
 
 impl Edge {
     /// An edge whose cost is its length.
-    pub fn metric(low: u32, high: u32, planner: u8, length: f64) -> Edge {
+    pub fn metric(low: NodeId, high: NodeId, planner: u8, length: f64) -> Edge {
         Edge { low, high, planner, cost: EdgeCost::Metric(length) }
     }
 
@@ -143,10 +144,11 @@ impl Increment {
     /// the number of nodes at the start of the round.
     pub fn is_sound(&self, form: SetForm, before: u64) -> bool {
         let nodes = self.configs.len() as u64;
-        let of_roots = |edge: &Edge| u64::from(edge.low) < before && u64::from(edge.high) < nodes;
+        let of_roots =
+            |edge: &Edge| u64::from(edge.low.0) < before && u64::from(edge.high.0) < nodes;
         self.configs.is_sound(form.dofs)
             && self.edges.iter().all(|edge| {
-                edge.low < edge.high && u64::from(edge.high) < nodes && form.has_cost(edge)
+                edge.low < edge.high && u64::from(edge.high.0) < nodes && form.has_cost(edge)
             })
             && self.root_edges.iter().all(|edge| of_roots(edge) && form.has_cost(edge))
             && self.values.len() as u64 == nodes * form.values as u64

@@ -27,6 +27,7 @@ pub use search::{Graph, Route};
 pub use tally::{Outline, Tally};
 
 use crate::neighbor::Neighbor;
+use crate::numbers::NodeId;
 use crate::shelf::Shelf;
 use crate::space::Space;
 use std::sync::Arc;
@@ -62,6 +63,16 @@ pub struct Extent {
     pub edges: usize,
 }
 
+/// What a fold takes of a set.
+pub struct SetToFold<'a> {
+    /// What the set adds.
+    pub increment: &'a Increment,
+    /// The connected components of the increment alone.
+    pub components: Components,
+    /// The edges that join the set to what came before it, in the numbering of the result.
+    pub joins: &'a [Edge],
+}
+
 impl Roadmap {
     /// The empty roadmap over a space.
     pub fn new(space: &Space) -> Roadmap {
@@ -95,7 +106,7 @@ impl Roadmap {
     ) {
         let sets = sets.into_iter().map(|(increment, joins)| {
             let components = Components::of(space, &increment.configs, &increment.edges);
-            (increment, components, joins)
+            SetToFold { increment, components, joins }
         });
         self.fold_components(space, sets);
     }
@@ -104,10 +115,10 @@ impl Roadmap {
     pub fn fold_components<'a>(
         &mut self,
         space: &Space,
-        sets: impl IntoIterator<Item = (&'a Increment, Components, &'a [Edge])>,
+        sets: impl IntoIterator<Item = SetToFold<'a>>,
     ) {
         let mut joins = Vec::new();
-        for (increment, components, edges) in sets {
+        for SetToFold { increment, components, joins: edges } in sets {
             let first = self.configs.len() as u32;
             self.tally.add_set(increment, edges);
             self.components.append(components);
@@ -143,7 +154,8 @@ impl Roadmap {
         self.tally.set_components(self.components.count());
     }
 
-    /// The at most `k` milestones nearest to `q`, nearest first, ties by id.
+    /// The at most `k` milestones nearest to `q`, nearest first, ties by id. The ids of what is found are the integers
+    /// in the [`NodeId`]s.
     pub fn k_nearest(&self, space: &Space, q: &[f64], k: usize) -> Vec<Neighbor> {
         self.components.k_nearest(space, &self.configs, q, k)
     }
@@ -159,7 +171,12 @@ impl Roadmap {
         self.components.in_radius(space, &self.configs, q, radius, most)
     }
 
-    /// The milestones.
+    /// The ids of all nodes, in order.
+    pub fn nodes(&self) -> impl Iterator<Item = NodeId> + use<> {
+        NodeId::each(NodeId(0)..NodeId(self.configs.len() as u32))
+    }
+
+    /// The milestones; the one of a node stands at the [index](NodeId::index) of its id.
     pub fn configs(&self) -> &Configs {
         &self.configs
     }
@@ -177,8 +194,8 @@ impl Roadmap {
     }
 
     /// The `count` numbers that the model gives the milestone `node`.
-    pub fn values_of(&self, node: usize, count: usize) -> &[f64] {
-        &self.values[node * count..(node + 1) * count]
+    pub fn values_of(&self, node: NodeId, count: usize) -> &[f64] {
+        &self.values[node.index() * count..(node.index() + 1) * count]
     }
 
     /// The connected components.

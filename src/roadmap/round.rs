@@ -1,5 +1,6 @@
 use super::{Edge, Full, Increment};
 use crate::model::Asked;
+use crate::numbers::{Ordinal, RoundNumber, SetNumber, StrategyIndex};
 use bincode::de::{Decode, Decoder};
 use bincode::enc::{Encode, Encoder};
 use bincode::error::{DecodeError, EncodeError};
@@ -8,9 +9,9 @@ use std::sync::Arc;
 /// A complete round.
 #[derive(Clone, Debug)]
 pub struct Round {
-    /// Its number, from 0.
-    pub index: u64,
-    /// Its sets in the order of their places.
+    /// Which round it is.
+    pub number: RoundNumber,
+    /// Its sets in the order of their numbers.
     pub sets: Vec<RoundSet>,
 }
 
@@ -24,12 +25,12 @@ impl Round {
 /// A set of a complete round.
 #[derive(Clone, Debug)]
 pub struct RoundSet {
-    /// Its place.
-    pub place: u64,
-    /// Index of its strategy.
-    pub strategy: u32,
-    /// Its ordinal within the strategy.
-    pub ordinal: u64,
+    /// Its number in the sequence of all sets.
+    pub number: SetNumber,
+    /// Its strategy.
+    pub strategy: StrategyIndex,
+    /// Its number within the strategy.
+    pub ordinal: Ordinal,
     /// What it adds.
     pub increment: Arc<Increment>,
     /// How it is joined to what came before.

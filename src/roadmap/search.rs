@@ -1,6 +1,7 @@
 //! Shortest routes through a roadmap.
 
 use super::Edge;
+use crate::numbers::NodeId;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
@@ -9,8 +10,8 @@ use std::collections::{BTreeSet, BinaryHeap};
 pub struct Graph {
     /// Per node the index of its first arc, and at the end the number of arcs.
     start: Vec<u32>,
-    /// Node by node, the neighbours and the edges that lead to them.
-    arcs: Vec<(u32, u32)>,
+    /// Node by node, the arcs that lead away from it.
+    arcs: Vec<Arc>,
     /// Per edge its weight.
     weights: Vec<f64>,
     /// Of directed edges: weights from the higher node to the lower, and peaks.
@@ -18,11 +19,30 @@ pub struct Graph {
     peaks: Vec<f64>,
 }
 
+/// An edge in one of its two directions, seen from the node where it begins.
+#[derive(Clone, Copy, Debug, Default)]
+struct Arc {
+    to: NodeId,
+    /// Index of the edge.
+    edge: u32,
+}
+
+/// How a search has reached a node so far.
+#[derive(Clone, Copy)]
+struct Reached {
+    /// What a way there comes to.
+    value: f64,
+    /// The node before it on that way.
+    before: NodeId,
+    /// Index of the edge from there; [`u32::MAX`] at the beginning.
+    edge: u32,
+}
+
 /// A route: nodes and the edges between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
     /// The nodes, from one end to the other.
-    pub nodes: Vec<u32>,
+    pub nodes: Vec<NodeId>,
     /// Index of the edge that leads to each node but the first.
     pub edges: Vec<u32>,
     /// Sum of the edges' weights.
@@ -35,18 +55,18 @@ impl Graph {
     pub fn new(nodes: usize, edges: &[Edge]) -> Graph {
         let mut start = vec![0u32; nodes + 1];
         for edge in edges {
-            start[edge.low as usize + 1] += 1;
-            start[edge.high as usize + 1] += 1;
+            start[edge.low.index() + 1] += 1;
+            start[edge.high.index() + 1] += 1;
         }
         for node in 0..nodes {
             start[node + 1] += start[node];
         }
         let mut next = start.clone();
-        let mut arcs = vec![(0, 0); 2 * edges.len()];
+        let mut arcs = vec![Arc::default(); 2 * edges.len()];
         for (index, edge) in edges.iter().enumerate() {
             for (from, to) in [(edge.low, edge.high), (edge.high, edge.low)] {
-                arcs[next[from as usize] as usize] = (to, index as u32);
-                next[from as usize] += 1;
+                arcs[next[from.index()] as usize] = Arc { to, edge: index as u32 };
+                next[from.index()] += 1;
             }
         }
         let directed = || edges.iter().filter_map(|edge| edge.cost.directed());
@@ -61,8 +81,8 @@ impl Graph {
 
     /// A shortest route from `from` to `to` that avoids the edges in `without`; of several, the
     /// one that Dijkstra's algorithm finds when ties go to the lower node id.
-    pub fn shortest(&self, from: u32, to: u32, without: &BTreeSet<u32>) -> Option<Route> {
-        let through = |length: f64, from: u32, to: u32, edge: u32| {
+    pub fn shortest(&self, from: NodeId, to: NodeId, without: &BTreeSet<u32>) -> Option<Route> {
+        let through = |length: f64, from: NodeId, to: NodeId, edge: u32| {
             (!without.contains(&edge)).then(|| length + self.weight(from, to, edge))
         };
         self.search(from, to, 0.0, through).map(|(_, route)| route)
@@ -73,17 +93,18 @@ impl Graph {
     /// `without` are avoided. `start` is the energy at `from`, which no way is below.
     pub fn lowest_barrier(
         &self,
-        from: u32,
-        to: u32,
+        from: NodeId,
+        to: NodeId,
         start: f64,
         without: &BTreeSet<u32>,
     ) -> Option<(f64, Route)> {
         let peak = |edge: u32| {
             (!without.contains(&edge)).then(|| self.peaks.get(edge as usize).copied()).flatten()
         };
-        let highest = |barrier: f64, _: u32, _: u32, edge: u32| Some(barrier.max(peak(edge)?));
+        let highest =
+            |barrier: f64, _: NodeId, _: NodeId, edge: u32| Some(barrier.max(peak(edge)?));
         let (barrier, _) = self.search(from, to, start, highest)?;
-        let through = |length: f64, from: u32, to: u32, edge: u32| {
+        let through = |length: f64, from: NodeId, to: NodeId, edge: u32| {
             (peak(edge)? <= barrier).then(|| length + self.weight(from, to, edge))
         };
         self.search(from, to, 0.0, through).map(|(_, route)| (barrier, route))
@@ -94,29 +115,32 @@ impl Graph {
     /// taken, and never makes it less.
     fn search(
         &self,
-        from: u32,
-        to: u32,
+        from: NodeId,
+        to: NodeId,
         start: f64,
-        through: impl Fn(f64, u32, u32, u32) -> Option<f64>,
+        through: impl Fn(f64, NodeId, NodeId, u32) -> Option<f64>,
     ) -> Option<(f64, Route)> {
-        let mut best: Vec<Option<(f64, u32, u32)>> = vec![None; self.start.len() - 1];
+        let mut best: Vec<Option<Reached>> = vec![None; self.start.len() - 1];
         let mut is_final = vec![false; best.len()];
         let mut open = BinaryHeap::new();
         open.push(Reverse((in_order(start), from)));
-        best[from as usize] = Some((start, from, u32::MAX));
+        best[from.index()] = Some(Reached { value: start, before: from, edge: u32::MAX });
         while let Some(Reverse((_, node))) = open.pop() {
-            if std::mem::replace(&mut is_final[node as usize], true) {
+            if std::mem::replace(&mut is_final[node.index()], true) {
                 continue;
             }
-            let Some((value, _, _)) = best[node as usize] else { unreachable!("it was opened") };
+            let Some(Reached { value, .. }) = best[node.index()] else {
+                unreachable!("it was opened")
+            };
             if node == to {
                 return Some((value, self.trace(from, to, &best)));
             }
-            let range = self.start[node as usize] as usize..self.start[node as usize + 1] as usize;
-            for (next, edge) in &self.arcs[range] {
+            let range = self.start[node.index()] as usize..self.start[node.index() + 1] as usize;
+            for Arc { to: next, edge } in &self.arcs[range] {
                 let Some(through) = through(value, node, *next, *edge) else { continue };
-                if best[*next as usize].is_none_or(|(known, _, _)| through < known) {
-                    best[*next as usize] = Some((through, node, *edge));
+                let best = &mut best[next.index()];
+                if best.is_none_or(|known| through < known.value) {
+                    *best = Some(Reached { value: through, before: node, edge: *edge });
                     open.push(Reverse((in_order(through), *next)));
                 }
             }
@@ -125,15 +149,17 @@ impl Graph {
     }
 
     /// What an edge costs from one of its ends to the other.
-    fn weight(&self, from: u32, to: u32, edge: u32) -> f64 {
+    fn weight(&self, from: NodeId, to: NodeId, edge: u32) -> f64 {
         let weights = if from < to || self.back.is_empty() { &self.weights } else { &self.back };
         weights[edge as usize]
     }
 
-    fn trace(&self, from: u32, to: u32, best: &[Option<(f64, u32, u32)>]) -> Route {
+    fn trace(&self, from: NodeId, to: NodeId, best: &[Option<Reached>]) -> Route {
         let (mut nodes, mut edges, mut node) = (vec![to], Vec::new(), to);
         while node != from {
-            let Some((_, before, edge)) = best[node as usize] else { unreachable!("settled") };
+            let Some(Reached { before, edge, .. }) = best[node.index()] else {
+                unreachable!("settled")
+            };
             nodes.push(before);
             edges.push(edge);
             node = before;
@@ -159,7 +185,12 @@ mod tests {
     use crate::roadmap::EdgeCost;
 
     fn edge(low: u32, high: u32, weight: f64) -> Edge {
-        Edge::metric(low, high, 0, weight)
+        Edge::metric(NodeId(low), NodeId(high), 0, weight)
+    }
+
+    /// The nodes of a route as bare integers.
+    fn ids(route: &Route) -> Vec<u32> {
+        route.nodes.iter().map(|node| node.0).collect()
     }
 
     #[test]
@@ -169,7 +200,7 @@ mod tests {
         let directed = |low: u32, high: u32, peak: f64| {
             let [forward, backward] = [low, high].map(|node| peak - energies[node as usize]);
             let cost = EdgeCost::Directed(Directed { forward, backward, peak });
-            Edge { low, high, planner: 0, cost }
+            Edge { low: NodeId(low), high: NodeId(high), planner: 0, cost }
         };
         let edges = [
             directed(0, 1, -3.0),
@@ -179,16 +210,17 @@ mod tests {
         ];
         let graph = Graph::new(5, &edges);
         let none = BTreeSet::new();
-        let (barrier, route) = graph.lowest_barrier(0, 3, -5.0, &none).unwrap();
-        assert_eq!((barrier, route.nodes, route.length), (-2.0, vec![0, 2, 3], 3.0 + 2.0));
-        let (barrier, route) = graph.lowest_barrier(3, 0, -8.0, &none).unwrap();
-        assert_eq!((barrier, route.nodes, route.length), (-2.0, vec![3, 2, 0], 6.0 + 2.0));
+        let (barrier, route) = graph.lowest_barrier(NodeId(0), NodeId(3), -5.0, &none).unwrap();
+        assert_eq!((barrier, ids(&route), route.length), (-2.0, vec![0, 2, 3], 3.0 + 2.0));
+        let (barrier, route) = graph.lowest_barrier(NodeId(3), NodeId(0), -8.0, &none).unwrap();
+        assert_eq!((barrier, ids(&route), route.length), (-2.0, vec![3, 2, 0], 6.0 + 2.0));
         // By the sum of the climbs the way over 1 is the shorter one.
-        assert_eq!(graph.shortest(0, 3, &none).unwrap().length, 4.0);
-        let (barrier, route) = graph.lowest_barrier(0, 3, -5.0, &BTreeSet::from([3])).unwrap();
-        assert_eq!((barrier, route.nodes), (-1.0, vec![0, 1, 3]));
-        assert_eq!(graph.lowest_barrier(0, 4, -5.0, &none), None);
-        assert_eq!(graph.lowest_barrier(4, 4, 7.0, &none).unwrap().0, 7.0);
+        assert_eq!(graph.shortest(NodeId(0), NodeId(3), &none).unwrap().length, 4.0);
+        let (barrier, route) =
+            graph.lowest_barrier(NodeId(0), NodeId(3), -5.0, &BTreeSet::from([3])).unwrap();
+        assert_eq!((barrier, ids(&route)), (-1.0, vec![0, 1, 3]));
+        assert_eq!(graph.lowest_barrier(NodeId(0), NodeId(4), -5.0, &none), None);
+        assert_eq!(graph.lowest_barrier(NodeId(4), NodeId(4), 7.0, &none).unwrap().0, 7.0);
     }
 
     #[test]
@@ -196,13 +228,13 @@ mod tests {
         let edges = [edge(0, 1, 1.0), edge(1, 3, 1.0), edge(0, 2, 0.5), edge(2, 3, 2.0)];
         let graph = Graph::new(5, &edges);
         let mut without = BTreeSet::new();
-        let route = graph.shortest(0, 3, &without).unwrap();
-        assert_eq!((route.nodes, route.edges, route.length), (vec![0, 1, 3], vec![0, 1], 2.0));
+        let route = graph.shortest(NodeId(0), NodeId(3), &without).unwrap();
+        assert_eq!((ids(&route), route.edges, route.length), (vec![0, 1, 3], vec![0, 1], 2.0));
         without.insert(1);
-        assert_eq!(graph.shortest(0, 3, &without).unwrap().nodes, [0, 2, 3]);
+        assert_eq!(ids(&graph.shortest(NodeId(0), NodeId(3), &without).unwrap()), [0, 2, 3]);
         without.insert(3);
-        assert_eq!(graph.shortest(0, 3, &without), None);
-        assert_eq!(graph.shortest(0, 4, &BTreeSet::new()), None);
-        assert_eq!(graph.shortest(4, 4, &BTreeSet::new()).unwrap().nodes, [4]);
+        assert_eq!(graph.shortest(NodeId(0), NodeId(3), &without), None);
+        assert_eq!(graph.shortest(NodeId(0), NodeId(4), &BTreeSet::new()), None);
+        assert_eq!(ids(&graph.shortest(NodeId(4), NodeId(4), &BTreeSet::new()).unwrap()), [4]);
     }
 }

@@ -1,6 +1,7 @@
 use super::*;
 use crate::img::{Setup, build};
-use crate::neighbor::{Best, NearPair, closest_pairs, in_radius, k_nearest};
+use crate::neighbor::{Best, NearPair, Subset, closest_pairs, in_radius, k_nearest};
+use crate::numbers::{NodeId, Ordinal};
 use crate::problem::Problem;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::shelf::tests::Flaky;
@@ -32,7 +33,7 @@ impl Growth {
 
     fn with_shelf(motion: BaseJoint, ordinal: u64, shelf: Arc<dyn Shelf>) -> Growth {
         let space = rigid_space(motion, [0.0; 3], [9.0, 9.0, 2.0], 0.5);
-        let stream = Seed::of_set(1, "growth", ordinal).stream(Purpose::Sampling);
+        let stream = Seed::of_set(1, "growth", Ordinal(ordinal)).stream(Purpose::Sampling);
         let (roadmap, outline) = (Roadmap::new(&space), Outline::new(&space));
         let workers = [false, true].map(|keeps| Roadmap::of_worker(&space, shelf.clone(), keeps));
         Growth { space, stream, group_of: Vec::new(), roadmap, workers, outline }
@@ -70,11 +71,12 @@ impl Growth {
                     let low = self.below(self.group_of.len()) as u32;
                     let kind = self.group_of.get(low as usize).copied();
                     if kind == Some(group) || (group >= GROUPS && kind == Some(group - GROUPS)) {
-                        let edge = Edge::metric(low, node, 0, 1.0);
+                        let edge =
+                            |from| Edge::metric(NodeId(low - from), NodeId(node - from), 0, 1.0);
                         if low >= first {
-                            edges.push(Edge { low: low - first, high: node - first, ..edge });
+                            edges.push(edge(first));
                         } else {
-                            joins.push(edge);
+                            joins.push(edge(0));
                         }
                         if group < GROUPS {
                             break;
@@ -124,16 +126,19 @@ fn check(space: &Space, roadmap: &Roadmap, queries: &Configs, some: u32, k: usiz
         let mut best = Best::new(k);
         for component in components.iter() {
             let distance = space.distance(q, &component.centre);
-            best.offer(Neighbor { distance, id: component.name });
+            best.offer(Neighbor { distance, id: component.name.0 });
         }
         assert_eq!(components.nearest(space, q, k), best.into_items());
     }
     let largest = components.iter().max_by_key(|component| component.members.len());
-    for component in [components.of_node(some), components.of_node(0), largest.expect("one")] {
+    for component in
+        [components.of_node(NodeId(some)), components.of_node(NodeId(0)), largest.expect("one")]
+    {
         let ids: Vec<u32> = (0..queries.len() as u32).collect();
+        let first = Subset { all: queries, ids: &ids };
         let expected: Vec<NearPair> =
-            closest_pairs(space, (queries, &ids), (configs, &component.members), k);
-        let found = components.closest_pairs(space, (queries, &ids), (configs, component), k);
+            closest_pairs(space, first, Subset { all: configs, ids: &component.members }, k);
+        let found = components.closest_pairs(space, first, configs, component, k);
         assert_eq!(found, expected);
     }
 }
@@ -168,7 +173,7 @@ fn folding_round_by_round_and_finding_the_components_of_the_whole_agree() {
     let whole = &growth.roadmap;
     let edges: Vec<Edge> = whole.edges().iter().collect();
     let again = Components::of(&growth.space, whole.configs(), &edges);
-    for node in 0..again.nodes() {
+    for node in whole.nodes() {
         let (a, b) = (whole.components().of_node(node), again.of_node(node));
         assert_eq!((a.name, a.members.len()), (b.name, b.members.len()));
         let near = growth.space.distance(&a.centre, &b.centre);

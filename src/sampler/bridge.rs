@@ -47,7 +47,7 @@ impl Sampler for Bridge {
     ) -> Result<(), GaveUp> {
         let mut stream = seed.stream(Purpose::Sampling);
         let (mut near, mut far) = (vec![0.0; cx.space.len()], vec![0.0; cx.space.len()]);
-        collect((count, self.attempts), out, |middle| {
+        collect(count, self.attempts, out, |middle| {
             draw_pair(cx, self.deviation, &mut stream, &mut near, &mut far);
             let mut pier = |q| collides(cx.model.validity(q, scratch), self.bounds) == Some(true);
             if !(pier(&near) && pier(&far)) {

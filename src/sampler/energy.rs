@@ -41,7 +41,7 @@ impl Sampler for Energy {
     ) -> Result<(), GaveUp> {
         let mut stream = seed.stream(Purpose::Sampling);
         let mut chance = seed.stream(Purpose::Accepting);
-        collect((count, self.attempts), out, |q| {
+        collect(count, self.attempts, out, |q| {
             cx.space.sample_uniform(&mut stream, q);
             // Drawn for every configuration, so that no energy shifts the numbers of later ones.
             let drawn = chance.unit();
@@ -54,7 +54,7 @@ impl Sampler for Energy {
     fn complaint(&self) -> Option<Complaint> {
         if !(self.always.is_finite() && self.never.is_finite() && self.always < self.never) {
             let found = format!("{} beside always = {}", self.never, self.always);
-            return Some(("never", found, "a finite energy above that of always"));
+            return Some(Complaint::new("never", found, "a finite energy above that of always"));
         }
         zero("attempts", self.attempts)
     }

@@ -45,7 +45,7 @@ impl Sampler for Gaussian {
     ) -> Result<(), GaveUp> {
         let mut stream = seed.stream(Purpose::Sampling);
         let mut far = vec![0.0; cx.space.len()];
-        collect((count, self.attempts), out, |near| {
+        collect(count, self.attempts, out, |near| {
             draw_pair(cx, self.deviation, &mut stream, near, &mut far);
             let states =
                 [&*near, &far].map(|q| collides(cx.model.validity(q, scratch), self.bounds));

@@ -103,7 +103,7 @@ impl Sampler for Maprm {
             lines: Vec::new(),
             at: vec![0.0; cx.space.len()],
         };
-        collect((count, self.attempts), out, |q| pusher.milestone(q))
+        collect(count, self.attempts, out, |q| pusher.milestone(q))
     }
 
     fn complaint(&self) -> Option<Complaint> {
@@ -114,10 +114,14 @@ impl Sampler for Maprm {
         }
         if !(self.step * FINEST..=self.step).contains(&self.tolerance) {
             let expected = "a billionth of the step up to the step";
-            return Some(("tolerance", self.tolerance.to_string(), expected));
+            return Some(Complaint::new("tolerance", self.tolerance, expected));
         }
         if !(1..=DIRECTIONS_MAX).contains(&self.directions) || !self.directions.is_multiple_of(2) {
-            return Some(("directions", self.directions.to_string(), "an even number, 2 to 1000"));
+            return Some(Complaint::new(
+                "directions",
+                self.directions,
+                "an even number, 2 to 1000",
+            ));
         }
         zero("steps", self.steps).or_else(|| zero("attempts", self.attempts))
     }

@@ -88,12 +88,12 @@ impl Sampler for Mix {
 
     fn complaint(&self) -> Option<Complaint> {
         if self.0.is_empty() {
-            return Some(("mix", "[]".to_owned(), "at least one sampler"));
+            return Some(Complaint::new("mix", "[]", "at least one sampler"));
         }
         // Written so that NaN fails it; a sum of finite weights could overflow.
         let sound = |share: &&Share| share.weight > 0.0 && share.weight <= 1e9;
         if let Some(share) = self.0.iter().find(|share| !sound(share)) {
-            return Some(("weight", share.weight.to_string(), "more than 0, at most 1e9"));
+            return Some(Complaint::new("weight", share.weight, "more than 0, at most 1e9"));
         }
         self.methods().find_map(Sampler::complaint)
     }

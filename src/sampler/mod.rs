@@ -6,10 +6,10 @@
 //! ```
 //! use roadmill::{model::Scratch, problem::Problem, roadmap::Configs};
 //! use roadmill::sampler::{Sampler, Uniform};
-//! use roadmill::seed::Seed;
+//! use roadmill::{numbers::Ordinal, seed::Seed};
 //!
 //! let cx = Problem::load("tests/problems/slide.toml".as_ref())?.context();
-//! let (seed, scratch) = (Seed::of_set(1, "uniform", 0), &mut Scratch::new());
+//! let (seed, scratch) = (Seed::of_set(1, "uniform", Ordinal(0)), &mut Scratch::new());
 //! let mut milestones = Configs::new(cx.space().len());
 //! let sampled = Uniform::default().sample(&cx, &seed, 5, scratch, &mut milestones);
 //! assert!(sampled.is_ok() && milestones.len() == 5);
@@ -111,7 +111,8 @@ fn default_attempts() -> u64 {
 /// Fills `out` with `count` milestones. `attempt` proposes one and says whether it is to be kept;
 /// `attempts` bounds its calls per milestone.
 fn collect(
-    (count, attempts): (usize, u64),
+    count: usize,
+    attempts: u64,
     out: &mut Configs,
     mut attempt: impl FnMut(&mut [f64]) -> bool,
 ) -> Result<(), GaveUp> {
@@ -145,12 +146,12 @@ fn collides(validity: Validity, bounds: bool) -> Option<bool> {
 /// What is wrong with a setting that must be a length: the comparison is written so that NaN fails it.
 fn no_length(key: &'static str, length: f64) -> Option<Complaint> {
     let sound = length > 0.0 && length <= crate::scene::LENGTH_MAX;
-    (!sound).then(|| (key, length.to_string(), "a positive length"))
+    (!sound).then(|| Complaint::new(key, length, "a positive length"))
 }
 
 /// What is wrong with a setting that must be a number of things other than none.
 fn zero(key: &'static str, count: impl Into<u64>) -> Option<Complaint> {
-    (count.into() == 0).then(|| (key, "0".to_owned(), "at least 1"))
+    (count.into() == 0).then(|| Complaint::new(key, "0", "at least 1"))
 }
 
 /// Whether a problem suits samplers near obstacles: something must be there to collide with.

@@ -136,7 +136,7 @@ impl Sampler for Obprm {
     ) -> Result<(), GaveUp> {
         let mut stream = seed.stream(Purpose::Sampling);
         let mut start = vec![0.0; cx.space.len()];
-        collect((count, self.attempts), out, |q| self.walk(cx, &mut stream, scratch, &mut start, q))
+        collect(count, self.attempts, out, |q| self.walk(cx, &mut stream, scratch, &mut start, q))
     }
 
     fn complaint(&self) -> Option<Complaint> {
@@ -144,7 +144,7 @@ impl Sampler for Obprm {
             return Some(complaint);
         }
         if self.halvings > HALVINGS_MAX {
-            return Some(("halvings", self.halvings.to_string(), "0 to 30"));
+            return Some(Complaint::new("halvings", self.halvings, "0 to 30"));
         }
         zero("steps", self.steps).or_else(|| zero("attempts", self.attempts))
     }

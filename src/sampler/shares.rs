@@ -43,11 +43,11 @@ impl Shares {
         sequence: impl Fn(&Seed) -> F,
     ) -> Result<(), GaveUp> {
         let block = u64::from(self.block);
-        let first = seed.ordinal().wrapping_mul(block);
+        let first = seed.ordinal().0.wrapping_mul(block);
         let mut point = vec![0.0; cx.space.cube_dimensions()];
         let mut taken = 0;
         let mut current = sequence(&seed.common(0));
-        collect((count, self.attempts), out, |q| {
+        collect(count, self.attempts, out, |q| {
             if taken > 0 && taken % block == 0 {
                 current = sequence(&seed.common(taken / block));
             }

@@ -35,7 +35,7 @@ impl Sampler for Uniform {
         out: &mut Configs,
     ) -> Result<(), GaveUp> {
         let mut stream = seed.stream(Purpose::Sampling);
-        collect((count, self.attempts), out, |q| {
+        collect(count, self.attempts, out, |q| {
             cx.space.sample_uniform(&mut stream, q);
             cx.model.is_valid(q, scratch)
         })

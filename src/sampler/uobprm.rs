@@ -60,7 +60,7 @@ impl Sampler for Uobprm {
         let mut start = vec![0.0; cx.space.len()];
         let mut last = start.clone();
         let mut found: VecDeque<Vec<f64>> = VecDeque::new();
-        collect((count, self.attempts), out, |q| {
+        collect(count, self.attempts, out, |q| {
             if found.is_empty() {
                 wide.sample_uniform(&mut stream, &mut start);
                 let direction = cx.space.direction(&mut stream);
@@ -93,9 +93,9 @@ impl Sampler for Uobprm {
             return lengths;
         }
         if !(self.length / STEPS_MAX..=self.length).contains(&self.step) {
-            return Some((
+            return Some(Complaint::new(
                 "step",
-                self.step.to_string(),
+                self.step,
                 "a millionth of the length up to the length",
             ));
         }

@@ -1,3 +1,4 @@
+use crate::numbers::StrategyIndex;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -46,12 +47,17 @@ pub struct Yield {
 impl Adaptive {
     /// The strategies of a round's `sets`, in order, among those `listed`. `past` holds what every
     /// strategy came to in each round before, oldest first.
-    pub fn round(&self, past: &[Vec<Yield>], listed: &[u32], sets: u64) -> Vec<u32> {
+    pub fn round(
+        &self,
+        past: &[Vec<Yield>],
+        listed: &[StrategyIndex],
+        sets: u64,
+    ) -> Vec<StrategyIndex> {
         let recent = &past[past.len().saturating_sub(self.rounds as usize)..];
-        let mut worths: Vec<(u32, Worth)> = Vec::new();
+        let mut worths: Vec<(StrategyIndex, Worth)> = Vec::new();
         for strategy in listed {
             if worths.iter().all(|(known, _)| known != strategy) {
-                let yields = recent.iter().filter_map(|round| round.get(*strategy as usize));
+                let yields = recent.iter().filter_map(|round| round.get(strategy.index()));
                 worths.push((*strategy, Worth::of(yields)));
             }
         }
@@ -59,7 +65,7 @@ impl Adaptive {
         let dearest = worths.iter().filter_map(|(_, worth)| worth.per_set).max().unwrap_or(1);
         let mut schedule = Vec::new();
         for _ in 0..sets {
-            let mut best: Option<&mut (u32, Worth)> = None;
+            let mut best: Option<&mut (StrategyIndex, Worth)> = None;
             for candidate in &mut worths {
                 if best.as_ref().is_none_or(|best| candidate.1.exceeds(&best.1)) {
                     best = Some(candidate);
@@ -103,33 +109,40 @@ impl Worth {
 mod tests {
     use super::*;
 
-    fn yields(of: &[(u64, u64, u64)]) -> Vec<Yield> {
+    /// One per strategy, given as sets, united and cost.
+    fn yields(of: &[[u64; 3]]) -> Vec<Yield> {
         of.iter()
-            .map(|(sets, united, cost)| Yield { sets: *sets, united: *united, cost: *cost })
+            .map(|[sets, united, cost]| Yield { sets: *sets, united: *united, cost: *cost })
             .collect()
+    }
+
+    /// The schedule of a round, as bare indices.
+    fn round(adaptive: Adaptive, past: &[Vec<Yield>], listed: &[u32], sets: u64) -> Vec<u32> {
+        let listed: Vec<_> = listed.iter().copied().map(StrategyIndex).collect();
+        adaptive.round(past, &listed, sets).into_iter().map(|strategy| strategy.0).collect()
     }
 
     #[test]
     fn unknown_strategies_come_first_and_in_turn() {
         let adaptive = Adaptive { rounds: 2 };
-        assert_eq!(adaptive.round(&[], &[0, 1, 2], 7), [0, 1, 2, 0, 1, 2, 0]);
-        let known = yields(&[(2, 50, 100), (0, 0, 0), (1, 0, 100)]);
-        assert_eq!(adaptive.round(std::slice::from_ref(&known), &[0, 1, 2], 3), [1, 0, 0]);
+        assert_eq!(round(adaptive, &[], &[0, 1, 2], 7), [0, 1, 2, 0, 1, 2, 0]);
+        let known = yields(&[[2, 50, 100], [0, 0, 0], [1, 0, 100]]);
+        assert_eq!(round(adaptive, std::slice::from_ref(&known), &[0, 1, 2], 3), [1, 0, 0]);
         // What is not listed gets no set, and what was long ago is forgotten.
-        assert_eq!(adaptive.round(std::slice::from_ref(&known), &[2], 2), [2, 2]);
-        let later = yields(&[(0, 0, 0), (1, 0, 10), (1, 0, 10)]);
-        assert_eq!(adaptive.round(&[known, later.clone(), later], &[0, 1, 2], 1), [0]);
+        assert_eq!(round(adaptive, std::slice::from_ref(&known), &[2], 2), [2, 2]);
+        let later = yields(&[[0, 0, 0], [1, 0, 10], [1, 0, 10]]);
+        assert_eq!(round(adaptive, &[known, later.clone(), later], &[0, 1, 2], 1), [0]);
     }
 
     #[test]
     fn sets_go_where_most_is_united_for_the_cost() {
         let adaptive = Adaptive { rounds: 5 };
         // 9 + 1 for 100 against 1 for 100: ten sets of the first to one of the second.
-        let past = [yields(&[(1, 9, 100), (1, 0, 100)])];
-        let schedule = adaptive.round(&past, &[0, 1], 11);
+        let past = [yields(&[[1, 9, 100], [1, 0, 100]])];
+        let schedule = round(adaptive, &past, &[0, 1], 11);
         assert_eq!(schedule.iter().filter(|strategy| **strategy == 1).count(), 1);
         // As much for half of the cost is worth twice as much.
-        let past = [yields(&[(1, 1, 200), (1, 1, 100)])];
-        assert_eq!(adaptive.round(&past, &[0, 1], 6), [1, 0, 1, 1, 0, 1]);
+        let past = [yields(&[[1, 1, 200], [1, 1, 100]])];
+        assert_eq!(round(adaptive, &past, &[0, 1], 6), [1, 0, 1, 1, 0, 1]);
     }
 }

@@ -30,7 +30,7 @@ impl History {
         }
         let mut yields = vec![Yield::default(); self.strategies];
         for set in &round.sets {
-            let total = &mut yields[set.strategy as usize];
+            let total = &mut yields[set.strategy.index()];
             total.sets += 1;
             for asked in [set.increment.asked, set.joined.asked] {
                 total.cost += asked.configurations + asked.motions;
@@ -38,7 +38,7 @@ impl History {
             for edge in &set.joined.edges {
                 let [low, high] = self.forest.unite(edge.low, edge.high);
                 // Its lowest node says whether a component was there before.
-                total.united += u64::from(low != high && high < before);
+                total.united += u64::from(low != high && high.0 < before);
             }
         }
         self.yields.push(yields);

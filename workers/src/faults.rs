@@ -7,6 +7,7 @@
 use crate::channel::CHUNK_BYTES;
 use crate::error::WorkerError;
 use roadmill::img::{Job, Setup};
+use roadmill::numbers::Ordinal;
 use rustix::process::{Signal, getpid, kill_process};
 use std::cell::Cell;
 use std::fs::File;
@@ -47,7 +48,7 @@ pub enum Slip {
 
 struct Fault {
     label: String,
-    ordinal: u64,
+    ordinal: Ordinal,
     effect: Effect,
 }
 
@@ -85,7 +86,7 @@ impl Faults {
         let Job::Generate { strategy, ordinal, .. } = job else {
             return None;
         };
-        let label = setup.problem().strategies()[strategy as usize].label();
+        let label = setup.problem().strategies()[strategy.index()].label();
         let here = |fault: &&Fault| fault.ordinal == ordinal && fault.label == *label;
         // A set may have several faults: one after the other comes about.
         let kind = self.faults.iter().filter(here).find_map(|fault| match &fault.effect {
@@ -114,7 +115,7 @@ fn parse(word: &str) -> Option<Fault> {
     let (name, rest) = word.split_once('=')?;
     let mut parts = rest.splitn(3, ':');
     let label = parts.next()?.to_owned();
-    let ordinal = parts.next()?.parse().ok()?;
+    let ordinal = Ordinal(parts.next()?.parse().ok()?);
     let effect = match (name, parts.next()) {
         ("die-at", None) => Effect::Die,
         ("garble-at", Some(mark)) => Effect::Once(mark.into(), Kind::Garble),
@@ -143,7 +144,10 @@ mod tests {
 
     #[test]
     fn only_known_faults_are_read() {
-        assert!(parse("die-at=a:3").is_some_and(|fault| fault.label == "a" && fault.ordinal == 3));
+        assert!(
+            parse("die-at=a:3")
+                .is_some_and(|fault| fault.label == "a" && fault.ordinal == Ordinal(3))
+        );
         for word in ["garble-at=a:3:/x:y", "twice-at=a:3:x", "half-at=a:3:x"] {
             assert!(parse(word).is_some(), "{word}");
         }

@@ -79,7 +79,7 @@ pub enum ToWorker {
 /// What changes a replica. Its bytes are encoded once.
 #[derive(Debug, Clone, PartialEq, Encode, Decode)]
 pub enum Entry {
-    /// The increment at the next place: the bytes of the [`roadmill::img::Outcome`] that it is.
+    /// The increment of the next set: the bytes of the [`roadmill::img::Outcome`] that it is.
     Increment(Bytes),
     /// The end of a round: for each of its sets the bytes of the [`roadmill::img::Outcome`] that joins it.
     Fold(Vec<Bytes>),

@@ -10,6 +10,7 @@ use roadmill::evaluate::Verdict;
 use roadmill::img::{Job, Joined, Outcome, Setup, Task};
 use roadmill::internal::wire;
 use roadmill::model::{Asked, Scratch};
+use roadmill::numbers::{NodeId, Ordinal, SetNumber, StrategyIndex};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Edge};
 use roadmill_workers::message::{Bytes, Done, Entry, FromWorker, PROTOCOL, ToWorker};
@@ -21,15 +22,15 @@ fn messages() -> Vec<Vec<u8>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../problems/maze.toml");
     let problem = Problem::load(&path).expect("it ships");
     let setup = Setup::new(problem.clone());
-    let generate = Task::Generate { strategy: 0, ordinal: 0, frozen: None };
+    let generate = Task::Generate { strategy: StrategyIndex(0), ordinal: Ordinal(0), frozen: None };
     let increment = generate.run(&setup, &mut Scratch::new());
     assert!(matches!(increment, Outcome::Increment(Ok(_))));
-    let edge = Edge::metric(0, 1, 0, 1.0);
+    let edge = Edge::metric(NodeId(0), NodeId(1), 0, 1.0);
     let joined = Joined { edges: vec![edge; 3], asked: Asked::default() };
     let verdict =
         |parts: Vec<Verdict>| Verdict { parts, ..Verdict::at_least(1.0, 1.0, Asked::default()) };
     let nested = verdict(vec![verdict(Vec::new()), verdict(vec![verdict(Vec::new())])]);
-    let job = Job::Join { place: 3, strategy: 0, ordinal: 3 };
+    let job = Job::Join { number: SetNumber(3), strategy: StrategyIndex(0), ordinal: Ordinal(3) };
     let outcomes = [increment, Outcome::Joined(joined), Outcome::Verdict(Box::new(nested))];
     let (set, joins) = (wire::encode(&outcomes[0]), wire::encode(&outcomes[1]));
     let stored = Bytes::Stored { offset: 7, length: 9, digest: Digest([3; 32]) };

@@ -3,7 +3,7 @@
 use crate::cli::CrewArguments;
 use crate::exit::{Code, Failure};
 use crate::progress::{Reporter, print_json};
-use crate::work::{Begun, Ended, Growth, Status, WORKERS_MAX, Watch, Workers};
+use crate::work::{Begun, Ended, Growth, Status, Torn, WORKERS_MAX, Watch, Workers};
 use std::io::Write;
 
 /// Who does the jobs, as the command line says.
@@ -86,8 +86,7 @@ impl Watch for Telling {
 
     fn progress(&mut self, status: &Status) {
         if let Some(reporter) = &mut self.reporter {
-            let Status { problem, progress, tally, workers, .. } = status;
-            reporter.report(problem, progress, tally, *workers);
+            reporter.report(status);
         }
     }
 }
@@ -117,9 +116,9 @@ fn say_begun(begun: &Begun) {
             eprintln!(
                 "{name}: goes on after {rounds} rounds and {nodes} nodes{chapter}, run folder {run}"
             );
-            if let Some((bytes, path)) = torn {
-                let path = path.display();
-                eprintln!("{name}: {bytes} bytes of an unfinished round were moved to {path}");
+            if let Some(Torn { bytes, file }) = torn {
+                let file = file.display();
+                eprintln!("{name}: {bytes} bytes of an unfinished round were moved to {file}");
             }
         }
     }

@@ -6,6 +6,7 @@ use crate::run::{Replay, Scan, Told};
 use crate::work::difference;
 use roadmill::evaluate::Verdict;
 use roadmill::img::RoundSet;
+use roadmill::numbers::RoundNumber;
 use roadmill::problem::Problem;
 use roadmill::scene::is_mesh_file;
 use std::collections::{BTreeMap, VecDeque};
@@ -27,7 +28,7 @@ pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
                 let name = |set: &RoundSet, of: &Read| {
                     format!(
                         "{}:{}",
-                        of.problem.strategies()[set.strategy as usize].label(),
+                        of.problem.strategies()[set.strategy.index()].label(),
                         set.ordinal
                     )
                 };
@@ -41,8 +42,8 @@ pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
                 };
                 if let Some(found) = found {
                     return differs(format!(
-                        "first difference: set {a_name} (place {}, round {round}): {found}",
-                        a.place
+                        "first difference: set {a_name} (number {}, round {round}): {found}",
+                        a.number
                     ));
                 }
                 sets += 1;
@@ -118,9 +119,9 @@ impl Read {
 struct Side<'a> {
     replay: Replay<'a>,
     /// Sets of the last round, with its number.
-    sets: VecDeque<(u64, RoundSet)>,
+    sets: VecDeque<(RoundNumber, RoundSet)>,
     /// The last verdicts on each round so far.
-    verdicts: BTreeMap<u64, Vec<Verdict>>,
+    verdicts: BTreeMap<RoundNumber, Vec<Verdict>>,
 }
 
 impl<'a> Side<'a> {
@@ -129,7 +130,7 @@ impl<'a> Side<'a> {
         Ok(Side { replay, sets: VecDeque::new(), verdicts: BTreeMap::new() })
     }
 
-    fn next(&mut self) -> Result<Option<(u64, RoundSet)>, Failure> {
+    fn next(&mut self) -> Result<Option<(RoundNumber, RoundSet)>, Failure> {
         while self.sets.is_empty() {
             match self.replay.read()? {
                 None => return Ok(None),
@@ -137,7 +138,7 @@ impl<'a> Side<'a> {
                     self.verdicts.insert(judged.round, judged.verdicts);
                 }
                 Some(Told::Round(round, _)) => {
-                    self.sets.extend(round.sets.into_iter().map(|set| (round.index, set)));
+                    self.sets.extend(round.sets.into_iter().map(|set| (round.number, set)));
                 }
             }
         }

@@ -5,8 +5,10 @@ use crate::cli::{CrewArguments, GenerateArguments};
 use crate::exit::{Code, Failure};
 use crate::run::SetsWriter;
 use crate::signals::Signals;
+use roadmill::Strategy;
 use roadmill::img::Setup;
 use roadmill::model::Scratch;
+use roadmill::numbers::Ordinal;
 use roadmill::roadmap::Increment;
 use roadmill::sampler::GaveUp;
 use roadmill_workers::channel::private_umask;
@@ -17,7 +19,7 @@ use std::thread;
 /// Sets per thread that are held in memory before they are written.
 const BATCH_PER_THREAD: u64 = 16;
 
-type Made = (u64, Result<Increment, GaveUp>);
+type Made = (Ordinal, Result<Increment, GaveUp>);
 
 /// Generates sets apart from a build.
 pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
@@ -45,7 +47,8 @@ pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
     let batch = BATCH_PER_THREAD * threads as u64;
     let mut left = ordinals.clone();
     while !left.is_empty() {
-        let until = left.end.min(left.start.saturating_add(batch));
+        let until = left.end.min(Ordinal(left.start.0.saturating_add(batch)));
+        let strategy = &setup.problem().strategies()[strategy];
         let made =
             make(&setup, strategy, left.start..until, threads, &signals).ok_or_else(|| {
                 Failure::new(Code::WorkersLost, format!("a set of `{label}` cannot be generated"))
@@ -63,7 +66,7 @@ pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
     }
     writer.end()?;
     let Range { start, end } = ordinals;
-    let count = end - start;
+    let count = end.since(*start);
     say(format_args!("{count} sets {label}:{start}..{end} in {}", out.display()));
     Ok(Code::Done)
 }
@@ -71,13 +74,12 @@ pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
 /// These sets in order, or fewer of them once a signal has come; `None` if one panics.
 fn make(
     setup: &Setup,
-    strategy: usize,
-    ordinals: Range<u64>,
+    strategy: &Strategy,
+    ordinals: Range<Ordinal>,
     threads: usize,
     signals: &Signals,
 ) -> Option<Vec<Made>> {
-    let strategy = &setup.problem().strategies()[strategy];
-    let ordinals = Mutex::new(ordinals);
+    let ordinals = Mutex::new(Ordinal::each(ordinals));
     // Nothing can go wrong while it is held.
     let next = || ordinals.lock().unwrap_or_else(PoisonError::into_inner).next();
     let work = || {

@@ -4,6 +4,7 @@ use crate::progress::print_json;
 use crate::run::{Replay, Scan, Told};
 use roadmill::img::Joined;
 use roadmill::internal::wire;
+use roadmill::numbers::{Ordinal, RoundNumber, SetNumber};
 use roadmill::roadmap::{Digest, Full, Increment};
 use roadmill::seed::Seed;
 use serde::Serialize;
@@ -12,10 +13,10 @@ use std::io::Write;
 /// A set in the list.
 #[derive(Serialize)]
 struct Line<'a> {
-    place: u64,
-    round: u64,
+    number: SetNumber,
+    round: RoundNumber,
     label: &'a str,
-    ordinal: u64,
+    ordinal: Ordinal,
     seed: String,
     nodes: usize,
     edges: usize,
@@ -41,17 +42,17 @@ pub fn log(arguments: &LogArguments) -> Result<Code, Failure> {
     let mut replay = Replay::new(&scan, &problem)?;
     let mut out = std::io::stdout().lock();
     if !arguments.json {
-        let heading = "round place set seed nodes edges joining configurations motions digest";
+        let heading = "round number set seed nodes edges joining configurations motions digest";
         let _ = writeln!(out, "{heading}");
     }
     while let Some(told) = replay.read()? {
         let Told::Round(round, _) = told else { continue };
         for set in &round.sets {
             let (increment, joined) = (&set.increment, &set.joined);
-            let label = problem.strategies()[set.strategy as usize].label();
+            let label = problem.strategies()[set.strategy.index()].label();
             let line = Line {
-                place: set.place,
-                round: round.index,
+                number: set.number,
+                round: round.number,
                 label,
                 ordinal: set.ordinal,
                 seed: Seed::of_set(problem.seed(), label, set.ordinal).to_string(),
@@ -71,7 +72,7 @@ pub fn log(arguments: &LogArguments) -> Result<Code, Failure> {
                 out,
                 "{} {} {label}:{} {} {} {} {} {} {} {}",
                 line.round,
-                line.place,
+                line.number,
                 line.ordinal,
                 &line.seed[..16],
                 line.nodes,

@@ -1,6 +1,7 @@
 use crate::exit::Failure;
 use crate::run::SetFiles;
 use roadmill::img::{Cut, Event, Executor, Finished, Job, Round};
+use roadmill::numbers::SetName;
 use roadmill::roadmap::{Increment, Tally};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -33,10 +34,10 @@ impl<E: Executor> Imported<E> {
     }
 }
 
-/// The strategy and the ordinal of the set that a job generates, if that is what the job does.
-fn set_of(job: Job) -> Option<(u32, u64)> {
+/// The name of the set that a job generates, if that is what the job does.
+fn set_of(job: Job) -> Option<SetName> {
     match job {
-        Job::Generate { strategy, ordinal, .. } => Some((strategy, ordinal)),
+        Job::Generate { strategy, ordinal, .. } => Some(SetName { strategy, ordinal }),
         _ => None,
     }
 }
@@ -55,8 +56,7 @@ impl<E: Executor> Executor for Imported<E> {
     }
 
     fn submit(&mut self, job: Job) {
-        let is_here = |(strategy, ordinal)| self.files.has(strategy, ordinal);
-        if set_of(job).is_some_and(is_here) {
+        if set_of(job).is_some_and(|set| self.files.has(set)) {
             self.waiting.insert(job);
         } else {
             self.inner.submit(job);
@@ -65,8 +65,7 @@ impl<E: Executor> Executor for Imported<E> {
 
     fn next(&mut self, wait: Duration) -> Option<Event> {
         let Some(job) = self.waiting.pop_first() else { return self.inner.next(wait) };
-        let (strategy, ordinal) = set_of(job)?;
-        match self.files.read(strategy, ordinal) {
+        match self.files.read(set_of(job)?) {
             Ok(outcome) => Some(Event::Done(job, Finished::new(outcome?))),
             Err(failure) => {
                 self.failure = Some(failure);

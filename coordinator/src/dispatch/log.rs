@@ -1,6 +1,7 @@
 use crate::crew::Crew;
 use roadmill::img::{Job, Outcome, Round};
 use roadmill::internal::wire;
+use roadmill::numbers::SetNumber;
 use roadmill::roadmap::{Digest, Increment};
 use roadmill_workers::message::{Bytes, Entry};
 use std::collections::BTreeMap;
@@ -15,25 +16,25 @@ const PART_BYTES_MAX: usize = 32 << 20;
 #[derive(Debug, Default)]
 pub struct Log {
     entries: Vec<Entry>,
-    /// By place, the outcomes that are increments to be published.
-    increments: BTreeMap<u64, Bytes>,
-    /// By place, those that are joins to be folded.
-    joins: BTreeMap<u64, Bytes>,
+    /// By set, the outcomes that are increments to be published.
+    increments: BTreeMap<SetNumber, Bytes>,
+    /// By set, those that are joins to be folded.
+    joins: BTreeMap<SetNumber, Bytes>,
 }
 
 impl Log {
     /// Keeps the outcome of a job until it is published or folded.
     pub fn keep(&mut self, job: Job, outcome: Bytes) {
         match job {
-            Job::Generate { place, .. } => self.increments.entry(place).or_insert(outcome),
-            Job::Join { place, .. } => self.joins.entry(place).or_insert(outcome),
+            Job::Generate { number, .. } => self.increments.entry(number).or_insert(outcome),
+            Job::Join { number, .. } => self.joins.entry(number).or_insert(outcome),
             Job::Evaluate { .. } => return,
         };
     }
 
-    /// Appends the increment at `place`, the next one.
-    pub fn publish(&mut self, place: u64, increment: &Increment, crew: &mut impl Crew) {
-        let kept = self.increments.remove(&place);
+    /// Appends the increment of the set `number`, the next one.
+    pub fn publish(&mut self, number: SetNumber, increment: &Increment, crew: &mut impl Crew) {
+        let kept = self.increments.remove(&number);
         let made = || Outcome::Increment(Ok(increment.clone()));
         self.entries.push(Entry::Increment(kept.unwrap_or_else(|| put(&made(), crew))));
     }
@@ -41,7 +42,7 @@ impl Log {
     /// Appends the end of a round.
     pub fn fold(&mut self, round: &Round, crew: &mut impl Crew) {
         let joins = round.sets.iter().map(|set| {
-            let kept = self.joins.remove(&set.place);
+            let kept = self.joins.remove(&set.number);
             kept.unwrap_or_else(|| put(&Outcome::Joined(set.joined.clone()), crew))
         });
         self.entries.push(Entry::Fold(joins.collect()));

@@ -1,4 +1,5 @@
 use roadmill::img::{Job, Loss};
+use roadmill::numbers::{EvaluatorIndex, StrategyIndex};
 use roadmill_workers::WorkerId;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -42,15 +43,20 @@ fn urgency(job: &Job) -> usize {
     }
 }
 
-/// A job's urgency, and the index of its strategy or evaluator. Jobs in which both are the same take about
-/// equally long.
-type Kind = (usize, u32);
+/// What a job does, whatever the set or the round. Jobs of one kind take about equally long.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    Evaluate(EvaluatorIndex),
+    Join(StrategyIndex),
+    Generate(StrategyIndex),
+}
 
 fn kind(job: &Job) -> Kind {
-    let (Job::Evaluate { evaluator: of, .. }
-    | Job::Join { strategy: of, .. }
-    | Job::Generate { strategy: of, .. }) = *job;
-    (urgency(job), of)
+    match *job {
+        Job::Evaluate { evaluator, .. } => Kind::Evaluate(evaluator),
+        Job::Join { strategy, .. } => Kind::Join(strategy),
+        Job::Generate { strategy, .. } => Kind::Generate(strategy),
+    }
 }
 
 impl Roster {
@@ -148,13 +154,16 @@ impl Roster {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use roadmill::numbers::{Ordinal, SetNumber};
 
-    fn join(place: u64) -> Job {
-        Job::Join { place, strategy: 0, ordinal: place }
+    fn join(number: u64) -> Job {
+        let (number, ordinal) = (SetNumber(number), Ordinal(number));
+        Job::Join { number, strategy: StrategyIndex(0), ordinal }
     }
 
-    fn generate(place: u64) -> Job {
-        Job::Generate { place, strategy: 0, ordinal: place }
+    fn generate(number: u64) -> Job {
+        let (number, ordinal) = (SetNumber(number), Ordinal(number));
+        Job::Generate { number, strategy: StrategyIndex(0), ordinal }
     }
 
     /// Workers, each of which has done one job of each kind in so many seconds.
@@ -176,7 +185,7 @@ mod tests {
         for mut roster in [roster(2, 60.0), Roster::default()] {
             let worker = WorkerId(0);
             roster.enlist(worker);
-            (0..4).for_each(|place| roster.submit(generate(place)));
+            (0..4).for_each(|number| roster.submit(generate(number)));
             assert_eq!(roster.give(worker, |_| true), [generate(0)]);
             assert_eq!(roster.give(worker, |_| true), []);
             assert!(!roster.done(worker, generate(1), 60.0), "it had not this one");
@@ -191,7 +200,7 @@ mod tests {
     #[test]
     fn short_jobs_make_some_milliseconds_of_work() {
         let mut roster = roster(1, 0.003);
-        (0..100).for_each(|place| roster.submit(generate(place)));
+        (0..100).for_each(|number| roster.submit(generate(number)));
         let given = roster.give(WorkerId(0), |_| true);
         assert_eq!(given, (0..6).map(generate).collect::<Vec<_>>());
         assert!(roster.done(WorkerId(0), generate(0), 0.003));
@@ -207,8 +216,8 @@ mod tests {
             first in any::<prop::sample::Index>(),
         ) {
             let mut roster = roster(workers, 1e-4);
-            (0..joins).for_each(|place| roster.submit(join(place)));
-            (0..ahead).for_each(|place| roster.submit(generate(100 + place)));
+            (0..joins).for_each(|number| roster.submit(join(number)));
+            (0..ahead).for_each(|number| roster.submit(generate(100 + number)));
             let first = first.index(workers as usize) as u64;
             let order = (0..workers).map(|worker| WorkerId((worker + first) % workers));
             let mut left: Vec<_> = order.map(|worker| (worker, Vec::new())).collect();
@@ -244,7 +253,7 @@ mod tests {
     fn jobs_lost_with_a_member_are_handed_out_together_again() {
         let given_after = |loss| {
             let mut roster = roster(1, 1e-4);
-            (0..4).for_each(|place| roster.submit(generate(place)));
+            (0..4).for_each(|number| roster.submit(generate(number)));
             assert_eq!(roster.give(WorkerId(0), |_| true).len(), 4);
             let lost = roster.dismiss(WorkerId(0), loss);
             assert_eq!((lost.len(), roster.open), (4, [0; URGENCIES]));
@@ -261,7 +270,7 @@ mod tests {
     fn a_job_that_kills_is_found_among_those_lost_with_it() {
         let mut roster = roster(2, 1e-4);
         let deadly = generate(3);
-        (0..12).for_each(|place| roster.submit(generate(place)));
+        (0..12).for_each(|number| roster.submit(generate(number)));
         let mut losses = BTreeMap::new();
         let mut done = BTreeSet::new();
         let mut newcomers = (2..).map(WorkerId);

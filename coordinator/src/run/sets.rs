@@ -8,6 +8,7 @@ use bincode::{Decode, Encode};
 use roadmill::BITS_VERSION;
 use roadmill::img::Outcome;
 use roadmill::internal::wire;
+use roadmill::numbers::{Ordinal, SetName, StrategyIndex};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Full, Increment};
 use roadmill::sampler::GaveUp;
@@ -39,20 +40,20 @@ struct Beginning {
     problem_digest: Digest,
     label: String,
     /// Ordinals, the end excluded.
-    first: u64,
-    end: u64,
+    first: Ordinal,
+    end: Ordinal,
 }
 
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 struct Set {
-    ordinal: u64,
+    ordinal: Ordinal,
     made: Result<Increment, GaveUp>,
 }
 
 /// A set that a [`Set`] cannot say.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 struct FullSet {
-    ordinal: u64,
+    ordinal: Ordinal,
     made: Full<Increment>,
 }
 
@@ -81,7 +82,7 @@ impl SetsWriter {
         force: bool,
         problem: &Problem,
         label: &str,
-        ordinals: Range<u64>,
+        ordinals: Range<Ordinal>,
     ) -> Result<SetsWriter, Failure> {
         if !force && path.symlink_metadata().is_ok() {
             return Err(exists(path));
@@ -115,7 +116,11 @@ impl SetsWriter {
     ///
     /// # Errors
     /// Exit code 1: the file cannot be written.
-    pub fn set(&mut self, ordinal: u64, made: Result<Increment, GaveUp>) -> Result<(), Failure> {
+    pub fn set(
+        &mut self,
+        ordinal: Ordinal,
+        made: Result<Increment, GaveUp>,
+    ) -> Result<(), Failure> {
         self.sets += 1;
         self.append(&match made {
             Ok(made) if !made.is_plain() => Record::FullSet(FullSet { ordinal, made: Full(made) }),
@@ -186,8 +191,7 @@ struct Place {
 #[derive(Debug, Default)]
 pub struct SetFiles {
     paths: Vec<PathBuf>,
-    /// By strategy and ordinal.
-    places: BTreeMap<(u32, u64), Place>,
+    places: BTreeMap<SetName, Place>,
 }
 
 impl SetFiles {
@@ -212,16 +216,17 @@ impl SetFiles {
     }
 
     /// Whether a set is in the files.
-    pub fn has(&self, strategy: u32, ordinal: u64) -> bool {
-        self.places.contains_key(&(strategy, ordinal))
+    pub fn has(&self, set: SetName) -> bool {
+        self.places.contains_key(&set)
     }
 
     /// What generating the set came to, if it is in the files.
     ///
     /// # Errors
     /// Exit code 1: the file can no longer be read; 4: it is no longer what it was.
-    pub fn read(&self, strategy: u32, ordinal: u64) -> Result<Option<Outcome>, Failure> {
-        let Some(place) = self.places.get(&(strategy, ordinal)) else { return Ok(None) };
+    pub fn read(&self, set: SetName) -> Result<Option<Outcome>, Failure> {
+        let SetName { ordinal, .. } = set;
+        let Some(place) = self.places.get(&set) else { return Ok(None) };
         let path = &self.paths[place.file];
         let read = || -> io::Result<Vec<u8>> {
             let file = File::open(path)?;
@@ -282,12 +287,13 @@ impl SetFiles {
                  strategies and schedule count too)"
             ));
         }
-        let Some(strategy) = problem.strategies().iter().position(|known| known.label() == label)
-        else {
+        let mut labels = problem.strategies().iter().map(|known| known.label());
+        let Some(strategy) = labels.position(|known| known == label) else {
             return refuse(&format!("sets of `{label}` found, a strategy of the problem expected"));
         };
+        let strategy = StrategyIndex(strategy as u32);
         let file = self.paths.len();
-        for expected in first..end {
+        for expected in Ordinal::each(first..end) {
             match next(&mut frames, &path)? {
                 Record::Set(Set { ordinal, .. }) | Record::FullSet(FullSet { ordinal, .. })
                     if ordinal == expected => {}
@@ -297,13 +303,13 @@ impl SetFiles {
             let length = payload.len() as u64;
             let (offset, hash) = (frames.at().offset - length, Digest::of(payload));
             let place = Place { file, offset, length, hash };
-            let known = self.places.entry((strategy as u32, expected)).or_insert(place);
+            let known = self.places.entry(SetName { strategy, ordinal: expected }).or_insert(place);
             if known.hash != hash {
                 let other = self.paths[known.file].display();
                 return refuse(&format!("set {label}:{expected} is another one than in {other}"));
             }
         }
-        if next(&mut frames, &path)? != Record::End(End { sets: end.saturating_sub(first) }) {
+        if next(&mut frames, &path)? != Record::End(End { sets: end.0.saturating_sub(first.0) }) {
             return Err(damaged(&frames, &path, "the end expected"));
         }
         match frames.next() {
@@ -378,8 +384,13 @@ sets = 4
         let problem = Problem::parse(Path::new("p.toml"), PROBLEM).expect("it is sound");
         let setup = roadmill::img::Setup::new(problem);
         let mut scratch = roadmill::model::Scratch::new();
-        let ordinal = value as u64;
+        let ordinal = Ordinal(value as u64);
         setup.problem().strategies()[0].generate(setup.context(), ordinal, None, &mut scratch)
+    }
+
+    /// The name of a set of the only strategy.
+    fn name(ordinal: u64) -> SetName {
+        SetName { strategy: StrategyIndex(0), ordinal: Ordinal(ordinal) }
     }
 
     #[test]
@@ -389,25 +400,26 @@ sets = 4
         let path = folder.path().join("[part].sets");
         let gave_up = Err(GaveUp { attempts: 7 });
         let sets = [made(0.0), gave_up, made(2.0)];
-        let mut writer = SetsWriter::begin(&path, false, &problem, "one", 5..8).expect("new");
+        let mut writer =
+            SetsWriter::begin(&path, false, &problem, "one", Ordinal(5)..Ordinal(8)).expect("new");
         for (ordinal, set) in (5..).zip(&sets) {
-            writer.set(ordinal, set.clone()).expect("there is space");
+            writer.set(Ordinal(ordinal), set.clone()).expect("there is space");
         }
         writer.end().expect("there is space");
         let names = [path.to_string_lossy().into_owned()];
         let files = SetFiles::open(&names, &problem).expect("whole");
         for (ordinal, set) in (5..).zip(sets) {
-            assert!(files.has(0, ordinal));
-            assert_eq!(files.read(0, ordinal).expect("there"), Some(Outcome::Increment(set)));
+            assert!(files.has(name(ordinal)));
+            assert_eq!(files.read(name(ordinal)).expect("there"), Some(Outcome::Increment(set)));
         }
-        assert_eq!(files.read(0, 8).expect("not there"), None);
+        assert_eq!(files.read(name(8)).expect("not there"), None);
 
         let file = File::options().write(true).open(&path).expect("it is there");
-        let place = files.places[&(0, 7)];
+        let place = files.places[&name(7)];
         file.write_all_at(&[0xff], place.offset + place.length - 1).expect("it can be written");
-        assert_eq!(files.read(0, 7).map_err(|failure| failure.code), Err(Code::BrokenRun));
+        assert_eq!(files.read(name(7)).map_err(|failure| failure.code), Err(Code::BrokenRun));
         file.set_len(place.offset).expect("it can be cut");
-        assert_eq!(files.read(0, 7).map_err(|failure| failure.code), Err(Code::System));
-        assert!(files.read(0, 5).is_ok());
+        assert_eq!(files.read(name(7)).map_err(|failure| failure.code), Err(Code::System));
+        assert!(files.read(name(5)).is_ok());
     }
 }

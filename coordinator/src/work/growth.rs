@@ -1,6 +1,6 @@
 use super::change::{Change, Chapter, difference};
 use super::interrupt::Interrupt;
-use super::watch::{Begun, Keeper, Status, Watch, path_in};
+use super::watch::{Begun, Keeper, Status, Torn, Watch, Weighed, path_in};
 use super::workers::{Kind, start};
 use super::{Ended, Run, Workers};
 use crate::cpu::CpuClock;
@@ -246,7 +246,7 @@ impl<'a> Growth<'a> {
             seconds: seconds.or(setup.problem().limits().seconds),
             memory,
             rounds,
-            weighed: (rounds, None),
+            weighed: Weighed { after_rounds: rounds, at: None },
             stored: Arc::default(),
         };
         let (stop, tally, seconds) = match &workers.kind {
@@ -367,7 +367,7 @@ fn go_on(
     }
     let (mut ledger, torn) = LedgerWriter::resume(&scan, &present, lock)?;
     if is_chapter {
-        ledger.chapter(scan.rounds(), &problem)?;
+        ledger.chapter(scan.next_round(), &problem)?;
         scan.verdicts = None;
     }
     watch.begun(&Begun::Again {
@@ -376,7 +376,7 @@ fn go_on(
         rounds: scan.rounds(),
         nodes: scan.last_round.as_ref().map_or(0, |end| end.nodes),
         is_chapter,
-        torn: torn.as_deref().map(|path| (scan.torn_bytes, path)),
+        torn: torn.as_deref().map(|file| Torn { bytes: scan.torn_bytes, file }),
     });
     let imports = match change {
         Change::None(_, imports) => imports,

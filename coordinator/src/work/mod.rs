@@ -37,7 +37,7 @@ pub use growth::Growth;
 pub(crate) use growth::limit;
 pub use recorded::Recorded;
 pub use verification::{Selection, Verification, Verified};
-pub use watch::{Begun, Status, Watch};
+pub use watch::{Begun, Status, Torn, Watch};
 pub use workers::{WORKERS_MAX, Workers};
 
 use crate::exit::Failure;

@@ -10,6 +10,7 @@ use roadmill::img::{
 };
 use roadmill::internal::wire;
 use roadmill::model::Scratch;
+use roadmill::numbers::{Ordinal, RoundNumber, SetNumber};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Roadmap};
 use roadmill::{BITS_VERSION, Cancel};
@@ -106,9 +107,9 @@ impl Verification {
             ahead: AHEAD_PER_WORKER * workers.count,
             at_work: BTreeMap::new(),
             difference: None,
-            counts: (0, 0),
+            counts: Counts::default(),
         };
-        let (sets, judgements) = match &workers.kind {
+        let Counts { sets, judgements } = match &workers.kind {
             Kind::Threads => check.run(&mut Threads::new(setup.clone(), workers.count))?,
             Kind::Processes(program) => {
                 let mut dispatcher =
@@ -131,11 +132,11 @@ impl Verification {
 enum Choice {
     All,
     /// Sets by label and ordinal.
-    Named(BTreeSet<(String, u64)>),
+    Named(BTreeSet<(String, Ordinal)>),
     /// A share; which follows from the ledger's hash.
     Share(f64, Digest),
-    /// As the least share: this place.
-    One(u64),
+    /// As the least share: this set.
+    One(SetNumber),
 }
 
 impl Choice {
@@ -146,9 +147,9 @@ impl Choice {
             Selection::Share(share) => *share,
         };
         let sets = scan.last_round.as_ref().map_or(0, |end| end.sets);
-        let lots = (0..sets).map(|place| (lot(&scan.end.chain, b"set", place), place));
+        let lots = (0..sets).map(|number| (lot(&scan.end.chain, b"set", number), number));
         Ok(match lots.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((least, place)) if least >= share => Choice::One(place),
+            Some((least, number)) if least >= share => Choice::One(SetNumber(number)),
             _ => Choice::Share(share, scan.end.chain),
         })
     }
@@ -157,7 +158,7 @@ impl Choice {
         let known = |label: &str| problem.strategies().iter().any(|known| known.label() == label);
         let parse = |text: &String| {
             let (label, ordinal) = text.rsplit_once(':')?;
-            known(label).then_some((label.to_owned(), ordinal.parse().ok()?))
+            known(label).then_some((label.to_owned(), Ordinal(ordinal.parse().ok()?)))
         };
         let parse = |text| {
             parse(text).ok_or_else(|| {
@@ -174,8 +175,8 @@ impl Choice {
         match self {
             Choice::All => true,
             Choice::Named(names) => names.contains(&(label.to_owned(), set.ordinal)),
-            Choice::Share(share, chain) => lot(chain, b"set", set.place) < *share,
-            Choice::One(place) => set.place == *place,
+            Choice::Share(share, chain) => lot(chain, b"set", set.number.0) < *share,
+            Choice::One(number) => set.number == *number,
         }
     }
 
@@ -184,10 +185,10 @@ impl Choice {
         matches!(self, Choice::All | Choice::Share(..))
     }
 
-    fn has_judgement(&self, round: u64) -> bool {
+    fn has_judgement(&self, round: RoundNumber) -> bool {
         match self {
             Choice::All => true,
-            Choice::Share(share, chain) => lot(chain, b"judgement", round) < *share,
+            Choice::Share(share, chain) => lot(chain, b"judgement", round.0) < *share,
             Choice::Named(_) | Choice::One(_) => false,
         }
     }
@@ -206,16 +207,53 @@ struct Check<'a> {
     choice: Choice,
     interrupt: &'a Interrupt,
     ahead: usize,
-    /// What each job should come to, and how many workers died at it.
-    at_work: BTreeMap<Job, (Outcome, u32)>,
-    /// The first job, in the order of the ledger, that came to something else.
-    difference: Option<((u64, u8), String)>,
-    /// Sets and judgements recomputed.
-    counts: (u64, u64),
+    at_work: BTreeMap<Job, Recorded>,
+    /// What differs first, in the order of the ledger.
+    difference: Option<Difference>,
+    counts: Counts,
+}
+
+/// A job whose outcome is in the ledger.
+struct Recorded {
+    outcome: Outcome,
+    /// How many workers died at the job.
+    deaths: u32,
+}
+
+/// How much has been recomputed.
+#[derive(Clone, Copy, Default)]
+struct Counts {
+    sets: u64,
+    judgements: u64,
+}
+
+/// Something that was recomputed and is not as it is recorded.
+struct Difference {
+    at: Position,
+    /// What it is, for people.
+    what: String,
+}
+
+/// Where in the order of the ledger something was recomputed.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Position {
+    /// The set, or of a judgement the first one after its round.
+    set: SetNumber,
+    part: Part,
+}
+
+/// What was recomputed, in the order in which it comes about.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Part {
+    Judgement,
+    Increment,
+    Joined,
+    /// An outcome of another kind than the job's.
+    Other,
 }
 
 impl Check<'_> {
-    fn run(mut self, executor: &mut impl Executor) -> Result<(u64, u64), Failure> {
+    fn run(mut self, executor: &mut impl Executor) -> Result<Counts, Failure> {
         let mut replay = Replay::new(self.scan, self.setup.problem())?;
         let mut judge: Option<(usize, Setup)> = None;
         let space = self.setup.context().space();
@@ -259,11 +297,11 @@ impl Check<'_> {
             self.take(executor)?;
         }
         match (self.difference, self.choice) {
-            (Some((_, what)), _) => {
+            (Some(Difference { what, .. }), _) => {
                 let run = self.scan.folder().display();
                 Err(Failure::new(Code::Differs, format!("{run}: {what}")))
             }
-            (None, Choice::Named(names)) if self.counts.0 < names.len() as u64 => {
+            (None, Choice::Named(names)) if self.counts.sets < names.len() as u64 => {
                 Err(Failure::usage("--set: not every set that is named is in the run"))
             }
             (None, _) => Ok(self.counts),
@@ -277,22 +315,22 @@ impl Check<'_> {
         chapter: usize,
         executor: &mut impl Executor,
     ) -> Result<(), Failure> {
-        let label = self.setup.problem().strategies()[set.strategy as usize].label();
+        let label = self.setup.problem().strategies()[set.strategy.index()].label();
         if !self.choice.has_set(set, label) {
             return Ok(());
         }
         needs_bits(&format!("set {label}:{}", set.ordinal), &self.scan.chapters[chapter])?;
-        let RoundSet { place, strategy, ordinal, .. } = *set;
+        let RoundSet { number, strategy, ordinal, .. } = *set;
         let increment = Outcome::Increment(Ok((*set.increment).clone()));
         let joined = Outcome::Joined(set.joined.clone());
         for (job, outcome) in [
-            (Job::Generate { place, strategy, ordinal }, increment),
-            (Job::Join { place, strategy, ordinal }, joined),
+            (Job::Generate { number, strategy, ordinal }, increment),
+            (Job::Join { number, strategy, ordinal }, joined),
         ] {
-            self.at_work.insert(job, (outcome, 0));
+            self.at_work.insert(job, Recorded { outcome, deaths: 0 });
             executor.submit(job);
         }
-        self.counts.0 += 1;
+        self.counts.sets += 1;
         Ok(())
     }
 
@@ -311,14 +349,14 @@ impl Check<'_> {
         self.interrupt.check()?;
         match executor.next(TICK) {
             Some(Event::Done(job, finished)) => {
-                if let Some((expected, _)) = self.at_work.remove(&job) {
-                    self.compare(job, &expected, &finished);
+                if let Some(recorded) = self.at_work.remove(&job) {
+                    self.compare(job, &recorded.outcome, &finished);
                 }
             }
             Some(Event::Lost(job, loss)) => {
-                if let Some((_, deaths)) = self.at_work.get_mut(&job) {
-                    *deaths += u32::from(loss == Loss::Death);
-                    if *deaths >= LOSSES_MAX {
+                if let Some(recorded) = self.at_work.get_mut(&job) {
+                    recorded.deaths += u32::from(loss == Loss::Death);
+                    if recorded.deaths >= LOSSES_MAX {
                         let name = job_name(job, self.setup.problem());
                         let message = format!("{name} killed its workers");
                         return Err(Failure::new(Code::WorkersLost, message));
@@ -341,27 +379,30 @@ impl Check<'_> {
         if Digest::of(&wire::encode(expected)) == finished.digest {
             return;
         }
-        let (at, found) = match (job, expected, &finished.outcome) {
+        let (set, part, found) = match (job, expected, &finished.outcome) {
             (
-                Job::Generate { place, .. },
+                Job::Generate { number, .. },
                 Outcome::Increment(Ok(recorded)),
                 Outcome::Increment(Ok(found)),
             ) => {
                 let found =
                     difference::of_increments(self.setup.context().space(), recorded, found);
-                ((place, 0), found)
+                (number, Part::Increment, found)
             }
-            (Job::Generate { place, .. }, _, Outcome::Increment(Err(gave_up))) => {
-                ((place, 0), Some(format!("a set and none: {gave_up}")))
+            (Job::Generate { number, .. }, _, Outcome::Increment(Err(gave_up))) => {
+                (number, Part::Increment, Some(format!("a set and none: {gave_up}")))
             }
-            (Job::Join { place, .. }, Outcome::Joined(recorded), Outcome::Joined(found)) => {
-                ((place, 1), difference::of_joins(recorded, found))
+            (Job::Join { number, .. }, Outcome::Joined(recorded), Outcome::Joined(found)) => {
+                (number, Part::Joined, difference::of_joins(recorded, found))
             }
-            (Job::Generate { place, .. } | Job::Join { place, .. }, _, _) => ((place, 2), None),
+            (Job::Generate { number, .. } | Job::Join { number, .. }, _, _) => {
+                (number, Part::Other, None)
+            }
             (Job::Evaluate { .. }, _, _) => return,
         };
         let found = found.unwrap_or_else(|| "what was recomputed is no such thing".to_owned());
         let name = job_name(job, self.setup.problem());
+        let at = Position { set, part };
         self.note(at, format!("{name}: recorded and recomputed differ: {found}"));
     }
 
@@ -382,17 +423,18 @@ impl Check<'_> {
                 method.evaluate(judge.context(), &index.to_string(), roadmap, scratch)
             })
             .collect();
-        self.counts.1 += 1;
+        self.counts.judgements += 1;
         if let Some(found) = difference::of_verdicts(&judged.verdicts, &verdicts) {
-            let at = (self.setup.plan().places_of(judged.round).end, 0);
+            let set = self.setup.plan().sets_of(judged.round).end;
+            let at = Position { set, part: Part::Judgement };
             self.note(at, format!("{name}: recorded and recomputed differ: {found}"));
         }
         Ok(())
     }
 
-    fn note(&mut self, at: (u64, u8), what: String) {
-        if self.difference.as_ref().is_none_or(|(first, _)| at < *first) {
-            self.difference = Some((at, what));
+    fn note(&mut self, at: Position, what: String) {
+        if self.difference.as_ref().is_none_or(|first| at < first.at) {
+            self.difference = Some(Difference { at, what });
         }
     }
 }

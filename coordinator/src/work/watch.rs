@@ -64,9 +64,18 @@ pub enum Begun<'a> {
         nodes: u64,
         /// Whether a chapter is opened for what is changed.
         is_chapter: bool,
-        /// Bytes of an unfinished round, and the file that they were moved to.
-        torn: Option<(u64, &'a FilePath)>,
+        /// What there was of an unfinished round.
+        torn: Option<Torn<'a>>,
     },
+}
+
+/// What an interrupted build left of an unfinished round.
+#[derive(Clone, Copy, Debug)]
+pub struct Torn<'a> {
+    /// Number of bytes.
+    pub bytes: u64,
+    /// The file that they were moved to.
+    pub file: &'a FilePath,
 }
 
 /// How far a build is.
@@ -79,8 +88,10 @@ pub struct Status<'a> {
     pub progress: &'a Progress,
     /// What the roadmap comes to.
     pub tally: &'a Tally,
-    /// Workers that are ready or at work, and how many there are to be.
-    pub workers: (usize, usize),
+    /// Workers that are ready or at work.
+    pub workers_alive: usize,
+    /// How many workers there are to be.
+    pub workers_wanted: usize,
 }
 
 /// The path of the problem's own query, if the verdicts have one.
@@ -104,10 +115,17 @@ pub(super) struct Keeper<'a> {
     pub memory: Option<u64>,
     /// Complete rounds.
     pub rounds: u64,
-    /// After which round the memory was added up last, and when.
-    pub weighed: (u64, Option<Instant>),
+    pub weighed: Weighed,
     /// Bytes stored for the workers in shared memory, which count as no process's own.
     pub stored: Arc<AtomicU64>,
+}
+
+/// When the memory was added up last.
+#[derive(Clone, Copy)]
+pub(super) struct Weighed {
+    /// How many rounds were complete.
+    pub after_rounds: u64,
+    pub at: Option<Instant>,
 }
 
 impl Keeper<'_> {
@@ -191,12 +209,12 @@ impl Keeper<'_> {
 
     /// Whether memory is short. Added up once after a round, since only rounds make the roadmap larger.
     fn is_short_of_memory(&mut self, rounds: u64) -> bool {
-        let (round, at) = self.weighed;
-        let Some(limit) = self.memory.filter(|_| round < rounds) else { return false };
+        let Weighed { after_rounds, at } = self.weighed;
+        let Some(limit) = self.memory.filter(|_| after_rounds < rounds) else { return false };
         if at.is_some_and(|at| at.elapsed() < MEMORY_PAUSE) {
             return false;
         }
-        self.weighed = (rounds, Some(Instant::now()));
+        self.weighed = Weighed { after_rounds: rounds, at: Some(Instant::now()) };
         resident_bytes() + self.stored.load(Ordering::Relaxed) >= limit
     }
 }
@@ -205,7 +223,7 @@ impl Observer for Keeper<'_> {
     type Error = Failure;
 
     fn folded(&mut self, round: &Round, tally: &Tally) -> Result<(), Failure> {
-        self.rounds = round.index + 1;
+        self.rounds = round.number.0 + 1;
         self.ledger.round(round, self.setup.problem(), tally)
     }
 
@@ -221,8 +239,13 @@ impl Observer for Keeper<'_> {
         alive: usize,
     ) -> Result<Option<Cut>, Failure> {
         self.ledger.sync_if_due()?;
-        let (problem, workers) = (self.setup.problem(), (alive, self.workers));
-        self.watch.progress(&Status { problem, progress, tally, workers });
+        self.watch.progress(&Status {
+            problem: self.setup.problem(),
+            progress,
+            tally,
+            workers_alive: alive,
+            workers_wanted: self.workers,
+        });
         Ok(if self.interrupt.came() {
             Some(Cut::Interrupted)
         } else if self.seconds.is_some_and(|limit| self.begun.elapsed().as_secs_f64() >= limit) {

@@ -80,8 +80,9 @@ impl Bodies {
 
     /// The model itself, with what is particular to bodies.
     pub fn validity(&self) -> BodyValidity {
-        let motions = (self.edges, self.resolution);
-        BodyValidity::new(self.space(), &self.robot, self.bounds, motions, &self.obstacles)
+        let (edges, resolution) = (self.edges, self.resolution);
+        let obstacles = &self.obstacles;
+        BodyValidity::new(self.space(), &self.robot, self.bounds, edges, resolution, obstacles)
     }
 }
 

@@ -1,6 +1,7 @@
 use super::bound::{Interval, peak};
 use super::energy::energy;
 use super::*;
+use crate::numbers::Ordinal;
 use crate::problem::Problem;
 use crate::seed::{Purpose, Seed};
 use proptest::prelude::*;
@@ -53,7 +54,7 @@ proptest! {
 #[test]
 fn costs_there_and_back_differ_as_the_energies_of_the_ends() {
     let cx = parse(FILE).unwrap().context();
-    let mut stream = Seed::of_set(1, "landscape", 0).stream(Purpose::Sampling);
+    let mut stream = Seed::of_set(1, "landscape", Ordinal(0)).stream(Purpose::Sampling);
     let (mut a, mut b) = ([0.0; 2], [0.0; 2]);
     let scratch = &mut Scratch::new();
     for _ in 0..1000 {

@@ -41,6 +41,6 @@ fn a_model_without_energies_and_wrong_settings_are_refused() {
         ("energy = { always = nan, never = 0 }", "never"),
         ("energy = { always = 0, never = 1, attempts = 0 }", "attempts"),
     ] {
-        assert_eq!(sampler(text).method().complaint().map(|complaint| complaint.0), Some(key));
+        assert_eq!(sampler(text).method().complaint().map(|complaint| complaint.key), Some(key));
     }
 }

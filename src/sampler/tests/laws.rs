@@ -3,6 +3,7 @@
 use super::{SCENE, context, sampler, sets};
 use crate::context::Context;
 use crate::model::Scratch;
+use crate::numbers::Ordinal;
 use crate::problem::Problem;
 use crate::roadmap::Configs;
 use crate::sampler::{GaveUp, SamplerKind};
@@ -111,7 +112,7 @@ fn milestones_follow_from_the_seed_and_from_nothing_that_is_remembered() {
             assert_eq!(first, sample(&cx, &sampler, 0, &mut warm), "{sampler:?}");
         }
         let mut other = Configs::new(cx.space.len());
-        let seed = Seed::of_set(8, "laws", 0);
+        let seed = Seed::of_set(8, "laws", Ordinal(0));
         sampler.method().sample(&cx, &seed, 12, &mut warm, &mut other).unwrap();
         assert_ne!(first, other, "another base seed: {sampler:?}");
     }
@@ -139,7 +140,7 @@ fn a_sampler_that_can_find_nothing_gives_up() {
         (&empty, "uobprm = { length = 0.02, step = 0.01, attempts = 50 }"),
     ] {
         let mut configs = Configs::new(cx.space.len());
-        let (mut scratch, seed) = (Scratch::new(), Seed::of_set(7, "laws", 0));
+        let (mut scratch, seed) = (Scratch::new(), Seed::of_set(7, "laws", Ordinal(0)));
         let sampler = sampler(text);
         let error = sampler.method().sample(cx, &seed, 1, &mut scratch, &mut configs).unwrap_err();
         assert_eq!(error, GaveUp { attempts: 50 }, "{text}");

@@ -1,6 +1,7 @@
 use super::statistics::fits;
 use super::{plane, sampler};
 use crate::model::Scratch;
+use crate::numbers::Ordinal;
 use crate::roadmap::Configs;
 use crate::sampler::{Mix, Sampler, Share};
 use crate::seed::Seed;
@@ -15,7 +16,7 @@ fn mixed_samplers_have_their_weights_and_their_own_streams() {
     let mix = Mix(shares.clone());
     let mut counts = [0; 3];
     for ordinal in 0..80 {
-        let seed = Seed::of_set(7, "mix", ordinal);
+        let seed = Seed::of_set(7, "mix", Ordinal(ordinal));
         let drawn = mix.counts(&seed, 50);
         assert_eq!(drawn.iter().sum::<usize>(), 50);
         counts.iter_mut().zip(drawn).for_each(|(count, drawn)| *count += drawn);
@@ -23,7 +24,7 @@ fn mixed_samplers_have_their_weights_and_their_own_streams() {
     fits(&counts, &[1.0, 2.5, 0.5]);
 
     let cx = plane(4.0, 4.0, &[[1.0, 1.0, 1.0, 1.0]]);
-    let seed = Seed::of_set(7, "mix", 3);
+    let seed = Seed::of_set(7, "mix", Ordinal(3));
     let (mut whole, mut parts) = (Configs::new(2), Configs::new(2));
     mix.sample(&cx, &seed, 50, &mut Scratch::new(), &mut whole).unwrap();
     for (index, (share, count)) in shares.iter().zip(mix.counts(&seed, 50)).enumerate() {

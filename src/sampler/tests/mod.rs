@@ -13,6 +13,7 @@ mod steps;
 use super::SamplerKind;
 use crate::context::Context;
 use crate::model::Scratch;
+use crate::numbers::Ordinal;
 use crate::problem::Problem;
 use crate::roadmap::Configs;
 use crate::seed::Seed;
@@ -56,7 +57,7 @@ fn sets(
 ) -> Configs {
     let mut configs = Configs::new(cx.space.len());
     for ordinal in ordinals {
-        let seed = Seed::of_set(7, "laws", ordinal);
+        let seed = Seed::of_set(7, "laws", Ordinal(ordinal));
         let done = sampler.method().sample(cx, &seed, count, scratch, &mut configs);
         assert_eq!(done, Ok(()), "{sampler:?}");
     }

@@ -2,13 +2,14 @@
 
 use super::statistics::follows;
 use super::{SCENE, context};
+use crate::numbers::Ordinal;
 use crate::seed::{Purpose, Seed};
 use crate::space::{BaseJoint, rigid_space};
 
 #[test]
 fn steps_have_the_length_asked_for() {
     let cx = context(SCENE);
-    let mut stream = Seed::of_set(3, "steps", 0).stream(Purpose::Sampling);
+    let mut stream = Seed::of_set(3, "steps", Ordinal(0)).stream(Purpose::Sampling);
     let (mut q, mut far) = (vec![0.0; 7], vec![0.0; 7]);
     for i in 0..200 {
         cx.space.sample_uniform(&mut stream, &mut q);
@@ -28,7 +29,7 @@ fn steps_have_the_length_asked_for() {
 #[test]
 fn directions_are_uniform_in_the_metric() {
     let space = rigid_space(BaseJoint::Rigid2d, [0.0; 3], [1.0; 3], 0.4);
-    let mut stream = Seed::of_set(3, "directions", 0).stream(Purpose::Sampling);
+    let mut stream = Seed::of_set(3, "directions", Ordinal(0)).stream(Purpose::Sampling);
     let mut coordinates = [(); 3].map(|()| Vec::new());
     for _ in 0..4000 {
         let mut q = [0.0; 3];

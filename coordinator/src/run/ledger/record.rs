@@ -9,6 +9,7 @@ use roadmill::evaluate::Verdict;
 use roadmill::generator::{GeneratorKind, Reads};
 use roadmill::img::{Joined, RoundSet};
 use roadmill::internal::wire::WireError;
+use roadmill::numbers::{Ordinal, RoundNumber, SetNumber};
 use roadmill::problem::{Layout, Problem};
 use roadmill::roadmap::{Digest, Full, Increment};
 use roadmill::{BITS_VERSION, SourceFile};
@@ -37,7 +38,7 @@ pub enum Record {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chapter {
     /// Its first round.
-    pub first_round: u64,
+    pub first_round: RoundNumber,
     /// Version of the program.
     pub program: String,
     /// Its version of the bits.
@@ -108,7 +109,7 @@ bincode::impl_borrow_decode!(SecondChapter);
 
 impl Chapter {
     /// The chapter of a problem, from a round on.
-    pub fn new(first_round: u64, problem: &Problem) -> Chapter {
+    pub fn new(first_round: RoundNumber, problem: &Problem) -> Chapter {
         let (layout, bytes) = problem.to_bytes();
         Chapter {
             first_round,
@@ -144,12 +145,12 @@ impl Chapter {
 /// A set and how it is joined to what came before it.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Set {
-    /// Its place.
-    pub place: u64,
+    /// Its number in the sequence of all sets.
+    pub number: SetNumber,
     /// The label of its strategy.
     pub label: String,
     /// Its ordinal within the label.
-    pub ordinal: u64,
+    pub ordinal: Ordinal,
     /// What it adds.
     pub increment: Arc<Increment>,
     /// How it is joined.
@@ -160,12 +161,12 @@ pub struct Set {
 /// costs, and how it is joined to what came before it.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct FullSet {
-    /// Its place.
-    pub place: u64,
+    /// Its number in the sequence of all sets.
+    pub number: SetNumber,
     /// The label of its strategy.
     pub label: String,
     /// Its ordinal within the label.
-    pub ordinal: u64,
+    pub ordinal: Ordinal,
     /// What the set was made from beside the problem: of one that grew, the digest of the roadmap that it read; of
     /// one that read a parent run, the hash of that run's ledger.
     pub read: Option<Digest>,
@@ -179,9 +180,9 @@ pub struct FullSet {
 #[derive(Clone, Debug, Encode)]
 pub struct WrittenFullSet<'a> {
     tag: [u8; 4],
-    place: u64,
+    number: SetNumber,
     label: &'a str,
-    ordinal: u64,
+    ordinal: Ordinal,
     read: Option<Digest>,
     increment: Full<&'a Increment>,
     joined: Full<&'a Joined>,
@@ -195,12 +196,12 @@ impl WrittenFullSet<'_> {
         problem: &'a Problem,
         roadmap: Digest,
     ) -> Option<WrittenFullSet<'a>> {
-        let strategy = &problem.strategies()[set.strategy as usize];
+        let strategy = &problem.strategies()[set.strategy.index()];
         let read = read_by(strategy.generator(), roadmap);
         let is_plain = set.increment.is_plain() && set.joined.is_plain();
         (read.is_some() || !is_plain).then(|| WrittenFullSet {
             tag: FULL_SET_TAG,
-            place: set.place,
+            number: set.number,
             label: strategy.label(),
             ordinal: set.ordinal,
             read,
@@ -224,9 +225,9 @@ pub fn read_by(generator: &GeneratorKind, roadmap: Digest) -> Option<Digest> {
 #[derive(Clone, Debug, Encode)]
 pub struct WrittenSet<'a> {
     tag: [u8; 4],
-    place: u64,
+    number: SetNumber,
     label: &'a str,
-    ordinal: u64,
+    ordinal: Ordinal,
     increment: &'a Increment,
     joined: &'a Joined,
 }
@@ -236,8 +237,8 @@ impl WrittenSet<'_> {
     pub fn new<'a>(set: &'a RoundSet, problem: &'a Problem) -> WrittenSet<'a> {
         WrittenSet {
             tag: SET_TAG,
-            place: set.place,
-            label: problem.strategies()[set.strategy as usize].label(),
+            number: set.number,
+            label: problem.strategies()[set.strategy.index()].label(),
             ordinal: set.ordinal,
             increment: &set.increment,
             joined: &set.joined,
@@ -248,8 +249,8 @@ impl WrittenSet<'_> {
 /// The end of a round, and what the roadmap has come to.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct RoundEnd {
-    /// The round, from 0.
-    pub round: u64,
+    /// The round.
+    pub round: RoundNumber,
     /// Sets folded so far.
     pub sets: u64,
     /// Nodes so far.
@@ -266,7 +267,7 @@ pub struct RoundEnd {
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Judged {
     /// The round.
-    pub round: u64,
+    pub round: RoundNumber,
     /// One verdict per evaluator.
     pub verdicts: Vec<Verdict>,
 }

@@ -3,6 +3,7 @@ use super::record::{FullSet, Judged, Record, Set, read_by};
 use super::scan::Scan;
 use crate::exit::Failure;
 use roadmill::img::{Plan, Round, RoundSet};
+use roadmill::numbers::{RoundNumber, SetName, SetNumber};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, SetForm, Tally};
 use std::sync::Arc;
@@ -21,10 +22,11 @@ pub struct Replay<'a> {
     scan: &'a Scan,
     plan: Plan,
     problem: &'a Problem,
-    /// Sets and nodes before the next round.
-    place: u64,
+    /// The set that comes next.
+    number: SetNumber,
+    /// Nodes of the sets before it.
     nodes: u64,
-    round: u64,
+    round: RoundNumber,
     form: SetForm,
     chapters: usize,
     /// Digest and nodes of the roadmap at the start of the round.
@@ -46,9 +48,9 @@ impl<'a> Replay<'a> {
             scan,
             plan,
             problem,
-            place: 0,
+            number: SetNumber(0),
             nodes: 0,
-            round: 0,
+            round: RoundNumber(0),
             form: SetForm::of(problem.model().description()),
             chapters: 0,
             roadmap,
@@ -66,19 +68,19 @@ impl<'a> Replay<'a> {
             match self.reader.next_record()? {
                 Some(Record::Set(set)) => sets.push(self.set(set, None)?),
                 Some(Record::FullSet(full)) => {
-                    let FullSet { place, label, ordinal, read, increment, joined } = full;
+                    let FullSet { number, label, ordinal, read, increment, joined } = full;
                     let (increment, joined) = (Arc::new(increment.0), joined.0);
-                    sets.push(self.set(Set { place, label, ordinal, increment, joined }, read)?);
+                    sets.push(self.set(Set { number, label, ordinal, increment, joined }, read)?);
                 }
                 Some(Record::RoundEnd(end)) => {
-                    let places = self.plan.places_of(self.round);
-                    if self.place != places.end || end.nodes != self.nodes {
+                    let end_of_round = self.plan.sets_of(self.round).end;
+                    if self.number != end_of_round || end.nodes != self.nodes {
                         return Err(self.reader.wrong("not the sets of its round"));
                     }
-                    let index = self.round;
-                    self.round += 1;
+                    let number = self.round;
+                    self.round = number.next();
                     (self.roadmap, self.folded) = (end.roadmap, end.nodes);
-                    let round = Round { index, sets };
+                    let round = Round { number, sets };
                     self.plan.observe(&round);
                     return Ok(Some(Told::Round(round, end.roadmap)));
                 }
@@ -110,14 +112,14 @@ impl<'a> Replay<'a> {
 
     /// A set whose folding cannot go out of range, and which is the one that comes here.
     fn set(&mut self, set: Set, read: Option<Digest>) -> Result<RoundSet, Failure> {
-        let Some((strategy, ordinal)) = self.plan.set_at(self.place) else {
+        let Some(SetName { strategy, ordinal }) = self.plan.name_of(self.number) else {
             return Err(self.reader.wrong("more sets than its round has"));
         };
-        let strategy_of = &self.problem.strategies()[strategy as usize];
+        let strategy_of = &self.problem.strategies()[strategy.index()];
         let label = strategy_of.label();
-        if (set.place, &*set.label, set.ordinal) != (self.place, label, ordinal) {
-            let found = format!("set {}:{} at place {}", set.label, set.ordinal, set.place);
-            let expected = format!("{label}:{ordinal} at place {}", self.place);
+        if (set.number, &*set.label, set.ordinal) != (self.number, label, ordinal) {
+            let found = format!("set {}:{} with number {}", set.label, set.ordinal, set.number);
+            let expected = format!("{label}:{ordinal} with number {}", self.number);
             return Err(self.reader.wrong(&format!("{found} found, {expected} expected")));
         }
         let grows = strategy_of.generator().grows();
@@ -130,14 +132,14 @@ impl<'a> Replay<'a> {
             && set.increment.is_sound(self.form, if grows { self.folded } else { 0 })
             && joins.iter().all(|edge| {
                 edge.low < edge.high
-                    && u64::from(edge.high) < self.nodes
+                    && u64::from(edge.high.0) < self.nodes
                     && self.form.has_cost(edge)
             });
         if !sound {
             return Err(self.reader.wrong("a set that cannot be"));
         }
-        self.place += 1;
-        let Set { place, increment, joined, .. } = set;
-        Ok(RoundSet { place, strategy, ordinal, increment, joined })
+        self.number = set.number.next();
+        let Set { number, increment, joined, .. } = set;
+        Ok(RoundSet { number, strategy, ordinal, increment, joined })
     }
 }

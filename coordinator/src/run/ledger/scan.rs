@@ -6,6 +6,7 @@ use crate::exit::{Code, Failure};
 use roadmill::BITS_VERSION;
 use roadmill::evaluate::Verdict;
 use roadmill::internal::wire;
+use roadmill::numbers::RoundNumber;
 use roadmill::problem::Problem;
 use std::path::{Path, PathBuf};
 
@@ -94,19 +95,21 @@ impl Scan {
         self.stopped = None;
         match record {
             Record::Chapter(chapter) | Record::SecondChapter(SecondChapter(chapter))
-                if chapter.first_round == self.rounds() =>
+                if chapter.first_round == self.next_round() =>
             {
                 self.chapters.push(*chapter);
                 self.verdicts = None;
             }
-            Record::RoundEnd(end) if end.round == self.rounds() && sets > 0 => {
+            Record::RoundEnd(end) if end.round == self.next_round() && sets > 0 => {
                 if end.sets != self.last_round.as_ref().map_or(0, |last| last.sets) + sets {
                     return Err(format!("{} sets found, {sets} in this round", end.sets));
                 }
                 self.last_round = Some(end);
                 self.verdicts = None;
             }
-            Record::Judged(Judged { round, verdicts }) if round + 1 == self.rounds() => {
+            Record::Judged(Judged { round, verdicts })
+                if self.last_round.as_ref().is_some_and(|last| last.round == round) =>
+            {
                 self.last_verdicts.clone_from(&verdicts);
                 self.verdicts = Some(verdicts);
             }
@@ -130,7 +133,12 @@ impl Scan {
 
     /// Complete rounds.
     pub fn rounds(&self) -> u64 {
-        self.last_round.as_ref().map_or(0, |end| end.round + 1)
+        self.next_round().0
+    }
+
+    /// The round after the complete ones.
+    pub fn next_round(&self) -> RoundNumber {
+        self.last_round.as_ref().map_or(RoundNumber(0), |end| end.round.next())
     }
 
     /// The chapter that the build is in.

@@ -1,6 +1,7 @@
 use crate::exit::Code;
 use bincode::{Decode, Encode};
 use roadmill::img::{Cut, Job, Stop};
+use roadmill::numbers::{Ordinal, StrategyIndex};
 use roadmill::problem::Problem;
 
 /// How a build ended, as the ledger keeps it.
@@ -15,7 +16,7 @@ pub struct Stopped {
 impl Stopped {
     /// Puts a stop into words.
     pub fn new(stop: &Stop, problem: &Problem) -> Stopped {
-        let label = |strategy: u32| problem.strategies()[strategy as usize].label();
+        let label = |strategy: StrategyIndex| problem.strategies()[strategy.index()].label();
         let (word, reason) = match stop {
             Stop::Satisfied => ("satisfied", "all criteria are met".to_owned()),
             Stop::NodeLimit => {
@@ -75,8 +76,8 @@ impl Stopped {
 
 /// A job as people name it: by its set's label and ordinal.
 pub fn name(job: Job, problem: &Problem) -> String {
-    let set = |strategy: u32, ordinal: u64| {
-        format!("{}:{ordinal}", problem.strategies()[strategy as usize].label())
+    let set = |strategy: StrategyIndex, ordinal: Ordinal| {
+        format!("{}:{ordinal}", problem.strategies()[strategy.index()].label())
     };
     match job {
         Job::Generate { strategy, ordinal, .. } => {
@@ -84,7 +85,7 @@ pub fn name(job: Job, problem: &Problem) -> String {
         }
         Job::Join { strategy, ordinal, .. } => format!("joining set {}", set(strategy, ordinal)),
         Job::Evaluate { round, evaluator } => {
-            let evaluator = problem.evaluators()[evaluator as usize].method().name();
+            let evaluator = problem.evaluators()[evaluator.index()].method().name();
             format!("the {evaluator} evaluation after round {round}")
         }
     }

@@ -8,6 +8,7 @@ use crate::cpu::Meter;
 use crate::exit::Failure;
 use crate::run::RunLock;
 use roadmill::img::{Judgement, Round};
+use roadmill::numbers::RoundNumber;
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Tally};
 use std::fs::{self, File};
@@ -54,11 +55,11 @@ impl LedgerWriter {
             let file = File::options().write(true).create(true).truncate(true).open(&begun)?;
             let durable = DurableFile::create(folder)?;
             let roadmap = Tally::new(&problem.space()).digest();
-            Ok(LedgerWriter::new(folder, file, durable, lock, (Mark::first(), roadmap)))
+            Ok(LedgerWriter::new(folder, file, durable, lock, Mark::first(), roadmap))
         };
         let mut writer = begin().map_err(|error| cannot_write(&begun, &error))?;
         writer.file.write_all(HEADING).map_err(|error| cannot_write(&begun, &error))?;
-        writer.chapter(0, problem)?;
+        writer.chapter(RoundNumber(0), problem)?;
         // Under its name the ledger has its beginning from the first moment, whatever fails when.
         fs::rename(&begun, &writer.path)
             .and_then(|()| sync_folder(folder))
@@ -85,7 +86,7 @@ impl LedgerWriter {
             let durable = DurableFile::open(folder)?;
             let empty = || Tally::new(&problem.space()).digest();
             let roadmap = scan.last_round.as_ref().map_or_else(empty, |end| end.roadmap);
-            Ok((LedgerWriter::new(folder, file, durable, lock, (scan.end, roadmap)), saved))
+            Ok((LedgerWriter::new(folder, file, durable, lock, scan.end, roadmap), saved))
         };
         let (mut writer, saved) = open().map_err(|error| cannot_write(&path, &error))?;
         writer.sync_all()?;
@@ -97,7 +98,8 @@ impl LedgerWriter {
         file: File,
         durable: DurableFile,
         lock: RunLock,
-        (at, roadmap): (Mark, Digest),
+        at: Mark,
+        roadmap: Digest,
     ) -> Self {
         let path = folder.join(LEDGER);
         let (next_sync, spent, cpu) = (Instant::now(), Duration::ZERO, Meter::default());
@@ -121,7 +123,7 @@ impl LedgerWriter {
     ///
     /// # Errors
     /// Exit code 1: the file cannot be written.
-    pub fn chapter(&mut self, first_round: u64, problem: &Problem) -> Result<(), Failure> {
+    pub fn chapter(&mut self, first_round: RoundNumber, problem: &Problem) -> Result<(), Failure> {
         let chapter = Chapter::new(first_round, problem);
         self.append_one(&chapter.into_record())?;
         self.sync_all()
@@ -138,7 +140,7 @@ impl LedgerWriter {
         tally: &Tally,
     ) -> Result<(), Failure> {
         let end = RoundEnd {
-            round: round.index,
+            round: round.number,
             sets: tally.sets(),
             nodes: tally.nodes() as u64,
             edges: tally.edges() as u64,

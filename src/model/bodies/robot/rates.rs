@@ -106,7 +106,8 @@ impl Hops {
     /// how. `descent` is working memory.
     pub fn rates(
         &self,
-        (from, to): (Option<usize>, usize),
+        from: Option<usize>,
+        to: usize,
         (a, b): (&[f64], &[f64]),
         descent: &mut Vec<usize>,
     ) -> Rates {
@@ -121,7 +122,7 @@ impl Hops {
         while up != down {
             if up > down {
                 let hop = self.of_link(up);
-                rates.pass(hop, (hop.after, hop.before), (a, b));
+                rates.pass(hop, hop.after, hop.before, (a, b));
                 up = hop.parent as usize;
             } else {
                 descent.push(down);
@@ -130,7 +131,7 @@ impl Hops {
         }
         for link in descent.iter().rev() {
             let hop = self.of_link(*link);
-            rates.pass(hop, (hop.before, hop.after), (a, b));
+            rates.pass(hop, hop.before, hop.after, (a, b));
         }
         rates
     }
@@ -145,7 +146,7 @@ impl Hops {
 impl Rates {
     /// Passes a joint, whose origin is at a distance `before` from where one comes from, and as moved at a
     /// distance `after` from where one goes to.
-    fn pass(&mut self, hop: &Hop, (before, after): (f64, f64), (a, b): (&[f64], &[f64])) {
+    fn pass(&mut self, hop: &Hop, before: f64, after: f64, (a, b): (&[f64], &[f64])) {
         self.steady = None;
         self.carry(before);
         match hop.kind {

@@ -1,5 +1,6 @@
 use super::rates_tests::drawn_robot;
 use super::*;
+use crate::numbers::Ordinal;
 use crate::scene::Shape;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::FactorKind;
@@ -89,7 +90,7 @@ fn neighbours_fixed_links_and_links_across_an_empty_one_may_touch() {
 
 /// A tree of links of which most have a ball somewhere.
 fn with_balls(stream: &mut Stream, links: u32, near: u32) -> Robot {
-    let mut robot = drawn_robot(stream, BaseJoint::Rigid3d, (links, near));
+    let mut robot = drawn_robot(stream, BaseJoint::Rigid3d, links, near);
     for link in &mut robot.links {
         if stream.unit() < 0.7 {
             let translation = [0; 3].map(|_| stream.normal());
@@ -132,7 +133,7 @@ proptest! {
     fn reaches_found_from_the_leaves_on_are_those_found_from_the_base(
         ordinal in any::<u64>(), links in 1..40u32, near in 1..40u32,
     ) {
-        let mut stream = Seed::of_set(5, "reaches", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "reaches", Ordinal(ordinal)).stream(Purpose::Sampling);
         let robot = with_balls(&mut stream, links, near);
         prop_assert_eq!(robot.reach().to_bits(), reach_of_link(&robot, 0).to_bits());
         let space = robot.space([-1.0; 3], [1.0; 3], 0.5);
@@ -151,7 +152,7 @@ proptest! {
     fn pairs_that_may_touch_are_left_out_in_whatever_order_they_are_listed(
         ordinal in any::<u64>(), links in 2..40u32, listed in 0..60usize,
     ) {
-        let mut stream = Seed::of_set(5, "may touch", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "may touch", Ordinal(ordinal)).stream(Purpose::Sampling);
         let mut robot = with_balls(&mut stream, links, 3);
         let all: Vec<(usize, usize)> = robot.self_pairs().collect();
         let mut drawn = || (f64::from(links) * stream.unit()) as u32;

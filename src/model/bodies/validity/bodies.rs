@@ -95,12 +95,13 @@ pub(super) struct SelfPair {
 }
 
 impl BodyValidity {
-    /// Prepares the bodies. `resolution` is a length; see [`Model::motion`](crate::model::Model::motion).
+    /// Prepares the bodies. `edges` says what is promised of motions; `resolution` is a length; see [`Model::motion`](crate::model::Model::motion).
     pub fn new(
         space: Space,
         robot: &Robot,
         bounds: Bounds,
-        (edges, resolution): (MotionChecking, f64),
+        edges: MotionChecking,
+        resolution: f64,
         obstacles: &[Body],
     ) -> BodyValidity {
         let links = robot.links.iter().enumerate().filter_map(|(link, bodies)| {

@@ -6,12 +6,22 @@ use super::obb::Obb;
 use crate::model::Clearance;
 use parry3d_f64::math::Vector;
 
+/// Which two elements a clearance lies between. The lesser order wins where clearances are equal.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Order {
+    /// Index of the obstacle's element.
+    still: u32,
+    /// The robot's link.
+    link: usize,
+    /// Index of the link's element.
+    mover: u32,
+}
+
 /// A clearance together with what breaks ties.
 #[derive(Clone, Copy)]
 pub(super) struct Best {
     pub clearance: Clearance,
-    /// Indices of the obstacle's element, and of the robot's link and element.
-    order: (u32, usize, u32),
+    order: Order,
 }
 
 impl Meeting<'_> {
@@ -68,14 +78,14 @@ impl Meeting<'_> {
         let element = &self.mover.tree.elements[mover as usize];
         let other = &self.still.tree.elements[still as usize];
         let corners = element.corners.map(|corner| frame.point(corner));
-        let way = self.nearest((element, &corners), other, stance);
+        let way = self.nearest(element, &corners, other, stance);
         let clearance = Clearance {
             distance: way.distance,
             on_robot: way.on_mover.to_array(),
             on_obstacle: way.on_still.to_array(),
             obstacle: other.piece as usize,
         };
-        Best { clearance, order: (still, self.mover_link, mover) }
+        Best { clearance, order: Order { still, link: self.mover_link, mover } }
     }
 }
 

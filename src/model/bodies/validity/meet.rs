@@ -124,6 +124,15 @@ impl Meeting<'_> {
     }
 }
 
+/// An element as one of parry's convex shapes.
+pub(super) struct Support<'a> {
+    pub shape: &'a dyn SupportMap,
+    /// The shape's pose in the world.
+    pub at: Pose,
+    /// How far the element reaches beyond the shape.
+    pub thick: f64,
+}
+
 impl Group {
     /// Makes a group of bodies; `None` if there are none.
     pub fn new<'a>(bodies: impl Iterator<Item = &'a Body>) -> Option<Group> {
@@ -151,17 +160,17 @@ impl Group {
         &self.pieces[element.piece as usize]
     }
 
-    /// An element as one of parry's convex shapes, its pose in the world, and how far the element reaches beyond it.
+    /// An element as one of parry's convex shapes, given where its group stands in the world.
     pub fn support<'a>(
         &'a self,
         element: &Element,
         triangle: &'a Triangle,
         at: &Pose,
-    ) -> (&'a dyn SupportMap, Pose, f64) {
+    ) -> Support<'a> {
         let piece = self.piece(element);
         match piece.primitive().and_then(|shape| shape.as_support_map()) {
-            Some(shape) if element.flat => (shape, piece.place(at), 0.0),
-            _ => (triangle, *at, element.radius),
+            Some(shape) if element.flat => Support { shape, at: piece.place(at), thick: 0.0 },
+            _ => Support { shape: triangle, at: *at, thick: element.radius },
         }
     }
 }

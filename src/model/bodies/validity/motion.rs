@@ -2,6 +2,7 @@
 
 use super::BodyScratch;
 use super::bodies::{BodyValidity, MotionChecking};
+use super::meet::Meeting;
 use super::swept::{Asks, Clock, Finds, find, stays_inside};
 use crate::model::Validity;
 use crate::space::BaseJoint;
@@ -83,12 +84,12 @@ impl BodyValidity {
         scratch: &mut BodyScratch,
     ) -> Option<Finds> {
         let BodyScratch { timeline, stacks, .. } = scratch;
-        let clock = &mut Clock::new((&self.space, &self.robot), (a, b), samples, timeline);
+        let clock = &mut Clock::new(&self.space, &self.robot, (a, b), samples, timeline);
         let inside = bounded
             || self.links.iter().all(|moving| {
-                let rates = self.hops.rates((None, moving.link), (a, b), &mut stacks.descent);
+                let rates = self.hops.rates(None, moving.link, (a, b), &mut stacks.descent);
                 let tree = &moving.group.tree;
-                stays_inside(&self.walls(), (tree, moving.link), &rates, clock, stacks)
+                stays_inside(&self.walls(), tree, moving.link, &rates, clock, stacks)
             });
         if !inside {
             return None;
@@ -103,8 +104,8 @@ impl BodyValidity {
             }
         }
         let mut found = self.meetings().map(|meeting| {
-            let links = (meeting.still_link, meeting.mover_link);
-            let rates = self.hops.rates(links, (a, b), &mut stacks.descent);
+            let Meeting { mover_link, still_link, .. } = meeting;
+            let rates = self.hops.rates(still_link, mover_link, (a, b), &mut stacks.descent);
             find(meeting, rates, asks, clock, stacks)
         });
         Some(found.find(|finds| *finds != Finds::Free).unwrap_or(Finds::Free))

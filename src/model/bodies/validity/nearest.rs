@@ -38,7 +38,8 @@ impl Meeting<'_> {
     /// standing group, and an element of the standing group.
     pub fn nearest(
         &self,
-        (element, corners): (&Element, &[Vector; 3]),
+        element: &Element,
+        corners: &[Vector; 3],
         other: &Element,
         stance: &Stance,
     ) -> ShortestWay {
@@ -61,16 +62,17 @@ impl Meeting<'_> {
     ) -> ShortestWay {
         let (at, other_at) = (stance.pose(Some(self.mover_link)), stance.pose(self.still_link));
         let (hull, other_hull) = (element.triangle(), other.triangle());
-        let (one, one_at, thick) = self.mover.support(element, &hull, &at);
-        let (two, two_at, other_thick) = self.still.support(other, &other_hull, &other_at);
-        let between = one_at.inv_mul(&two_at);
-        let found = closest_points_support_map_support_map(&between, one, two, f64::MAX);
+        let one = self.mover.support(element, &hull, &at);
+        let two = self.still.support(other, &other_hull, &other_at);
+        let between = one.at.inv_mul(&two.at);
+        let found =
+            closest_points_support_map_support_map(&between, one.shape, two.shape, f64::MAX);
         let ClosestPoints::WithinMargin(p, q) = found else {
             return ShortestWay { distance: 0.0, axis: Vector::ZERO, ..round };
         };
-        let (p, q) = (one_at.transform_point(p), two_at.transform_point(q));
+        let (p, q) = (one.at.transform_point(p), two.at.transform_point(q));
         let nearest = (other_at.inverse_transform_point(p), other_at.inverse_transform_point(q));
-        let way = ShortestWay::between(nearest, thick, other_thick);
+        let way = ShortestWay::between(nearest, one.thick, two.thick);
         // A cylinder is at least as far away as the capsule around it.
         ShortestWay { distance: way.distance.max(round.distance), ..way }
     }

@@ -1,6 +1,7 @@
 use super::*;
 use crate::model::bodies::robot::{Joint, JointKind, Limits, Link, Robot};
 use crate::model::{Asked, Model, Scratch};
+use crate::numbers::Ordinal;
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::seed::{Purpose, Seed};
 use crate::space::{BaseJoint, Space, rigid_space};
@@ -41,7 +42,8 @@ fn validity(
         space.clone(),
         &Robot::rigid(motion, robot.to_vec()),
         bounds,
-        (MotionChecking::Swept, 0.05),
+        MotionChecking::Swept,
+        0.05,
         obstacles,
     );
     (space, validity)
@@ -86,7 +88,7 @@ proptest! {
             solid(Shape::Cylinder { radius: 0.7, height: 3.0 }, [0.0, -2.0, 0.0]),
         ];
         let (space, validity) = validity(BaseJoint::Rigid3d, BoundsMeaning::Body, &robot, &obstacles);
-        let mut stream = Seed::of_set(5, "verdicts", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "verdicts", Ordinal(ordinal)).stream(Purpose::Sampling);
         let (mut warm, mut poisoned) = (Scratch::new(), Scratch::new());
         let (mut a, mut b) = (vec![0.0; 7], vec![0.0; 7]);
         for rubbish in 0..40u64 {
@@ -109,7 +111,7 @@ proptest! {
         let bodies = [cuboid([3.0, 1.0, 0.5], [0.7, 0.0, 0.0]), cuboid_mesh([3.0, 1.0, 0.5], [0.7, 0.0, 0.0], true)];
         let (space, boxed) = validity(BaseJoint::Rigid3d, BoundsMeaning::Body, &bodies[..1], &[]);
         let (_, meshed) = validity(BaseJoint::Rigid3d, BoundsMeaning::Body, &bodies[1..], &[]);
-        let mut stream = Seed::of_set(5, "bounds", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "bounds", Ordinal(ordinal)).stream(Purpose::Sampling);
         let mut q = vec![0.0; 7];
         for _ in 0..40 {
             space.sample_uniform(&mut stream, &mut q);
@@ -178,7 +180,7 @@ fn steps_keep_the_promise_of_the_resolution() {
     // A long robot that turns: between two checks its far end moves no farther than 0.05.
     let robot = [cuboid([4.0, 0.1, 0.1], [0.0; 3])];
     let (space, validity) = validity(BaseJoint::Rigid3d, BoundsMeaning::Reference, &robot, &[]);
-    let mut stream = Seed::of_set(5, "steps", 0).stream(Purpose::Sampling);
+    let mut stream = Seed::of_set(5, "steps", Ordinal(0)).stream(Purpose::Sampling);
     let (mut a, mut b, mut q) = (vec![0.0; 7], vec![0.0; 7], vec![0.0; 7]);
     for _ in 0..50 {
         space.sample_uniform(&mut stream, &mut a);
@@ -230,12 +232,12 @@ fn links_that_are_not_neighbours_must_not_touch_unless_they_may() {
     let closed = [turn, turn, turn];
     let space = robot.space(bounds.min, bounds.max, 1.0);
     let validity =
-        BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.05), &[]);
+        BodyValidity::new(space.clone(), &robot, bounds, MotionChecking::Swept, 0.05, &[]);
     assert!(valid(&validity, &straight));
     assert!(!valid(&validity, &closed));
     assert!(validity.motion(&straight, &[2.9, 2.9, 2.9], 1, &mut Scratch::new()).is_none());
     robot.may_touch = vec![(0, 2), (0, 3), (1, 3)];
-    let validity = BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.05), &[]);
+    let validity = BodyValidity::new(space, &robot, bounds, MotionChecking::Swept, 0.05, &[]);
     assert!(valid(&validity, &closed));
 }
 
@@ -247,7 +249,7 @@ fn a_long_chain_stores_one_entry_per_joint_and_two_numbers_per_pair() {
     let far = 2.0 * links as f64;
     let bounds = Bounds { min: [-far; 3], max: [far; 3], meaning: BoundsMeaning::Body };
     let space = robot.space(bounds.min, bounds.max, 1.0);
-    let validity = BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.05), &[]);
+    let validity = BodyValidity::new(space, &robot, bounds, MotionChecking::Swept, 0.05, &[]);
     assert_eq!(validity.hops.len(), links - 1);
     assert_eq!(validity.links.len(), links);
     assert_eq!(validity.self_pairs.len(), (links - 1) * (links - 2) / 2);
@@ -265,8 +267,7 @@ fn a_linkage_collides_with_obstacles_and_leaves_the_bounds_by_any_link() {
     let bounds = Bounds { min: [-4.0, -1.5, -1.0], max: [4.0; 3], meaning: BoundsMeaning::Body };
     let space = robot.space(bounds.min, bounds.max, 1.0);
     let obstacle = [cuboid([0.5; 3], [2.5, 0.0, 0.0])];
-    let validity =
-        BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.05), &obstacle);
+    let validity = BodyValidity::new(space, &robot, bounds, MotionChecking::Swept, 0.05, &obstacle);
     assert!(!valid(&validity, &[0.0, 0.0]), "the last link lies in the obstacle");
     assert!(valid(&validity, &[0.0, 1.5]));
     assert!(valid(&validity, &[1.0, 0.0]));
@@ -283,8 +284,8 @@ proptest! {
             let robot = chain(4, motion);
             let bounds = Bounds { min: [-9.0; 3], max: [9.0; 3], meaning: BoundsMeaning::Reference };
             let space = robot.space(bounds.min, bounds.max, 1.0);
-            let validity = BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.3), &[]);
-            let mut stream = Seed::of_set(5, "linkage steps", ordinal).stream(Purpose::Sampling);
+            let validity = BodyValidity::new(space.clone(), &robot, bounds, MotionChecking::Swept, 0.3, &[]);
+            let mut stream = Seed::of_set(5, "linkage steps", Ordinal(ordinal)).stream(Purpose::Sampling);
             let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);
             let mut q = a.clone();
             space.sample_uniform(&mut stream, &mut a);

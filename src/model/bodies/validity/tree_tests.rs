@@ -10,6 +10,7 @@ use crate::lanes::Lanes;
 use crate::model::bodies::robot::rates_tests::drawn_pose;
 use crate::model::bodies::robot::{Link, Robot};
 use crate::model::{Clearances, Scratch};
+use crate::numbers::Ordinal;
 use crate::scene::{Body, Mesh, Shape};
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::BaseJoint;
@@ -41,7 +42,7 @@ fn soup(stream: &mut Stream, count: u32) -> Body {
 proptest! {
     #[test]
     fn surfaces_meet_when_any_pair_of_their_triangles_does(ordinal in any::<u64>()) {
-        let mut stream = Seed::of_set(5, "trees", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "trees", Ordinal(ordinal)).stream(Purpose::Sampling);
         let still = [soup(&mut stream, 30), soup(&mut stream, 3)];
         let mover = [soup(&mut stream, 1), soup(&mut stream, 12)];
         let [still, mover] = [&still, &mover].map(|bodies| Group::new(bodies.iter()).unwrap());
@@ -62,7 +63,7 @@ proptest! {
     /// Every box holds the boxes and elements below it, and the root holds every element once.
     #[test]
     fn boxes_hold_what_is_below_them(ordinal in any::<u64>()) {
-        let mut stream = Seed::of_set(5, "boxes", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "boxes", Ordinal(ordinal)).stream(Purpose::Sampling);
         let shapes = [
             soup(&mut stream, 20),
             cuboid([1.0, 0.1, 2.0], [0.5, 0.0, 1.0]),
@@ -98,7 +99,7 @@ proptest! {
     /// The clearance is the least distance of all pairs, whatever the order of the search.
     #[test]
     fn the_clearance_is_the_least_of_all_pairs(ordinal in any::<u64>()) {
-        let mut stream = Seed::of_set(5, "clearance", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "clearance", Ordinal(ordinal)).stream(Purpose::Sampling);
         let obstacles = [
             soup(&mut stream, 12),
             solid(Shape::Sphere { radius: 0.3 }, [-2.0, 0.0, 0.0]),
@@ -115,7 +116,7 @@ proptest! {
         let bounds = Bounds { min: [-5.0; 3], max: [5.0; 3], meaning: BoundsMeaning::Reference };
         let space = robot.space(bounds.min, bounds.max, 1.0);
         let validity =
-            BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.1), &obstacles);
+            BodyValidity::new(space.clone(), &robot, bounds, MotionChecking::Swept, 0.1, &obstacles);
         let still = Group::new(obstacles.iter()).unwrap();
         let mover = Group::new(robot.bodies()).unwrap();
         let meeting =
@@ -131,7 +132,7 @@ proptest! {
             for second in &still.tree.elements {
                 for first in &mover.tree.elements {
                     let corners = first.corners.map(|corner| frame.point(corner));
-                    let way = meeting.nearest((first, &corners), second, &stance);
+                    let way = meeting.nearest(first, &corners, second, &stance);
                     if way.distance < least.0 {
                         least = (way.distance, second.piece as usize);
                     }
@@ -162,7 +163,7 @@ fn distances_are_what_they_are() {
     let bounds = Bounds { min: [-5.0; 3], max: [5.0; 3], meaning: BoundsMeaning::Reference };
     let space = robot.space(bounds.min, bounds.max, 1.0);
     let validity =
-        BodyValidity::new(space.clone(), &robot, bounds, (MotionChecking::Swept, 0.1), &obstacles);
+        BodyValidity::new(space.clone(), &robot, bounds, MotionChecking::Swept, 0.1, &obstacles);
     let clearance = |q: [f64; 3]| validity.clearance(&q, &mut Scratch::new()).unwrap();
     let beside = clearance([0.0, 1.0, 0.2]);
     assert_eq!((beside.distance, beside.obstacle), (0.25, 0));
@@ -171,6 +172,6 @@ fn distances_are_what_they_are() {
     let above = clearance([3.3, 0.0, 1.0]);
     assert!((above.distance - 0.25).abs() < 1e-9 && above.obstacle == 1, "{above:?}");
     assert_eq!(clearance([3.0, 0.4, 0.0]).distance, 0.0);
-    let validity = BodyValidity::new(space, &robot, bounds, (MotionChecking::Swept, 0.1), &[]);
+    let validity = BodyValidity::new(space, &robot, bounds, MotionChecking::Swept, 0.1, &[]);
     assert_eq!(validity.clearance(&[0.0; 3], &mut Scratch::new()), None);
 }

@@ -3,6 +3,7 @@ use crate::lanes::{Lanes, with_lanes};
 use crate::math;
 use crate::model::bodies::robot::rates_tests::drawn_pose;
 use crate::model::bodies::validity::frame::Frame;
+use crate::numbers::Ordinal;
 use crate::seed::{Purpose, Seed, Stream};
 use fearless_simd::f32x4;
 use proptest::prelude::*;
@@ -22,7 +23,7 @@ pub(in crate::model::bodies::validity) fn touching(
     ordinal: u64,
     power: i32,
 ) -> (LightBox, LightBox, Frame, f64) {
-    let mut stream = Seed::of_set(5, "light", ordinal).stream(Purpose::Sampling);
+    let mut stream = Seed::of_set(5, "light", Ordinal(ordinal)).stream(Purpose::Sampling);
     let size = math::exp(f64::from(power) * std::f64::consts::LN_10);
     let (mover, mut frame) = drawn(&mut stream, size);
     let (still, _) = drawn(&mut stream, size);

@@ -55,7 +55,8 @@ impl<S: Simd> Chord<S> {
     pub fn new(
         simd: S,
         course: &Course,
-        (samples, step): (Samples, f64),
+        samples: Samples,
+        step: f64,
         frames: [&Frame; 2],
     ) -> Chord<S> {
         let Course { rates, spare, slack, grain } = course;
@@ -219,7 +220,7 @@ mod tests {
                 with_lanes!(lanes, simd => {
                     let samples = Samples { from: 0, to: 1 << 20 };
                     let step = 1.0 / f64::from(1 << 20);
-                    let chord = Chord::new(simd, &course, (samples, step), [frame, frame]);
+                    let chord = Chord::new(simd, &course, samples, step, [frame, frame]);
                     let swept = SweptBoxes::new(simd, &course, &chord, &Four::same(simd, &own));
                     let met = swept.meets(simd, &Four::new(simd, [&other; 4]), Span::ALL, &[Span::ALL; 4]);
                     met.spans(4).filter(|(_, span)| span.from <= 0.0 && span.to >= 1.0).count()

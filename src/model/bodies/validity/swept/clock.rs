@@ -40,7 +40,8 @@ pub(in crate::model::bodies::validity) struct Clock<'a> {
 
 impl<'a> Clock<'a> {
     pub fn new(
-        (space, robot): (&'a Space, &'a Robot),
+        space: &'a Space,
+        robot: &'a Robot,
         (a, b): (&'a [f64], &'a [f64]),
         samples: u64,
         timeline: &'a mut Timeline,

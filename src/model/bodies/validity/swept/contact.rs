@@ -113,7 +113,7 @@ impl<S: Simd> Sweep<'_, '_, S> {
             return Some(Apart::Along(axis, gap - thick));
         }
         // Not conclusive: elements may be farther apart than the widest gap along any of the axes tried.
-        let way = self.meeting.nearest((element, corners), other, self.clock.at(sample));
+        let way = self.meeting.nearest(element, corners, other, self.clock.at(sample));
         let flat = element.flat || other.flat;
         (way.distance > margin).then_some(match flat {
             true => Apart::By(way.distance),

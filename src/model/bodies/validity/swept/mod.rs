@@ -37,6 +37,16 @@ mod tests;
 /// Nodes of the standing tree, each with the stretch of time in which the moving box at hand may meet it.
 type Open = Vec<(u32, Span)>;
 
+/// A node of the standing tree that a child of the moving box at hand may meet, and when.
+#[derive(Clone, Copy, Debug)]
+struct NearChild {
+    /// Which of the children, from 0.
+    child: u32,
+    /// The node of the standing tree.
+    still: u32,
+    span: Span,
+}
+
 /// Memory for the recursion. The lists are stacks: each level works above what the levels before it left.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stacks {
@@ -48,8 +58,8 @@ pub(super) struct Stacks {
     halves: Open,
     /// Nodes that are to be tested against the children of the box.
     children: Open,
-    /// Nodes that no axis separates from a child of the box, each after the number of that child.
-    found: Vec<(u32, u32, Span)>,
+    /// Nodes that no axis separates from a child of the box.
+    found: Vec<NearChild>,
     /// Pairs of nodes, for tests at a single sample.
     pub pairs: Vec<(u32, u32)>,
     /// Of the bounds on the motion of a link: the links on the way down to it.
@@ -70,7 +80,7 @@ impl Stacks {
         self.near = vec![entry; rubbish as usize % 7];
         self.halves = vec![entry; rubbish as usize % 5];
         self.children = vec![entry; rubbish as usize % 2];
-        self.found = vec![(7, u32::MAX, span); rubbish as usize % 4];
+        self.found = vec![NearChild { child: 7, still: u32::MAX, span }; rubbish as usize % 4];
         self.pairs = vec![(u32::MAX, 7); rubbish as usize % 3];
         self.descent = vec![usize::MAX; rubbish as usize % 4];
         self.inside = vec![(u32::MAX, Samples { from: 7, to: rubbish }); rubbish as usize % 6];

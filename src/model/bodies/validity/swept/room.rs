@@ -57,7 +57,8 @@ impl Walls {
 /// line.
 pub(in crate::model::bodies::validity) fn stays_inside(
     walls: &Walls,
-    (tree, link): (&Tree, usize),
+    tree: &Tree,
+    link: usize,
     rates: &Rates,
     clock: &mut Clock,
     Stacks { inside: open, .. }: &mut Stacks,

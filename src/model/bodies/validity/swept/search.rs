@@ -5,7 +5,7 @@ use super::chord::{Chord, Course, SweptBoxes};
 use super::clip::MOMENT;
 use super::clock::Clock;
 use super::span::{Samples, Span};
-use super::{Asks, BEND, Finds, Stacks};
+use super::{Asks, BEND, Finds, NearChild, Stacks};
 use crate::model::bodies::robot::Rates;
 use crate::model::bodies::validity::frame::Frame;
 use crate::model::bodies::validity::light::Four;
@@ -20,6 +20,14 @@ const PATIENCE: f64 = 48.0;
 /// sample is checked after this many tests of boxes already, and there the whole group is checked instead of
 /// the two nodes that the search has come to.
 const OFTEN: (u32, f64) = (4, 2.0);
+
+/// Where a search has come to: a node of the moving tree and one of the standing tree, and when the two may meet.
+#[derive(Clone, Copy)]
+struct NearPair {
+    node: u32,
+    still: u32,
+    span: Span,
+}
 
 /// The search for contacts between two groups of bodies during a motion.
 pub(super) struct Sweep<'a, 'c, S: Simd> {
@@ -105,14 +113,13 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         simd.vectorize(
             #[inline(always)]
             || {
-                let chord =
-                    Chord::new(simd, &self.course, (samples, step), [&frames[0], &frames[1]]);
+                let chord = Chord::new(simd, &self.course, samples, step, [&frames[0], &frames[1]]);
                 self.stacks.work.count(|work| work.placed += 1);
                 let own = Four::same(simd, &self.meeting.mover.tree.boxes[node as usize]);
                 let swept = SweptBoxes::new(simd, &self.course, &chord, &own);
                 let base = self.stacks.near.len();
                 self.find_near(node, &chord, &swept)
-                    || self.comes_near(node, &chord, (&swept, None), base)
+                    || self.comes_near(node, &chord, &swept, None, base)
             },
         )
     }
@@ -135,9 +142,9 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             let met = met.spans(batch.len()).filter(|(_, span)| asks.about(*span, last));
             near.extend(met.map(|(lane, span)| (batch[lane].0, span)));
         }
-        let first = open.first().map_or((0, Span::ALL), |first| *first);
+        let (still, span) = open.first().map_or((0, Span::ALL), |first| *first);
         open.clear();
-        self.tires(tests, (node, first.0, first.1))
+        self.tires(tests, NearPair { node, still, span })
     }
 
     /// [`Sweep::blocked`] for the nodes of the list `near` from `base` on: nodes that the box of `node` may meet.
@@ -147,7 +154,8 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         &mut self,
         node: u32,
         chord: &Chord<S>,
-        (swept, lane): (&SweptBoxes<S>, Option<usize>),
+        swept: &SweptBoxes<S>,
+        lane: Option<usize>,
         base: usize,
     ) -> bool {
         let simd = self.simd;
@@ -182,7 +190,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
                 work.count(|work| work.tested(nodes.len()));
                 let met = met.spans(nodes.len()).filter(|(_, span)| asks.about(*span, last));
                 near.extend(met.map(|(lane, span)| (nodes[lane], span)));
-                if self.tires(nodes.len(), (node, still, span)) {
+                if self.tires(nodes.len(), NearPair { node, still, span }) {
                     return true;
                 }
             }
@@ -247,19 +255,23 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             let met = swept.meets(simd, &four, chord.span, &[*span; 4]);
             work.count(|work| work.tested(nodes.len()));
             let met = met.spans(nodes.len()).filter(|(_, span)| asks.about(*span, last));
-            found.extend(met.map(|(lane, span)| (lane as u32, *still, span)));
+            found.extend(met.map(|(lane, span)| NearChild {
+                child: lane as u32,
+                still: *still,
+                span,
+            }));
         }
         let tests = nodes.len() * (children.len() - list);
         let (still, span) = children[list];
         children.truncate(list);
-        if self.tires(tests, (node, still, span)) {
+        if self.tires(tests, NearPair { node, still, span }) {
             return true;
         }
         for (lane, child) in nodes.iter().enumerate() {
             let Stacks { near, found, .. } = &mut *self.stacks;
             let base = near.len();
-            let of_child = found[first..].iter().filter(|(of, ..)| *of == lane as u32);
-            near.extend(of_child.map(|(_, still, span)| (*still, *span)));
+            let of_child = found[first..].iter().filter(|near| near.child == lane as u32);
+            near.extend(of_child.map(|near| (near.still, near.span)));
             if near.len() > base && self.child_blocked(*child, chord, &swept, lane, base) {
                 return true;
             }
@@ -280,20 +292,20 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let simd = self.simd;
         simd.vectorize(
             #[inline(always)]
-            || self.comes_near(node, chord, (swept, Some(lane)), base),
+            || self.comes_near(node, chord, swept, Some(lane), base),
         )
     }
 
     /// Counts tests of boxes. When a sample is due to be checked ([`PATIENCE`]), checks it and returns whether
     /// surfaces meet there: those below the two nodes, at a sample within the span in which they may meet, or any.
     #[inline(always)]
-    fn tires(&mut self, tests: usize, near: (u32, u32, Span)) -> bool {
+    fn tires(&mut self, tests: usize, near: NearPair) -> bool {
         self.patience -= tests as f64;
         self.patience <= 0.0 && self.meets_at_a_sample(near)
     }
 
     #[inline(never)]
-    fn meets_at_a_sample(&mut self, (node, still, span): (u32, u32, Span)) -> bool {
+    fn meets_at_a_sample(&mut self, NearPair { node, still, span }: NearPair) -> bool {
         let last = self.clock.samples;
         if last < 2 {
             return false;

@@ -1,12 +1,13 @@
 //! Continuous collision detection against discrete checks at much finer steps.
 
-use super::super::meet::Group;
+use super::super::meet::{Group, Meeting};
 use super::super::tests::{chain, cuboid, cuboid_mesh, solid};
 use super::super::{BodyScratch, BodyValidity, Bounds, BoundsMeaning, MotionChecking, TOLERANCE};
 use super::{Clock, Walls};
 use crate::lanes::Lanes;
 use crate::model::bodies::robot::{Joint, JointKind, Limits, Link, Rates, Robot};
 use crate::model::{Clearances, Model, Scratch};
+use crate::numbers::Ordinal;
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::{BaseJoint, Space};
@@ -28,9 +29,8 @@ const FINER: u64 = 16;
 fn scene(name: &'static str, robot: &Robot, obstacles: &[Body], meaning: BoundsMeaning) -> Scene {
     let bounds = Bounds { min: [-3.0; 3], max: [3.0; 3], meaning };
     let space = robot.space(bounds.min, bounds.max, 1.0);
-    let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled].map(|edges| {
-        BodyValidity::new(space.clone(), robot, bounds, (edges, RESOLUTION), obstacles)
-    });
+    let [swept, sampled] = [MotionChecking::Swept, MotionChecking::Sampled]
+        .map(|edges| BodyValidity::new(space.clone(), robot, bounds, edges, RESOLUTION, obstacles));
     let reversed: Vec<Body> = obstacles
         .iter()
         .rev()
@@ -43,8 +43,8 @@ fn scene(name: &'static str, robot: &Robot, obstacles: &[Body], meaning: BoundsM
             _ => body.clone(),
         })
         .collect();
-    let promise = (MotionChecking::Swept, RESOLUTION);
-    let reversed = BodyValidity::new(space.clone(), robot, bounds, promise, &reversed);
+    let promise = MotionChecking::Swept;
+    let reversed = BodyValidity::new(space.clone(), robot, bounds, promise, RESOLUTION, &reversed);
     Scene { name, space, swept, sampled, reversed }
 }
 
@@ -152,22 +152,21 @@ impl BodyValidity {
         let time = 1.0 / samples as f64;
         let finest = self.resolution / TOLERANCE as f64;
         let BodyScratch { timeline, stacks, .. } = scratch.of_model();
-        let clock = &mut Clock::new((&self.space, &self.robot), (a, b), samples, timeline);
+        let clock = &mut Clock::new(&self.space, &self.robot, (a, b), samples, timeline);
         let reach = |group: &Group, rates: &Rates| {
             group.tree.elements.iter().fold(0.0f64, |most, e| most.max(e.reach(rates)))
         };
         (0..=samples).any(|sample| {
             let stance = clock.at(sample);
             self.meetings().any(|meeting| {
-                let links = (meeting.still_link, meeting.mover_link);
-                let rates = self.hops.rates(links, (a, b), &mut stacks.descent);
+                let Meeting { mover_link, still_link, .. } = meeting;
+                let rates = self.hops.rates(still_link, mover_link, (a, b), &mut stacks.descent);
                 let tolerance = 0.5 * time * rates.speed_at(reach(meeting.mover, &rates));
                 let way = meeting.nearer(stance, &mut stacks.pairs, None);
                 way.is_some_and(|best| best.clearance.distance <= tolerance + finest + self.slack)
             }) || self.bounds.meaning == BoundsMeaning::Body
                 && self.links.iter().any(|moving| {
-                    let seen = (None, moving.link);
-                    let rates = self.hops.rates(seen, (a, b), &mut stacks.descent);
+                    let rates = self.hops.rates(None, moving.link, (a, b), &mut stacks.descent);
                     let space = &moving.group.tree.nodes[0].space;
                     let far = space.radius + rates.distance(space.centre);
                     let between = 0.5 * time * rates.speed_at(far);
@@ -187,7 +186,7 @@ fn swept_motions_are_free_between_the_steps() {
     let scratch = &mut Scratch::new();
     let (mut accepted, mut free, mut refused) = (0, 0, 0);
     for scene in scenes() {
-        let mut stream = Seed::of_set(5, scene.name, 0).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, scene.name, Ordinal(0)).stream(Purpose::Sampling);
         for (a, b) in motions(&scene, &mut stream, 150) {
             let swept = scene.swept.motion(&a, &b, 1, scratch).is_some();
             let steps = FINER * scene.swept.steps(&a, &b, 1);
@@ -213,7 +212,7 @@ fn swept_motions_are_free_between_the_steps() {
 fn sampled_motions_are_what_their_steps_are() {
     let scratch = &mut Scratch::new();
     for scene in scenes() {
-        let mut stream = Seed::of_set(5, scene.name, 1).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, scene.name, Ordinal(1)).stream(Purpose::Sampling);
         for (a, b) in motions(&scene, &mut stream, 100) {
             let steps = scene.sampled.steps(&a, &b, 1);
             let expected = scene.sampled.free_at_steps(&a, &b, steps, scratch.of_model());
@@ -234,7 +233,7 @@ proptest! {
         let (mut warm, mut poisoned) = (Scratch::new(), Scratch::new());
         let scenes = scenes();
         let scene = &scenes[ordinal as usize % scenes.len()];
-        let mut stream = Seed::of_set(5, "scratch", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "scratch", Ordinal(ordinal)).stream(Purpose::Sampling);
         for (i, (a, b)) in motions(scene, &mut stream, 5).into_iter().enumerate() {
             for validity in [&scene.swept, &scene.sampled] {
                 let cold = validity.motion(&a, &b, 1, &mut Scratch::new()).is_some();
@@ -256,7 +255,7 @@ proptest! {
         let mut scenes = scenes();
         let at = ordinal as usize % scenes.len();
         let scene = &mut scenes[at];
-        let mut stream = Seed::of_set(5, "lanes", ordinal).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "lanes", Ordinal(ordinal)).stream(Purpose::Sampling);
         let motions = motions(scene, &mut stream, 20);
         let scratch = &mut Scratch::new();
         let mut judged = Lanes::all().into_iter().map(|lanes| {
