@@ -23,7 +23,7 @@ fn a_built_problem_is_that_of_its_file() {
         ("tests/problems/planar.toml", planar()),
         (
             "tests/problems/meshes.toml",
-            meshes(|scale| ShapeSpec::Mesh { file: "tetrahedron.obj".into(), scale }),
+            meshes(|scale| ShapeSpec::Mesh { file: "tetrahedron.obj".into(), scale, weld: 1e-6 }),
         ),
         ("tests/problems/ball.toml", ball()),
         ("tests/problems/arm.toml", arm()),
@@ -61,7 +61,7 @@ fn a_mesh_in_memory_is_one_of_a_file() {
         vertices.push([9.0; 3]);
         let mut triangles: Vec<[u32; 3]> = (0..4).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         triangles.extend([[2, 1, 0], [0, 0, 1]]);
-        ShapeSpec::Triangles { vertices, triangles, scale }
+        ShapeSpec::Triangles { vertices, triangles, scale, weld: 1e-6 }
     };
     let folder = tempfile::tempdir().expect("a scratch folder");
     let ShapeSpec::Triangles { vertices, triangles, .. } = untidy(1.0) else { unreachable!() };
@@ -72,7 +72,7 @@ fn a_mesh_in_memory_is_one_of_a_file() {
         obj += &format!("f {a} {b} {c}\n");
     });
     std::fs::write(folder.path().join("untidy.obj"), obj).expect("it can be written");
-    let of_file = meshes(|scale| ShapeSpec::Mesh { file: "untidy.obj".into(), scale });
+    let of_file = meshes(|scale| ShapeSpec::Mesh { file: "untidy.obj".into(), scale, weld: 1e-6 });
     let of_file = of_file.folder(folder.path()).build().expect("a sound problem");
     let built = meshes(untidy).build().expect("a sound problem");
     assert_eq!(built.digest(), of_file.digest());
@@ -297,7 +297,7 @@ fn methods_nest_as_deep_as_a_file_can_say() {
 fn wrong_meshes_in_memory_name_the_item() {
     let mesh = |vertices: &[[f64; 3]], triangles: &[[u32; 3]], scale| {
         let (vertices, triangles) = (vertices.to_vec(), triangles.to_vec());
-        let shape = ShapeSpec::Triangles { vertices, triangles, scale };
+        let shape = ShapeSpec::Triangles { vertices, triangles, scale, weld: 1e-6 };
         let added = planar().change_model(|m| m.change_bodies(|b| b.obstacle(shape)));
         added.build().map(|_| ()).expect_err("a wrong mesh").to_string()
     };

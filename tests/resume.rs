@@ -255,7 +255,8 @@ fn a_chapter_changes_nothing_that_sets_depend_on() {
     assert_eq!((next.digest(), next.limits()), (problem.digest(), limits));
     // Another one before the first round replaces the first.
     let labels = |problem: &Problem| -> Vec<String> {
-        let of = |strategy: &StrategyIndex| problem.strategies()[strategy.index()].label().to_owned();
+        let of =
+            |strategy: &StrategyIndex| problem.strategies()[strategy.index()].label().to_owned();
         problem.schedule().iter().map(of).collect()
     };
     let next = problem.continued(&further(), 0).unwrap();

@@ -1,11 +1,19 @@
-//! Where a problem comes from, the text of a file or the values of a program, and errors that say where in it
-//! something is wrong.
+//! Where a problem comes from: how files are opened and their bytes become text, the text of a problem file or the
+//! values of a program, and errors that say where in it something is wrong.
 
 mod error;
+mod file;
 mod names;
+mod plain;
+mod text;
+mod xml;
 
 pub use error::ProblemError;
+pub(crate) use file::read_file;
 pub(crate) use names::{fits, fitting, fitting_name};
+pub(crate) use plain::plain;
+pub(crate) use text::{NoText, text_of, xml_text};
+pub(crate) use xml::too_many_attributes;
 
 use crate::digest::SourceFile;
 use serde::Serialize;

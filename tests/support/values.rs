@@ -102,7 +102,12 @@ pub fn meshes(tetrahedron: impl Fn(f64) -> ShapeSpec) -> ProblemBuilder {
 
 /// Meshes in memory.
 pub fn in_memory(scale: f64) -> ShapeSpec {
-    ShapeSpec::Triangles { vertices: TETRAHEDRON.to_vec(), triangles: FACES.to_vec(), scale }
+    ShapeSpec::Triangles {
+        vertices: TETRAHEDRON.to_vec(),
+        triangles: FACES.to_vec(),
+        scale,
+        weld: 1e-6,
+    }
 }
 
 /// `tests/problems/ball.toml`: a base that stands still and two joints.

@@ -68,7 +68,9 @@ fn body(body: &Body) -> BodySpec {
             ShapeSpec::Capsule { radius: *radius, height: *height }
         }
         Shape::Mesh(Mesh { vertices, triangles }) => {
-            ShapeSpec::triangles(vertices.clone(), triangles.clone())
+            // As the mesh is: nothing is left to be joined.
+            let (vertices, triangles) = (vertices.clone(), triangles.clone());
+            ShapeSpec::Triangles { vertices, triangles, scale: 1.0, weld: 0.0 }
         }
     };
     let is_mesh = matches!(body.shape, Shape::Mesh(_));

@@ -4,10 +4,13 @@ use super::robot::Robot;
 use super::spec::{BodySpec, FrameSpec, ShapeSpec, Solid};
 use crate::digest::SourceFile;
 use crate::math;
-use crate::scene::{Body, LENGTH_MAX, Mesh, MeshOptions, Pose, Shape, read_mesh_with};
+use crate::scene::{Body, LENGTH_MAX, MeshOptions, Pose, ReadMesh, Shape, Weld, read_mesh_with};
 use crate::source::Step::{self, Index, Key};
 use crate::source::{ProblemError, Source};
 use crate::space::{canonical, stored_form};
+
+/// The largest share of a mesh's size that its vertices may be apart and be one.
+const WELD_MAX: f64 = 0.01;
 
 /// Makes the bodies that are asked for at `place`.
 pub(super) fn bodies(
@@ -21,8 +24,10 @@ pub(super) fn bodies(
         let at = |key| [place, &[Index(index), Key(key)]].concat();
         let pose =
             pose_of(&spec.frame()).map_err(|(key, message)| source.error(&at(key), message))?;
-        let shape =
-            shape_of(source, &spec.shape).map_err(|message| source.error(&at("shape"), message))?;
+        let what = if place.len() == 1 { "obstacle" } else { "robot body" };
+        let what = format!("{what} {index}");
+        let (shape, pairs) = shape_of(source, &spec.shape, &what, notes)
+            .map_err(|message| source.error(&at("shape"), message))?;
         let solid = match (&shape, spec.solid) {
             (Shape::Mesh(mesh), Solid::Yes) if !mesh.is_closed() => {
                 let message = format!(
@@ -34,12 +39,10 @@ pub(super) fn bodies(
             }
             (Shape::Mesh(mesh), Solid::Auto) => {
                 let closed = mesh.is_closed();
-                let what = if place.len() == 1 { "obstacle" } else { "robot body" };
-                let found = match mesh.odd_edges() {
-                    0 => "the mesh is closed".to_owned(),
-                    odd => format!("the mesh has {odd} open edges"),
-                };
-                notes.push(format!("{what} {index}: solid = {closed}, as {found}"));
+                notes.push(format!(
+                    "{what}: solid = {closed}, as {}",
+                    found(mesh.odd_edges(), pairs)
+                ));
                 closed
             }
             (Shape::Mesh(_), Solid::Yes) => true,
@@ -102,7 +105,33 @@ fn rotation_about(axis: [f64; 3], degrees: f64) -> [f64; 4] {
     canonical(quaternion).unwrap_or(Pose::IDENTITY.rotation)
 }
 
-fn shape_of(source: &Source, spec: &ShapeSpec) -> Result<Shape, String> {
+/// What decides whether a mesh is solid: its open edges, and pairs of equal triangles that were kept to close it.
+pub(super) fn found(odd_edges: usize, pairs: usize) -> String {
+    match (odd_edges, pairs) {
+        (0, 0) => "the mesh is closed".to_owned(),
+        (0, 1) => {
+            "the mesh is closed but for a wall within it, 1 pair of equal triangles".to_owned()
+        }
+        (0, _) => {
+            format!("the mesh is closed but for walls within it, {pairs} pairs of equal triangles")
+        }
+        (odd, _) => format!("the mesh has {odd} open edges"),
+    }
+}
+
+/// How far apart vertices are that had to be joined to close a mesh.
+pub(super) fn closed_by(read: &ReadMesh) -> Option<String> {
+    let (length, open) = read.closed_by?;
+    Some(format!("vertices at most {length:.3e} apart joined, without which {open} edges are open"))
+}
+
+/// Makes a shape, and says of a mesh how many pairs of equal triangles it keeps.
+fn shape_of(
+    source: &Source,
+    spec: &ShapeSpec,
+    what: &str,
+    notes: &mut Vec<String>,
+) -> Result<(Shape, usize), String> {
     let length = |key: &str, value: f64| {
         if value > 0.0 && value <= LENGTH_MAX {
             Ok(value)
@@ -110,39 +139,52 @@ fn shape_of(source: &Source, spec: &ShapeSpec) -> Result<Shape, String> {
             Err(format!("{key} = {value} found; a positive length expected"))
         }
     };
-    Ok(match spec {
-        ShapeSpec::Point {} => Shape::Point,
+    let mesh_options = |scale: f64, weld: f64| {
+        length("scale", scale)?;
+        if !(0.0..=WELD_MAX).contains(&weld) {
+            let expected = format!("a share of the mesh's size from 0 to {WELD_MAX} expected");
+            return Err(format!("weld = {weld} found; {expected}"));
+        }
+        let weld = Weld::ToClose(weld);
+        Ok(MeshOptions { scale: [scale; 3], weld, ..MeshOptions::default() })
+    };
+    let (read, weld) = match spec {
+        ShapeSpec::Point {} => return Ok((Shape::Point, 0)),
         ShapeSpec::Box { size } => {
             for edge in size {
                 length("size", *edge)?;
             }
-            Shape::Box { size: *size }
+            return Ok((Shape::Box { size: *size }, 0));
         }
-        ShapeSpec::Sphere { radius } => Shape::Sphere { radius: length("radius", *radius)? },
-        ShapeSpec::Cylinder { radius, height } => Shape::Cylinder {
-            radius: length("radius", *radius)?,
-            height: length("height", *height)?,
-        },
-        ShapeSpec::Capsule { radius, height } => Shape::Capsule {
-            radius: length("radius", *radius)?,
-            height: length("height", *height)?,
-        },
-        ShapeSpec::Mesh { file, scale } => {
-            length("scale", *scale)?;
-            let options = MeshOptions { scale: [*scale; 3], ..MeshOptions::default() };
+        ShapeSpec::Sphere { radius } => {
+            return Ok((Shape::Sphere { radius: length("radius", *radius)? }, 0));
+        }
+        ShapeSpec::Cylinder { radius, height } => {
+            let (radius, height) = (length("radius", *radius)?, length("height", *height)?);
+            return Ok((Shape::Cylinder { radius, height }, 0));
+        }
+        ShapeSpec::Capsule { radius, height } => {
+            let (radius, height) = (length("radius", *radius)?, length("height", *height)?);
+            return Ok((Shape::Capsule { radius, height }, 0));
+        }
+        ShapeSpec::Mesh { file, scale, weld } => {
+            let options = mesh_options(*scale, *weld)?;
             let read = read_mesh_with(&source.folder.join(file), &options);
             let read = read.map_err(|error| error.to_string())?;
             let path = file.to_string_lossy().into_owned();
             source.read(SourceFile { path, digest: read.digest });
-            Shape::Mesh(read.mesh)
+            (read, weld)
         }
-        ShapeSpec::Triangles { vertices, triangles, scale } => {
-            length("scale", *scale)?;
-            let options = MeshOptions { scale: [*scale; 3], ..MeshOptions::default() };
-            let mesh = Mesh::of_triangles(vertices.clone(), triangles.clone(), &options);
-            Shape::Mesh(mesh.map_err(|error| error.to_string())?)
+        ShapeSpec::Triangles { vertices, triangles, scale, weld } => {
+            let options = mesh_options(*scale, *weld)?;
+            let read = ReadMesh::of_triangles(vertices.clone(), triangles.clone(), &options);
+            (read.map_err(|error| error.to_string())?, weld)
         }
-    })
+    };
+    if let Some(joined) = closed_by(&read) {
+        notes.push(format!("{what}: {joined} (weld = {weld:e})"));
+    }
+    Ok((Shape::Mesh(read.mesh), read.pairs))
 }
 
 /// Checks the robot and the obstacles against one another.

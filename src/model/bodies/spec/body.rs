@@ -1,4 +1,5 @@
 use super::frame::{FrameSpec, TurnSpec};
+use crate::scene::WELD_SHARE;
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -116,6 +117,10 @@ pub enum ShapeSpec {
         /// What coordinates are multiplied by.
         #[serde(default = "one")]
         scale: f64,
+        /// The share of the mesh's size that vertices may be apart and be one, where that closes the surface; 0 for
+        /// none, at most 0.01.
+        #[serde(default = "weld_share")]
+        weld: f64,
     },
     /// Triangles in memory, which become what a file with the same ones would: equal vertices are joined, flat and
     /// repeated triangles dropped.
@@ -127,23 +132,29 @@ pub enum ShapeSpec {
         triangles: Vec<[u32; 3]>,
         /// What coordinates are multiplied by.
         scale: f64,
+        /// As of [`ShapeSpec::Mesh`].
+        weld: f64,
     },
 }
 
 impl ShapeSpec {
     /// The triangles of a file, as [`ShapeSpec::Mesh`] with scale 1.
     pub fn mesh_file(file: impl Into<PathBuf>) -> ShapeSpec {
-        ShapeSpec::Mesh { file: file.into(), scale: one() }
+        ShapeSpec::Mesh { file: file.into(), scale: one(), weld: weld_share() }
     }
 
     /// Triangles in memory, as [`ShapeSpec::Triangles`] with scale 1.
     pub fn triangles(vertices: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> ShapeSpec {
-        ShapeSpec::Triangles { vertices, triangles, scale: one() }
+        ShapeSpec::Triangles { vertices, triangles, scale: one(), weld: weld_share() }
     }
 }
 
 fn one() -> f64 {
     1.0
+}
+
+fn weld_share() -> f64 {
+    WELD_SHARE
 }
 
 /// `"auto"`, `true` or `false`.
