@@ -83,10 +83,9 @@ impl Scene {
             }
             return scene;
         }
-        for axis in 0..3 {
-            scene.bounds.min[axis] += by[axis];
-            scene.bounds.max[axis] += by[axis];
-            scene.robot.base.translation[axis] += by[axis];
+        let Scene { bounds, robot, .. } = &mut scene;
+        for place in [&mut bounds.min, &mut bounds.max, &mut robot.base.translation] {
+            *place = [0, 1, 2].map(|axis| place[axis] + by[axis]);
         }
         scene
     }

@@ -87,7 +87,7 @@ fn pieces(sides: &[Side], count: usize) -> Vec<u32> {
 }
 
 /// The sides at an edge, those of one piece after those of another.
-fn by_piece<'a>(edge: &[Side], pieces: &'a [u32]) -> Vec<(u32, Side)> {
+fn by_piece(edge: &[Side], pieces: &[u32]) -> Vec<(u32, Side)> {
     let mut of: Vec<(u32, Side)> =
         edge.iter().map(|side| (pieces[side.triangle as usize], *side)).collect();
     of.sort_unstable();
