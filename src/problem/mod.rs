@@ -254,4 +254,6 @@ impl Problem {
 }
 
 #[cfg(test)]
+mod soundness_tests;
+#[cfg(test)]
 mod tests;

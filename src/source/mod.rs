@@ -103,15 +103,7 @@ impl<'a> Source<'a> {
 
     /// An error at `place`: where there is a file, with the line of the deepest step that the file has.
     pub fn error(&self, place: &[Step], message: String) -> ProblemError {
-        let mut key = String::new();
-        for step in place {
-            match step {
-                Step::Key(name) if key.is_empty() => key.push_str(name),
-                Step::Key(name) => key = format!("{key}.{name}"),
-                Step::Index(index) => key = format!("{key}[{index}]"),
-            }
-        }
-        let message = format!("{key}: {message}");
+        let message = format!("{}: {message}", place_of(place));
         let Some(file) = &self.file else { return ProblemError::pathless(message) };
         match file.find(place) {
             Some(offset) => ProblemError::line(file.path, line_of(file.text, offset), message),
@@ -139,6 +131,19 @@ impl File<'_> {
         }
         Some(offset)
     }
+}
+
+/// A place in a file for people to read, such as `obstacles[3].shape`.
+pub(crate) fn place_of(place: &[Step]) -> String {
+    let mut key = String::new();
+    for step in place {
+        match step {
+            Step::Key(name) if key.is_empty() => key.push_str(name),
+            Step::Key(name) => key = format!("{key}.{name}"),
+            Step::Index(index) => key = format!("{key}[{index}]"),
+        }
+    }
+    key
 }
 
 fn line_of(text: &str, offset: usize) -> usize {

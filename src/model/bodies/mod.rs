@@ -12,6 +12,7 @@ mod linkage;
 mod resolve;
 pub mod robot;
 mod shapes;
+mod sound;
 mod spec;
 pub mod validity;
 mod write;
@@ -112,6 +113,10 @@ impl Description for Bodies {
     fn space(&self) -> Space {
         let Bounds { min, max, .. } = self.bounds;
         self.robot.space(min, max, self.rotation_length)
+    }
+
+    fn sound(&self) -> Result<(), String> {
+        sound::sound(self)
     }
 
     fn prepare(&self) -> Box<dyn Model> {

@@ -6,6 +6,7 @@
 mod bound;
 mod energy;
 mod resolve;
+mod sound;
 mod spec;
 
 pub use energy::{Energy, Term};
@@ -102,6 +103,10 @@ impl Description for Landscape {
 
     fn has_directed_costs(&self) -> bool {
         true
+    }
+
+    fn sound(&self) -> Result<(), String> {
+        self.complaint().map_or(Ok(()), |(key, message)| Err(format!("landscape.{key}: {message}")))
     }
 
     fn prepare(&self) -> Box<dyn Model> {

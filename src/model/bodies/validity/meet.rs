@@ -1,17 +1,17 @@
 //! Discrete collision detection: whether the bodies of two groups meet at one configuration.
 
+use super::convex::{Convex, meet};
 use super::directions::triangles_meet;
 use super::element::{Element, elements};
 use super::frame::{Frame, Stance};
-use super::light::{Four, Frames, Stands, above};
+use super::light::{Four, Frames, Stands, above, grain};
+use super::origin;
 use super::piece::Piece;
 use super::tree::{Node, Tree};
 use crate::lanes::{Lanes, with_lanes};
 use crate::scene::Body;
 use fearless_simd::{Simd, f32x4};
 use parry3d_f64::math::{Pose, Vector};
-use parry3d_f64::query::{DefaultQueryDispatcher, QueryDispatcher};
-use parry3d_f64::shape::{Shape, SupportMap, Triangle};
 
 /// Bodies that move as one rigid body (those of a link, or all obstacles), in the frame of that link or of the world.
 pub(super) struct Group {
@@ -29,13 +29,27 @@ pub(super) struct Meeting<'a> {
     pub still_link: Option<usize>,
     /// A length greater than what rounding in double precision can add up to.
     pub slack: f64,
-    /// A length greater than what rounding in single precision can add up to, see [`light`](super::light).
-    pub grain: f32,
     /// The instructions by which boxes are tested.
     pub lanes: Lanes,
 }
 
 impl Meeting<'_> {
+    /// The frame of the moving tree's origin as seen from the standing tree's origin, given the frame of the moving group
+    /// as seen from the standing one.
+    #[inline]
+    pub fn between_origins(&self, frame: &Frame) -> Frame {
+        let shift = frame.point(self.mover.tree.origin) - self.still.tree.origin;
+        Frame { turn: frame.turn, shift }
+    }
+
+    /// A length greater than what rounding in single precision can add up to where the moving tree's origin is one of
+    /// these points as seen from the standing tree's, see [`light`](super::light).
+    #[inline]
+    pub fn grain(&self, origins: [Vector; 2]) -> f32 {
+        let [first, last] = origins.map(|origin| origin.abs().max_element());
+        grain(self.mover.tree.reach + first.max(last))
+    }
+
     /// Whether a surface of one group meets a surface of the other, touching included. A primitive is solid and meets
     /// what lies inside it, too; whether a solid mesh encloses the other group is not tested here.
     pub fn surfaces_meet(&self, stance: &Stance, stack: &mut Vec<(u32, u32)>) -> bool {
@@ -61,8 +75,9 @@ impl Meeting<'_> {
         stack: &mut Vec<(u32, u32)>,
     ) -> bool {
         let (own, other) = (&self.mover.tree, &self.still.tree);
-        let frames: Frames<f32x4<S>> = Frames::new(simd, [frame, frame]);
-        let room = above(self.slack) + self.grain;
+        let local = &self.between_origins(frame);
+        let frames: Frames<f32x4<S>> = Frames::new(simd, [local, local]);
+        let room = above(self.slack) + self.grain([local.shift; 2]);
         let place = |four: &Four<S>| Stands::new(&frames, four);
         let same = |tree: &'_ Tree, node: u32| Four::same(simd, &tree.boxes[node as usize]);
         let gathered = |tree: &'_ Tree, nodes: &[u32]| Four::new(simd, tree.gathered(nodes));
@@ -112,21 +127,17 @@ impl Meeting<'_> {
             (true, false) => other.holds(&other_at, one.place(&at).translation),
             (false, true) => one.holds(&at, other.place(&other_at).translation),
             (false, false) => {
-                let (one_triangle, other_triangle) = (first.triangle(), second.triangle());
-                let (one, at) = part(one, &one_triangle, &at);
-                let (other, other_at) = part(other, &other_triangle, &other_at);
-                DefaultQueryDispatcher
-                    .intersection_test(&other_at.inv_mul(&at), other, one)
-                    .expect("parry tests every pair of our shapes")
-                    .intersecting
+                let (one, at) = part(one, first, &at);
+                let (other, other_at) = part(other, second, &other_at);
+                meet((&other, &other_at), (&one, &at))
             }
         }
     }
 }
 
-/// An element as one of parry's convex shapes.
-pub(super) struct Support<'a> {
-    pub shape: &'a dyn SupportMap,
+/// An element as a convex shape.
+pub(super) struct Support {
+    pub shape: Convex,
     /// The shape's pose in the world.
     pub at: Pose,
     /// How far the element reaches beyond the shape.
@@ -134,15 +145,28 @@ pub(super) struct Support<'a> {
 }
 
 impl Group {
-    /// Makes a group of bodies; `None` if there are none.
+    /// Makes a group of the bodies of a link; `None` if there are none.
     pub fn new<'a>(bodies: impl Iterator<Item = &'a Body>) -> Option<Group> {
+        Group::about(bodies, |_| None)
+    }
+
+    /// Makes a group of obstacles, given a box in which the robot is; `None` if there are none.
+    pub fn of_obstacles(bodies: &[Body], robot: [Vector; 2]) -> Option<Group> {
+        Group::about(bodies.iter(), |elements| Some(origin::among(elements, robot)))
+    }
+
+    fn about<'a>(
+        bodies: impl Iterator<Item = &'a Body>,
+        origin: impl FnOnce(&[Element]) -> Option<Vector>,
+    ) -> Option<Group> {
         let mut surface = Vec::new();
         let mut pieces = Vec::new();
         for body in bodies {
             surface.extend(elements(body, pieces.len() as u32));
             pieces.push(Piece::new(body));
         }
-        Tree::new(surface).map(|tree| Group { tree, pieces })
+        let origin = origin(&surface);
+        Tree::new(surface, origin).map(|tree| Group { tree, pieces })
     }
 
     /// Whether a solid mesh is among them.
@@ -160,33 +184,26 @@ impl Group {
         &self.pieces[element.piece as usize]
     }
 
-    /// An element as one of parry's convex shapes, given where its group stands in the world.
-    pub fn support<'a>(
-        &'a self,
-        element: &Element,
-        triangle: &'a Triangle,
-        at: &Pose,
-    ) -> Support<'a> {
+    /// An element as a convex shape, given where its group stands in the world.
+    pub fn support(&self, element: &Element, at: &Pose) -> Support {
         let piece = self.piece(element);
-        match piece.primitive().and_then(|shape| shape.as_support_map()) {
-            Some(shape) if element.flat => Support { shape, at: piece.place(at), thick: 0.0 },
-            _ => Support { shape: triangle, at: *at, thick: element.radius },
+        match piece.primitive() {
+            Some(shape) if element.flat => {
+                Support { shape: *shape, at: piece.place(at), thick: 0.0 }
+            }
+            _ => {
+                let (shape, at) = Convex::triangle(element.corners, at);
+                Support { shape, at, thick: element.radius }
+            }
         }
     }
 }
 
-impl Element {
-    /// The convex hull of the corners.
-    pub fn triangle(&self) -> Triangle {
-        let [a, b, c] = self.corners;
-        Triangle::new(a, b, c)
-    }
-}
-
-/// What parry is to test: the body as a whole, if it is a primitive, else one triangle of it; and its pose.
-fn part<'a>(piece: &'a Piece, triangle: &'a Triangle, at: &Pose) -> (&'a dyn Shape, Pose) {
+/// What is tested: the body as a whole, if it is a primitive, else the triangle of it that the element is; and its pose
+/// in the world.
+fn part(piece: &Piece, element: &Element, at: &Pose) -> (Convex, Pose) {
     match piece.primitive() {
-        Some(shape) => (shape, piece.place(at)),
-        None => (triangle, *at),
+        Some(shape) => (*shape, piece.place(at)),
+        None => Convex::triangle(element.corners, at),
     }
 }

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod clearance;
+mod convex;
 mod directions;
 mod element;
 mod frame;
@@ -11,8 +12,10 @@ mod meet;
 mod motion;
 mod nearest;
 mod obb;
+mod origin;
 mod piece;
 mod scratch;
+mod shells;
 mod swept;
 mod tree;
 mod triangles;
@@ -23,6 +26,8 @@ pub use motion::TOLERANCE;
 pub use scratch::BodyScratch;
 pub use work::Work;
 
+#[cfg(test)]
+mod invariance_tests;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
