@@ -12,6 +12,9 @@ pub struct Context {
     pub base_seed: u64,
     /// The query to be solved, if there is one.
     pub query: Option<Ends>,
+    /// Whether a query tries the direct motion between its ends, and its path has no configuration twice in a row. It
+    /// does, but where judgements are made again that a program recorded before it did.
+    pub tries_direct_motion: bool,
 }
 
 impl Context {

@@ -7,8 +7,8 @@ use crate::query::{Attachment, lowest_barrier};
 use crate::roadmap::Roadmap;
 
 attaching! {
-    /// The lowest barrier between the query's ends is low enough: of all ways through the roadmap, the one on which the
-    /// highest energy is least (the minimax path; M. Pollack, *The maximum capacity through a network*, 1960).
+    /// The lowest barrier between the query's ends is low enough: of all ways through the roadmap, and the direct motion, the
+    /// one on which the highest energy is least (the minimax path; M. Pollack, *The maximum capacity through a network*, 1960).
     ///
     /// The value is that energy, an upper bound of the true one since every edge's peak is; infinite while the ends are
     /// not connected. The ends are attached as a query's are, and stay attached to the nodes that were once their

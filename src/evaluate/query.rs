@@ -10,9 +10,10 @@ attaching! {
     /// The problem's query is solved: TR05-007 §3.2, *"It attempts to connect the start and goal to
     /// the roadmap, and returns successful if they are connected to the same connected component."*
     ///
-    /// Stricter than the report in one point: the path found must also pass the finer check that
+    /// It differs from the report in two points. The path found must also pass the finer check that
     /// every path passes before it is given out ([`crate::query`]), so that a build never ends with
-    /// a query that it cannot answer.
+    /// a query that it cannot answer; and start and goal may be joined by the direct motion, too, for
+    /// which no roadmap is needed.
     pub struct Query {}
 }
 

@@ -132,6 +132,7 @@ impl Problem {
             model: self.model.description().prepare(),
             base_seed: self.seed,
             query: self.query.clone(),
+            tries_direct_motion: true,
         }
     }
 
