@@ -1,6 +1,6 @@
 //! Problems that files of other programs describe, with the defaults that a problem file would have.
 
-use super::{DEFAULT_SEED, Problem, building};
+use super::{DEFAULT_SEED, Limits, Problem, building};
 use crate::context::Ends;
 use crate::evaluate::{EvaluatorKind, Query};
 use crate::model::Imported;
@@ -11,6 +11,7 @@ use std::path::Path;
 pub(super) fn problem_of(path: &Path, imported: Imported) -> Result<Problem, ProblemError> {
     let Imported { name, model, query, notes, sources } = imported;
     let (strategies, schedule, sets_per_round) = building::defaults();
+    let limits = Limits::left_open(&model.description().space());
     let mut problem = Problem {
         name,
         seed: DEFAULT_SEED,
@@ -21,7 +22,7 @@ pub(super) fn problem_of(path: &Path, imported: Imported) -> Result<Problem, Pro
         adaptive: None,
         sets_per_round,
         evaluators: Vec::new(),
-        limits: building::default_limits(),
+        limits,
         notes,
         sources,
         earlier: Vec::new(),

@@ -9,6 +9,7 @@ mod describe;
 mod file;
 mod import;
 mod layout;
+mod limits;
 mod resolve;
 mod write;
 
@@ -16,6 +17,7 @@ pub use crate::source::ProblemError;
 pub use chapter::Earlier;
 pub use configuration::configuration;
 pub use layout::Layout;
+pub use limits::{Limits, NODES_MAX};
 pub use write::Written;
 
 use crate::context::{Context, Ends};
@@ -27,7 +29,6 @@ use crate::query::Attachment;
 use crate::schedule::Adaptive;
 use crate::space::Space;
 use crate::strategy::Strategy;
-use bincode::{Decode, Encode};
 use std::path::Path;
 
 /// The base seed of a problem that names none.
@@ -63,17 +64,6 @@ pub struct Problem {
     pub sources: Vec<SourceFile>,
     /// Of a build that was continued with another schedule: what came before, in order.
     pub earlier: Vec<Earlier>,
-}
-
-/// Bounds on a build. It stops at the end of the first round that reaches one.
-#[derive(Clone, Copy, Debug, PartialEq, Encode, Decode)]
-pub struct Limits {
-    /// Nodes of the roadmap.
-    pub nodes: u64,
-    /// Node sets.
-    pub sets: u64,
-    /// Wall-clock seconds. The only limit under which two runs may end at different rounds.
-    pub seconds: Option<f64>,
 }
 
 impl Problem {

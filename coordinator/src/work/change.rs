@@ -37,6 +37,11 @@ impl Change {
                 }
                 // A limit of time is one of this process.
                 problem.limits.seconds = present.limits.seconds;
+                // What a problem leaves open depends on the version of the program, and on a limit of time.
+                let space = present.space();
+                if [&problem, present].iter().all(|of| of.limits.leaves_nodes_open(&space)) {
+                    problem.limits.nodes = present.limits.nodes;
+                }
                 let next = present.continued(&problem, scan.rounds())?;
                 match difference(present, &next) {
                     None => Ok(next),

@@ -117,7 +117,9 @@ impl<'a> Growth<'a> {
         self
     }
 
-    /// Stops the build after this time, instead of that of the problem's limits.
+    /// Stops the build after this time, instead of that of the problem's limits: within a round, which is then lost,
+    /// but not before one round has been finished and judged. Of a new run whose limit of nodes is left open the time
+    /// is the only limit.
     pub fn max_seconds(self, seconds: Option<f64>) -> Growth<'a> {
         Growth { seconds, ..self }
     }
@@ -212,7 +214,7 @@ impl<'a> Growth<'a> {
         let mut watch = watch.unwrap_or_else(|| Box::new(()));
         workers.check()?;
         let prepared = match origin {
-            Origin::Anew(anew) => anew.prepare(&interrupt, &mut *watch)?,
+            Origin::Anew(anew) => anew.prepare(seconds, &interrupt, &mut *watch)?,
             Origin::Again { run, chapter } => {
                 if !run.join(LEDGER).is_file() {
                     return Err(Failure::usage(format!("{}: no run here", run.display())));
@@ -241,6 +243,7 @@ impl<'a> Growth<'a> {
             seconds: seconds.or(setup.problem.limits.seconds),
             memory,
             rounds,
+            may_stop: false,
             weighed: (rounds, None),
             stored: Arc::default(),
         };
@@ -286,8 +289,17 @@ impl<'a> Growth<'a> {
 type Found = Result<Prepared, Box<Ended>>;
 
 impl Anew {
-    fn prepare(self, interrupt: &Interrupt, watch: &mut dyn Watch) -> Result<Found, Failure> {
+    /// `seconds` is the limit of time, where it is another one than the problem's.
+    fn prepare(
+        self,
+        seconds: Option<f64>,
+        interrupt: &Interrupt,
+        watch: &mut dyn Watch,
+    ) -> Result<Found, Failure> {
         let Anew { mut problem, folder: out, replace, or_resume, imports } = self;
+        if seconds.is_some() {
+            problem.limits = problem.limits.with_time(&problem.space());
+        }
         limit(&mut problem, None, None)?;
         let existing = out.as_deref().filter(|_| or_resume);
         let has_ledger = |out: &Path| out.join(LEDGER).is_file();

@@ -81,6 +81,8 @@ pub struct Status<'a> {
     pub tally: &'a Tally,
     /// Workers that are ready or at work, and how many there are to be.
     pub workers: (usize, usize),
+    /// Whether the limit of time is reached, and the build goes on only until a round is finished and judged.
+    pub is_late: bool,
 }
 
 /// The path of the problem's own query, if the verdicts have one.
@@ -104,6 +106,9 @@ pub(super) struct Keeper<'a> {
     pub memory: Option<u64>,
     /// Complete rounds.
     pub rounds: u64,
+    /// Whether a limit of time or memory may end the build now: since it was begun or went on a round was finished and
+    /// judged, and no later one awaits its judgement. So every call comes on, however short its time.
+    pub may_stop: bool,
     /// After which round the memory was added up last, and when.
     pub weighed: (u64, Option<Instant>),
     /// Bytes stored for the workers in shared memory, which count as no process's own.
@@ -206,11 +211,13 @@ impl Observer for Keeper<'_> {
 
     fn folded(&mut self, round: &Round, tally: &Tally) -> Result<(), Failure> {
         self.rounds = round.index + 1;
+        self.may_stop = false;
         self.ledger.round(round, &self.setup.problem, tally)
     }
 
     fn judged(&mut self, judgement: &Judgement) -> Result<(), Failure> {
         self.verdicts = judgement.verdicts.clone();
+        self.may_stop = true;
         self.ledger.judged(judgement)
     }
 
@@ -222,10 +229,14 @@ impl Observer for Keeper<'_> {
     ) -> Result<Option<Cut>, Failure> {
         self.ledger.sync_if_due()?;
         let (problem, workers) = (&self.setup.problem, (alive, self.workers));
-        self.watch.progress(&Status { problem, progress, tally, workers });
+        let is_over = self.seconds.is_some_and(|limit| self.begun.elapsed().as_secs_f64() >= limit);
+        let is_late = is_over && !self.may_stop;
+        self.watch.progress(&Status { problem, progress, tally, workers, is_late });
         Ok(if self.interrupt.came() {
             Some(Cut::Interrupted)
-        } else if self.seconds.is_some_and(|limit| self.begun.elapsed().as_secs_f64() >= limit) {
+        } else if !self.may_stop {
+            None
+        } else if is_over {
             Some(Cut::Time)
         } else if self.is_short_of_memory(progress.rounds) {
             self.memory.map(Cut::Memory)
