@@ -46,6 +46,14 @@ impl Limits {
         Limits { nodes: if is_left_open { NODES_MAX } else { self.nodes }, ..self }
     }
 
+    /// The same limits for a build that reads no clock: where the time was to end it, the number of nodes does that has
+    /// to where nothing is given.
+    pub(crate) fn without_clock(self, space: &Space) -> Limits {
+        let is_left_to_time = self.seconds.is_some() && self.nodes == NODES_MAX;
+        let nodes = if is_left_to_time { Limits::nodes_left_open(space) } else { self.nodes };
+        Limits { nodes, ..self }
+    }
+
     /// Whether the limit on nodes is one that a problem has which leaves it open: today with or without a limit of
     /// time, or with an earlier version of the program.
     pub fn leaves_nodes_open(&self, space: &Space) -> bool {
@@ -83,6 +91,9 @@ mod tests {
         assert!(open.nodes > 1_000_000 && bytes <= MEMORY && MEMORY - bytes < 2000, "{open:?}");
         assert_eq!(open.complaint(), None);
         assert_eq!(open.with_time(&space).nodes, NODES_MAX);
+        let timed = Limits { seconds: Some(1.0), ..open.with_time(&space) };
+        assert_eq!(timed.without_clock(&space).nodes, open.nodes);
+        assert_eq!(open.with_time(&space).without_clock(&space).nodes, NODES_MAX);
         let chosen = Limits { nodes: 500, ..open };
         assert_eq!(chosen.with_time(&space), chosen);
         for (nodes, is_open) in [(FORMER_NODES, true), (NODES_MAX, true), (500, false)] {
