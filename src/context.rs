@@ -12,6 +12,8 @@ pub struct Context {
     pub(crate) base_seed: u64,
     /// The query to be solved, if there is one.
     pub(crate) query: Option<Ends>,
+    /// Whether a query tries the direct motion between its ends, and its path has no configuration twice in a row.
+    pub(crate) tries_direct_motion: bool,
 }
 
 impl Context {
@@ -33,6 +35,12 @@ impl Context {
     /// The query to be solved, if there is one: valid configurations in stored form.
     pub fn query(&self) -> Option<&Ends> {
         self.query.as_ref()
+    }
+
+    /// Whether a query tries the direct motion between its ends, and its path has no configuration twice in a row. It
+    /// does, but where judgements are made again that a program recorded before it did.
+    pub fn try_direct_motion(&mut self, tries: bool) {
+        self.tries_direct_motion = tries;
     }
 
     /// Brings a configuration that came from outside into stored form, and checks it.

@@ -89,3 +89,18 @@ fn paths_and_verdicts_are_at_hand() {
     assert_eq!(error.end, "goal");
     assert!(error.to_string().starts_with("goal: 1 values found"), "{error}");
 }
+
+/// A build that reads no clock must end all the same.
+#[test]
+fn a_problem_with_a_limit_of_time_alone_has_one_of_nodes_here() {
+    let text = std::fs::read_to_string("problems/maze.toml").expect("it ships");
+    let timed = Problem::parse("maze.toml".as_ref(), &format!("{text}\n[limits]\nseconds = 5\n"));
+    let timed = timed.expect("it is sound");
+    let open = load("problems/maze.toml");
+    assert!(timed.limits().nodes > open.limits().nodes);
+    let cancel = Cancel::new();
+    cancel.cancel();
+    let built = Build::new(timed).cancel(&cancel).run().expect("it runs");
+    assert_eq!(built.problem().limits().nodes, open.limits().nodes);
+    assert_eq!(built.problem().limits().seconds, Some(5.0));
+}

@@ -199,7 +199,7 @@ pub struct GrowthArguments {
     /// Stop at the end of the first round with this many sets
     #[arg(long, value_name = "N")]
     pub max_sets: Option<u64>,
-    /// Stop after this time: seconds, or with a unit (90s, 10m, 2h)
+    /// Stop after this time, but not before one round is finished: seconds, or with a unit (90s, 10m, 2h)
     #[arg(long, value_name = "TIME", value_parser = seconds)]
     pub max_time: Option<f64>,
     /// Stop at the end of a round when all processes together hold this much memory: bytes, or with a
@@ -310,7 +310,7 @@ pub struct QueryArguments {
     /// The format of paths
     #[arg(long, value_enum, default_value = "csv")]
     pub format: PathFormat,
-    /// Shorten paths by shortcuts; the same call gives the same path
+    /// Shorten paths: leave needless configurations out, then try shortcuts; the same call gives the same path
     #[arg(long)]
     pub shorten: bool,
     /// How often a shortcut is tried

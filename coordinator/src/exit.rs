@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Code {
-    /// The criteria are met, the path is found, the problem is sound.
+    /// The criteria are met, or a build without criteria has reached a limit; the path is found, the problem is sound.
     Done = 0,
     /// The system failed: a disk is full, a process cannot be started.
     System = 1,
@@ -27,10 +27,12 @@ pub enum Code {
 /// The table of exit codes, for `--help`.
 pub const HELP: &str = "\
 Exit codes:
-  0  done: the criteria are met, the path is found, the problem is sound
+  0  done: the criteria are met (of a build without criteria: a limit is reached), the path is
+     found, the problem is sound
   1  the system failed (disk full, no process can be started)
   2  usage: the command line, the problem or the run folder cannot be used, or is in use
-  3  a limit was reached, or the roadmap searched, without success
+  3  without success: a limit was reached before the criteria were met, a sampler gave up, no
+     path was found
   4  broken run: a damaged run folder or file of sets, or a job with two different outcomes
   5  workers lost: they died faster than they could be replaced, or one set killed them
   6  interrupted by a signal; the last complete round is saved

@@ -39,7 +39,8 @@ type Tell<'a> = Box<dyn FnMut(&Progress) + 'a>;
 /// ```
 ///
 /// The number of threads changes how long the build takes and nothing else. A build reads no clock: the
-/// problem's limit on seconds does not count here; [`Build::cancel`] can take its place.
+/// problem's limit on seconds does not count here; [`Build::cancel`] can take its place. Where that was the only limit,
+/// the number of nodes is limited as if there was none.
 #[must_use = "nothing is built before `run`"]
 pub struct Build<'a> {
     setup: Arc<Setup>,
@@ -73,7 +74,8 @@ pub enum BuildError {
 
 impl<'a> Build<'a> {
     /// The build of a problem, in this thread.
-    pub fn new(problem: Problem) -> Build<'a> {
+    pub fn new(mut problem: Problem) -> Build<'a> {
+        problem.limits = problem.limits.without_clock(&problem.space());
         Build::after(Arc::new(Setup::new(problem)), Vec::new(), None)
     }
 

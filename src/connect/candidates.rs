@@ -127,13 +127,8 @@ impl<'a> CandidatePairs<'a> {
         if self.linked.contains(&NodePair { new: pair.new, old: pair.old }) {
             return None;
         }
-        let ends = (self.config(pair.old), self.config(pair.new));
-        local::connect(cx, planners, ends, 1, scratch).map(|(planner, cost)| Edge {
-            low: pair.old,
-            high: pair.new,
-            planner: planner.tag(),
-            cost,
-        })
+        let node = |id: NodeId| (id, self.config(id));
+        local::edge(cx, planners, [node(pair.old), node(pair.new)], 1, scratch)
     }
 
     /// The smallest id in the component of a node, without any joining edge of the round.

@@ -54,9 +54,10 @@ pub use nodes_and_components::NodesAndComponents;
 pub use until_joined::UntilJoined;
 
 use crate::context::Context;
-use crate::local::Planner;
+use crate::local::{self, Planner};
 use crate::methods::{Complaint, methods};
 use crate::model::Scratch;
+use crate::numbers::NodeId;
 use crate::roadmap::{Components, Configs, Edge, Increment, Roadmap};
 use crate::seed::Seed;
 use std::sync::Arc;
@@ -131,9 +132,38 @@ pub struct JoinInput {
     pub increments: Vec<Arc<Built>>,
 }
 
+/// Tries pairs of a set's milestones in their order, each from its first, the lower id, to its second; the edges of
+/// those that the planners can join.
+fn connect_pairs(
+    cx: &Context,
+    planners: &[Planner],
+    configs: &Configs,
+    pairs: &[(u32, u32)],
+    scratch: &mut Scratch,
+) -> Vec<Edge> {
+    let node = |id: u32| (NodeId(id), configs.get(id as usize));
+    let joined = pairs
+        .iter()
+        .filter_map(|(low, high)| local::edge(cx, planners, [node(*low), node(*high)], 1, scratch));
+    joined.collect()
+}
+
+/// The number of neighbours of a connection that names none: as many as in TR05-007 §4.1.
+fn default_neighbors() -> u32 {
+    10
+}
+
 /// The planners of a connection that names none.
 fn default_planners() -> Vec<Planner> {
     vec![Planner::StraightLine]
+}
+
+/// What is wrong with the number of neighbours and the planners of a connection.
+fn complaint(neighbors: u32, planners: &[Planner]) -> Option<Complaint> {
+    if neighbors == 0 {
+        return Some(Complaint::new("neighbors", "0", "at least 1"));
+    }
+    local::complaint(planners)
 }
 
 #[cfg(test)]

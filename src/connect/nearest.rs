@@ -1,10 +1,9 @@
-use super::{Within, default_planners};
+use super::{Within, complaint, connect_pairs, default_neighbors, default_planners};
 use crate::context::Context;
-use crate::local::{self, Planner};
+use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::neighbor::k_nearest_graph;
-use crate::numbers::NodeId;
 use crate::roadmap::{Configs, Edge};
 use crate::seed::Seed;
 use bincode::{Decode, Encode};
@@ -24,10 +23,6 @@ pub struct Nearest {
     pub planners: Vec<Planner>,
 }
 
-fn default_neighbors() -> u32 {
-    10
-}
-
 impl Default for Nearest {
     fn default() -> Nearest {
         Nearest { neighbors: default_neighbors(), planners: default_planners() }
@@ -43,24 +38,10 @@ impl Within for Nearest {
         scratch: &mut Scratch,
     ) -> Vec<Edge> {
         let pairs = k_nearest_graph(&cx.space, configs, self.neighbors as usize);
-        let mut edges = Vec::new();
-        for (low, high) in pairs {
-            let ends = (configs.get(low as usize), configs.get(high as usize));
-            let joined = local::connect(cx, &self.planners, ends, 1, scratch);
-            edges.extend(joined.map(|(planner, cost)| Edge {
-                low: NodeId(low),
-                high: NodeId(high),
-                planner: planner.tag(),
-                cost,
-            }));
-        }
-        edges
+        connect_pairs(cx, &self.planners, configs, &pairs, scratch)
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        if self.neighbors == 0 {
-            return Some(Complaint::new("neighbors", "0", "at least 1"));
-        }
-        local::complaint(&self.planners)
+        complaint(self.neighbors, &self.planners)
     }
 }

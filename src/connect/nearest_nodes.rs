@@ -1,7 +1,7 @@
 use super::candidates::CandidatePairs;
-use super::{Among, JoinInput, default_planners};
+use super::{Among, JoinInput, complaint, default_neighbors, default_planners};
 use crate::context::Context;
-use crate::local::{self, Planner};
+use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::roadmap::Edge;
@@ -30,10 +30,6 @@ impl Default for NearestNodes {
     }
 }
 
-pub(super) fn default_neighbors() -> u32 {
-    10
-}
-
 impl Among for NearestNodes {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
         let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };
@@ -44,11 +40,4 @@ impl Among for NearestNodes {
     fn complaint(&self) -> Option<Complaint> {
         complaint(self.neighbors, &self.planners)
     }
-}
-
-pub(super) fn complaint(neighbors: u32, planners: &[Planner]) -> Option<Complaint> {
-    if neighbors == 0 {
-        return Some(Complaint::new("neighbors", "0", "at least 1"));
-    }
-    local::complaint(planners)
 }

@@ -1,11 +1,10 @@
 use super::candidates::CandidatePairs;
-use super::{Among, JoinInput, Within, default_planners};
+use super::{Among, JoinInput, Within, connect_pairs, default_planners};
 use crate::context::Context;
 use crate::finder::FinderKind;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::Scratch;
-use crate::numbers::NodeId;
 use crate::roadmap::{Configs, Edge};
 use crate::seed::Seed;
 use bincode::{Decode, Encode};
@@ -46,18 +45,7 @@ impl Within for Neighbors {
         scratch: &mut Scratch,
     ) -> Vec<Edge> {
         let pairs = self.finder.method().pairs(&cx.space, configs);
-        let mut edges = Vec::new();
-        for (low, high) in pairs {
-            let ends = (configs.get(low as usize), configs.get(high as usize));
-            let joined = local::connect(cx, &self.planners, ends, 1, scratch);
-            edges.extend(joined.map(|(planner, cost)| Edge {
-                low: NodeId(low),
-                high: NodeId(high),
-                planner: planner.tag(),
-                cost,
-            }));
-        }
-        edges
+        connect_pairs(cx, &self.planners, configs, &pairs, scratch)
     }
 
     fn complaint(&self) -> Option<Complaint> {

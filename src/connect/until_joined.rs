@@ -1,6 +1,5 @@
 use super::candidates::{CandidatePair, CandidatePairs};
-use super::nearest_nodes::{complaint, default_neighbors};
-use super::{Among, JoinInput, default_planners};
+use super::{Among, JoinInput, complaint, default_neighbors, default_planners};
 use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;

@@ -1,4 +1,4 @@
-use super::{Evaluator, EvaluatorKind, Verdict, combined};
+use super::{Evaluator, EvaluatorKind, Verdict, accept_parts, combined, complaint_of_parts};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -34,13 +34,10 @@ impl Evaluator for All {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        if self.0.is_empty() {
-            return Some(Complaint::new("all", "[]", "at least one criterion"));
-        }
-        self.0.iter().find_map(|part| part.method().complaint())
+        complaint_of_parts(self.name(), &self.0)
     }
 
     fn accept(&mut self, cx: &Context) -> Result<(), String> {
-        self.0.iter_mut().try_for_each(|part| part.method_mut().accept(cx))
+        accept_parts(&mut self.0, cx)
     }
 }

@@ -1,4 +1,4 @@
-use super::{Evaluator, Verdict};
+use super::{Evaluator, Verdict, complaint_of_change};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::{Asked, Scratch};
@@ -110,8 +110,7 @@ impl Evaluator for Expansion {
         if !(1..=COMPONENTS_MAX).contains(&self.components) {
             return Some(Complaint::new("components", self.components, "1 to 1000"));
         }
-        let fits = self.percent > 0.0 && self.percent < 100.0;
-        (!fits).then(|| Complaint::new("percent", self.percent, "more than 0, less than 100"))
+        complaint_of_change(self.percent)
     }
 }
 

@@ -1,4 +1,4 @@
-use super::{Evaluator, Verdict};
+use super::{Evaluator, Verdict, complaint_of_change};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::{Asked, Scratch};
@@ -100,8 +100,7 @@ impl Evaluator for InformationGain {
         if self.rounds == 0 {
             return Some(Complaint::new("rounds", "0", "at least 1"));
         }
-        let fits = self.percent > 0.0 && self.percent < 100.0;
-        (!fits).then(|| Complaint::new("percent", self.percent, "more than 0, less than 100"))
+        complaint_of_change(self.percent)
     }
 }
 

@@ -1,47 +1,29 @@
-use super::{Evaluator, Verdict, samples};
+use super::attaching::{attaching, default_neighbors, default_planners};
+use super::{Evaluator, Verdict};
 use crate::context::Context;
-use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::query::{Attachment, lowest_barrier};
 use crate::roadmap::Roadmap;
-use bincode::{Decode, Encode};
-use serde::{Deserialize, Serialize};
 
-/// The lowest barrier between the query's ends is low enough: of all ways through the roadmap, the one on which the
-/// highest energy is least (the minimax path; M. Pollack, *The maximum capacity through a network*, 1960).
-///
-/// The value is that energy, an upper bound of the true one since every edge's peak is; infinite while the ends are
-/// not connected. The ends are attached as a query's are, and stay attached to the nodes that were once their
-/// nearest: so the value never rises from round to round. The path found is the shortest, by the edges' costs,
-/// among those with that barrier. Defined for models with energies.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
-#[serde(deny_unknown_fields)]
-pub struct LowestBarrier {
-    /// The highest energy that will do.
-    pub energy: f64,
-    /// How many nearest nodes each end tries to connect to.
-    #[serde(default = "samples::default_neighbors")]
-    pub neighbors: u32,
-    /// Local planners, tried in this order until one succeeds.
-    #[serde(default = "samples::default_planners")]
-    pub planners: Vec<Planner>,
+attaching! {
+    /// The lowest barrier between the query's ends is low enough: of all ways through the roadmap, and the direct motion, the
+    /// one on which the highest energy is least (the minimax path; M. Pollack, *The maximum capacity through a network*, 1960).
+    ///
+    /// The value is that energy, an upper bound of the true one since every edge's peak is; infinite while the ends are
+    /// not connected. The ends are attached as a query's are, and stay attached to the nodes that were once their
+    /// nearest: so the value never rises from round to round. The path found is the shortest, by the edges' costs,
+    /// among those with that barrier. Defined for models with energies.
+    pub struct LowestBarrier {
+        /// The highest energy that will do.
+        pub energy: f64,
+    }
 }
 
 impl LowestBarrier {
     /// The method with the settings that have no defaults; the others have theirs.
     pub fn new(energy: f64) -> LowestBarrier {
-        LowestBarrier {
-            energy,
-            neighbors: samples::default_neighbors(),
-            planners: samples::default_planners(),
-        }
-    }
-}
-
-impl LowestBarrier {
-    fn how(&self) -> Attachment {
-        Attachment { neighbors: self.neighbors, planners: self.planners.clone() }
+        LowestBarrier { energy, neighbors: default_neighbors(), planners: default_planners() }
     }
 }
 

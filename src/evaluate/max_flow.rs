@@ -1,44 +1,36 @@
+use super::attaching::{attaching, default_neighbors, default_planners};
 use super::network::Network;
 use super::verdict::CutEdge;
-use super::{Evaluator, Verdict, samples};
+use super::{Evaluator, Verdict};
 use crate::context::Context;
-use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::numbers::NodeId;
 use crate::query::{Attachment, attach, attach_for_good};
 use crate::roadmap::{Edge, Roadmap};
-use bincode::{Decode, Encode};
-use serde::{Deserialize, Serialize};
 
-/// Enough can flow through the roadmap from one configuration, or any of several, to another: TR05-007 §3.2,
-/// *"If a roadmap edge weight, w(e), reflects the likelihood that the protein will move from one
-/// configuration to the next, then we can define edge capacity c(e) as 1/w(e). The evaluator returns
-/// success if the max-flow between the two configurations is above some threshold f."*
-///
-/// The configurations are attached to their nearest nodes as a query's are. An edge has its capacity in each
-/// direction. Weights below `least_weight` are raised to it, since 1/w has no bound. Capacities are rounded to whole
-/// multiples of 2⁻³² of the largest one, 1/`least_weight`; for the rounded capacities the maximum flow is exact and
-/// equals the minimum cut, which the verdict holds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
-#[serde(deny_unknown_fields)]
-pub struct MaxFlow {
-    /// The least flow that satisfies the criterion, in the unit of 1/weight.
-    pub flow: f64,
-    /// The sources of the flow; an empty list stands for the query's start.
-    #[serde(default)]
-    pub from: Vec<Vec<f64>>,
-    /// The sinks of the flow; an empty list stands for the query's goal.
-    #[serde(default)]
-    pub to: Vec<Vec<f64>>,
-    /// The least weight that an edge counts with; by default a thousandth of the space's diameter.
-    pub least_weight: Option<f64>,
-    /// How many nearest nodes each configuration tries to connect to.
-    #[serde(default = "samples::default_neighbors")]
-    pub neighbors: u32,
-    /// Local planners, tried in this order until one succeeds.
-    #[serde(default = "samples::default_planners")]
-    pub planners: Vec<Planner>,
+attaching! {
+    /// Enough can flow through the roadmap from one configuration, or any of several, to another: TR05-007 §3.2,
+    /// *"If a roadmap edge weight, w(e), reflects the likelihood that the protein will move from one
+    /// configuration to the next, then we can define edge capacity c(e) as 1/w(e). The evaluator returns
+    /// success if the max-flow between the two configurations is above some threshold f."*
+    ///
+    /// The configurations are attached to their nearest nodes as a query's are. An edge has its capacity in each
+    /// direction. Weights below `least_weight` are raised to it, since 1/w has no bound. Capacities are rounded to whole
+    /// multiples of 2⁻³² of the largest one, 1/`least_weight`; for the rounded capacities the maximum flow is exact and
+    /// equals the minimum cut, which the verdict holds.
+    pub struct MaxFlow {
+        /// The least flow that satisfies the criterion, in the unit of 1/weight.
+        pub flow: f64,
+        /// The sources of the flow; an empty list stands for the query's start.
+        #[serde(default)]
+        pub from: Vec<Vec<f64>>,
+        /// The sinks of the flow; an empty list stands for the query's goal.
+        #[serde(default)]
+        pub to: Vec<Vec<f64>>,
+        /// The least weight that an edge counts with; by default a thousandth of the space's diameter.
+        pub least_weight: Option<f64>,
+    }
 }
 
 impl MaxFlow {
@@ -49,8 +41,8 @@ impl MaxFlow {
             from: Vec::new(),
             to: Vec::new(),
             least_weight: None,
-            neighbors: samples::default_neighbors(),
-            planners: samples::default_planners(),
+            neighbors: default_neighbors(),
+            planners: default_planners(),
         }
     }
 }
@@ -60,10 +52,6 @@ const SCALE: f64 = (1u64 << 32) as f64;
 const ENDS_MAX: usize = 10_000;
 
 impl MaxFlow {
-    fn how(&self) -> Attachment {
-        Attachment { neighbors: self.neighbors, planners: self.planners.clone() }
-    }
-
     fn least_weight(&self, cx: &Context) -> f64 {
         let chosen = self.least_weight.unwrap_or(cx.space.diameter() / 1000.0);
         if chosen > 0.0 { chosen } else { 1.0 }

@@ -18,6 +18,7 @@
 
 mod all;
 mod any;
+mod attaching;
 mod connectivity;
 mod coverage;
 mod expansion;
@@ -118,6 +119,25 @@ pub trait Evaluator {
     fn accept(&mut self, _cx: &Context) -> Result<(), String> {
         Ok(())
     }
+}
+
+/// What is wrong with a criterion, `name`, made of any number of `parts`.
+fn complaint_of_parts(name: &'static str, parts: &[EvaluatorKind]) -> Option<Complaint> {
+    if parts.is_empty() {
+        return Some(Complaint::new(name, "[]", "at least one criterion"));
+    }
+    parts.iter().find_map(|part| part.method().complaint())
+}
+
+/// Brings configurations among the settings of `parts` into stored form, and checks what depends on the problem.
+fn accept_parts(parts: &mut [EvaluatorKind], cx: &Context) -> Result<(), String> {
+    parts.iter_mut().try_for_each(|part| part.method_mut().accept(cx))
+}
+
+/// What is wrong with a percentage at which a change counts as none.
+fn complaint_of_change(percent: f64) -> Option<Complaint> {
+    let fits = percent > 0.0 && percent < 100.0;
+    (!fits).then(|| Complaint::new("percent", percent, "more than 0, less than 100"))
 }
 
 /// The verdict of a criterion made of `parts`, at least `needed` of which must be satisfied.

@@ -1,40 +1,26 @@
-use super::{Evaluator, Verdict, samples};
+use super::attaching::attaching;
+use super::{Evaluator, Verdict};
 use crate::context::Context;
-use crate::local::Planner;
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::query::{Attachment, solve};
 use crate::roadmap::Roadmap;
-use bincode::{Decode, Encode};
-use serde::{Deserialize, Serialize};
 
-/// The problem's query is solved: TR05-007 §3.2, *"It attempts to connect the start and goal to
-/// the roadmap, and returns successful if they are connected to the same connected component."*
-///
-/// Stricter than the report in one point: the path found must also pass the finer check that
-/// every path passes before it is given out ([`crate::query`]), so that a build never ends with
-/// a query that it cannot answer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
-#[serde(deny_unknown_fields)]
-pub struct Query {
-    /// How many nearest nodes start and goal try to connect to.
-    #[serde(default = "samples::default_neighbors")]
-    pub neighbors: u32,
-    /// Local planners, tried in this order until one succeeds.
-    #[serde(default = "samples::default_planners")]
-    pub planners: Vec<Planner>,
+attaching! {
+    /// The problem's query is solved: TR05-007 §3.2, *"It attempts to connect the start and goal to
+    /// the roadmap, and returns successful if they are connected to the same connected component."*
+    ///
+    /// It differs from the report in two points. The path found must also pass the finer check that
+    /// every path passes before it is given out ([`crate::query`]), so that a build never ends with
+    /// a query that it cannot answer; and start and goal may be joined by the direct motion, too, for
+    /// which no roadmap is needed.
+    pub struct Query {}
 }
 
 impl Default for Query {
     fn default() -> Query {
         let Attachment { neighbors, planners } = Attachment::default();
         Query { neighbors, planners }
-    }
-}
-
-impl Query {
-    fn how(&self) -> Attachment {
-        Attachment { neighbors: self.neighbors, planners: self.planners.clone() }
     }
 }
 

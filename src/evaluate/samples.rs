@@ -2,7 +2,7 @@
 
 use super::Verdict;
 use crate::context::Context;
-use crate::local::{self, Planner};
+use crate::local;
 use crate::methods::{BRACKETS_OF_SETTINGS, Complaint};
 use crate::model::{Asked, Scratch};
 use crate::numbers::NodeId;
@@ -20,14 +20,6 @@ const ATTEMPTS_MAX: u32 = 1_000_000;
 
 pub(super) fn default_samples() -> Samples {
     Samples::Random(100)
-}
-
-pub(super) fn default_neighbors() -> u32 {
-    Attachment::default().neighbors
-}
-
-pub(super) fn default_planners() -> Vec<Planner> {
-    Attachment::default().planners
 }
 
 /// Where the samples come from. Samples are valid, the same in every round, and never become nodes of the roadmap or

@@ -63,6 +63,11 @@ impl Setup {
         &self.cx
     }
 
+    /// The problem made ready for work, so that it can be changed how it is worked on.
+    pub fn context_mut(&mut self) -> &mut Context {
+        &mut self.cx
+    }
+
     /// Which set comes where.
     pub fn plan(&self) -> &Plan {
         &self.plan

@@ -106,8 +106,7 @@ impl Executor for Simulated<'_> {
 
     fn fold(&mut self, round: &Round) {
         self.published.clear();
-        let joins = round.sets.iter().map(|set| &set.joined.edges[..]);
-        self.replica.fold(&self.setup, joins);
+        self.replica.fold(&self.setup, round.joins());
     }
 
     fn submit(&mut self, job: Job) {

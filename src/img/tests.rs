@@ -172,10 +172,7 @@ fn a_set_that_gave_up_counts_only_if_the_rounds_before_it_do_not_suffice() {
         for command in commands {
             match command {
                 Command::Publish(increment) => replica.publish(&setup, increment),
-                Command::Fold(round) => {
-                    let joins = round.sets.iter().map(|set| &set.joined.edges[..]);
-                    replica.fold(&setup, joins);
-                }
+                Command::Fold(round) => replica.fold(&setup, round.joins()),
                 Command::Submit(job) if job != second => {
                     next.extend(core.on_event(done(&setup, &replica, job)));
                 }

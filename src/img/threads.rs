@@ -77,8 +77,7 @@ impl Executor for Threads {
     }
 
     fn fold(&mut self, round: &Round) {
-        let joins = round.sets.iter().map(|set| &set.joined.edges[..]);
-        self.replica.fold(&self.setup, joins);
+        self.replica.fold(&self.setup, round.joins());
     }
 
     fn submit(&mut self, job: Job) {

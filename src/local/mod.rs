@@ -63,7 +63,8 @@ pub use rotate_at::RotateAt;
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::{Cost, Scratch};
-use crate::roadmap::{Configs, EdgeCost};
+use crate::numbers::NodeId;
+use crate::roadmap::{Configs, Edge, EdgeCost};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -154,6 +155,19 @@ pub fn connect(
         }
         Some((*planner, EdgeCost::of(whole?, length)))
     })
+}
+
+/// The edge by which [`connect`] joins two nodes, each given by its id and its configuration. The motion goes from the
+/// first, whose id is the lower one, to the second.
+pub(crate) fn edge(
+    cx: &Context,
+    planners: &[Planner],
+    [(low, a), (high, b)]: [(NodeId, &[f64]); 2],
+    refinement: u32,
+    scratch: &mut Scratch,
+) -> Option<Edge> {
+    let (planner, cost) = connect(cx, planners, (a, b), refinement, scratch)?;
+    Some(Edge { low, high, planner: planner.tag(), cost })
 }
 
 #[cfg(test)]

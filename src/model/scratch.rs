@@ -42,6 +42,14 @@ impl Scratch {
         std::mem::take(&mut self.asked)
     }
 
+    /// Does work whose questions are not counted.
+    pub fn uncounted<T>(&mut self, work: impl FnOnce(&mut Scratch) -> T) -> T {
+        let before = self.take_asked();
+        let done = work(self);
+        self.asked = before;
+        done
+    }
+
     /// Counts a question about a configuration that costs as much as one about its validity.
     pub fn count_configuration(&mut self) {
         self.asked.configurations += 1;

@@ -190,7 +190,8 @@ impl ProblemBuilder {
         self
     }
 
-    /// The build stops at the end of the first round with so many nodes; with 100 000 if nothing is said.
+    /// The build stops at the end of the first round with so many nodes. If nothing is said: with as many as take about
+    /// 4 GiB of memory, or, where seconds are limited, with the most that there may be.
     pub fn most_nodes(mut self, nodes: u64) -> ProblemBuilder {
         self.file.limits.nodes = Some(nodes);
         self

@@ -12,14 +12,12 @@ use crate::schedule::Adaptive;
 use crate::source::ProblemError;
 use crate::source::Source;
 use crate::source::Step::{Index, Key};
+use crate::space::Space;
 use crate::strategy::Strategy;
 
-/// The most nodes a roadmap may have: ids take 32 bits, and two more name start and goal.
-pub const NODES_MAX: u64 = u32::MAX as u64 - 2;
 const SET_NODES_MAX: u64 = 1_000_000;
 const SETS_PER_ROUND_MAX: u64 = 1_000_000;
 const DEFAULT_SETS_PER_ROUND: u64 = 5;
-const DEFAULT_NODES_MAX: u64 = 100_000;
 
 /// Which sets are made, in which order: what [`Problem`](super::Problem) says of it.
 pub(super) struct Sets {
@@ -148,40 +146,21 @@ pub(super) fn default_sets() -> Sets {
     }
 }
 
-/// The limits of a problem that has none.
-pub(super) fn default_limits() -> Limits {
-    Limits { nodes: DEFAULT_NODES_MAX, sets: u64::MAX, seconds: None }
-}
-
-pub(super) fn limits_of(source: &Source, file: &File) -> Result<Limits, ProblemError> {
+pub(super) fn limits_of(
+    source: &Source,
+    file: &File,
+    space: &Space,
+) -> Result<Limits, ProblemError> {
     let asked = &file.limits;
-    let limits = Limits {
-        nodes: asked.nodes.unwrap_or(DEFAULT_NODES_MAX),
-        sets: asked.sets.unwrap_or(u64::MAX),
-        seconds: asked.seconds,
-    };
+    let mut limits = Limits::left_open(space);
+    if asked.seconds.is_some() {
+        limits = Limits { seconds: asked.seconds, ..limits.with_time(space) };
+    }
+    limits.nodes = asked.nodes.unwrap_or(limits.nodes);
+    limits.sets = asked.sets.unwrap_or(limits.sets);
     limits
         .complaint()
         .map_or(Ok(limits), |(key, message)| Err(source.error(&[Key("limits"), Key(key)], message)))
-}
-
-impl Limits {
-    /// What is wrong with the limits: which one, what was found and what is expected.
-    pub fn complaint(&self) -> Option<(&'static str, String)> {
-        if !(1..=NODES_MAX).contains(&self.nodes) {
-            let expected = format!("1 to {NODES_MAX} expected (node ids take 32 bits)");
-            return Some(("nodes", format!("{} found; {expected}", self.nodes)));
-        }
-        if self.sets == 0 {
-            return Some(("sets", "0 found; at least 1 expected".to_owned()));
-        }
-        match self.seconds {
-            Some(seconds) if !(seconds.is_finite() && seconds > 0.0) => {
-                Some(("seconds", format!("{seconds} found; a positive number expected")))
-            }
-            _ => None,
-        }
-    }
 }
 
 pub(super) fn evaluators_of(

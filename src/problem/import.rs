@@ -1,7 +1,7 @@
 //! Problems that files of other programs describe, with the defaults that a problem file would have.
 
 use super::building::{self, Sets};
-use super::{DEFAULT_SEED, Problem};
+use super::{DEFAULT_SEED, Limits, Problem};
 use crate::context::Ends;
 use crate::evaluate::{EvaluatorKind, Query};
 use crate::model::Imported;
@@ -13,6 +13,7 @@ pub(super) fn problem_of(path: &Path, imported: Imported) -> Result<Problem, Pro
     let Imported { name, model, query, notes, sources } = imported;
     let notes = notes.iter().map(|note| plain(note).into_owned()).collect();
     let Sets { strategies, schedule, sets_per_round } = building::default_sets();
+    let limits = Limits::left_open(&model.description().space());
     let mut problem = Problem {
         name,
         seed: DEFAULT_SEED,
@@ -23,7 +24,7 @@ pub(super) fn problem_of(path: &Path, imported: Imported) -> Result<Problem, Pro
         adaptive: None,
         sets_per_round,
         evaluators: Vec::new(),
-        limits: building::default_limits(),
+        limits,
         notes,
         sources,
         earlier: Vec::new(),

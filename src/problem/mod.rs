@@ -11,6 +11,7 @@ mod describe;
 mod file;
 mod import;
 mod layout;
+mod limits;
 mod resolve;
 mod strategy;
 mod write;
@@ -18,10 +19,10 @@ mod write;
 pub use crate::source::ProblemError;
 use crate::source::read_file;
 pub use builder::ProblemBuilder;
-pub use building::NODES_MAX;
 pub use chapter::Earlier;
 pub use configuration::configuration;
 pub use layout::Layout;
+pub use limits::{Limits, NODES_MAX};
 pub use strategy::StrategySpec;
 pub use write::Written;
 
@@ -36,7 +37,6 @@ use crate::scene::is_mesh_file;
 use crate::schedule::Adaptive;
 use crate::space::Space;
 use crate::strategy::Strategy;
-use bincode::{Decode, Encode};
 use std::path::Path;
 
 /// The base seed of a problem that names none.
@@ -73,17 +73,6 @@ pub struct Problem {
     pub(crate) sources: Vec<SourceFile>,
     /// Of a build that was continued with another schedule: what came before, in order.
     pub(crate) earlier: Vec<Earlier>,
-}
-
-/// Bounds on a build. It stops at the end of the first round that reaches one.
-#[derive(Clone, Copy, Debug, PartialEq, Encode, Decode)]
-pub struct Limits {
-    /// Nodes of the roadmap.
-    pub nodes: u64,
-    /// Node sets.
-    pub sets: u64,
-    /// Wall-clock seconds. The only limit under which two runs may end at different rounds.
-    pub seconds: Option<f64>,
 }
 
 impl Problem {
@@ -236,6 +225,7 @@ impl Problem {
             model: self.model.description().prepare(),
             base_seed: self.seed,
             query: self.query.clone(),
+            tries_direct_motion: true,
         }
     }
 

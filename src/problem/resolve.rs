@@ -39,7 +39,7 @@ pub(super) fn resolve(
     let Sets { mut strategies, schedule, sets_per_round } = sets_of(&source, file)?;
     take_in_parents(&source, runs, &model.description().space(), &mut strategies)?;
     let adaptive = adaptive_of(&source, file)?;
-    let limits = limits_of(&source, file)?;
+    let limits = limits_of(&source, file, &model.description().space())?;
     let evaluators = evaluators_of(&source, file)?;
     let seed = file.seed.unwrap_or(DEFAULT_SEED);
 

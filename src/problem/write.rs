@@ -1,6 +1,6 @@
 //! A problem written out as a problem file that loads to the same problem.
 
-use super::Problem;
+use super::{Limits, Problem};
 use crate::generator::Sample;
 use crate::model::Documents;
 use crate::source::value;
@@ -79,7 +79,14 @@ fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
         writeln!(out, "{}", method.expect("a method is a table").trim())?;
     }
     let limits = &problem.limits;
-    writeln!(out, "\n[limits]\nnodes = {}", limits.nodes)?;
+    writeln!(out, "\n[limits]")?;
+    let mut open = Limits::left_open(&problem.space());
+    if limits.seconds.is_some() {
+        open = open.with_time(&problem.space());
+    }
+    if limits.nodes != open.nodes {
+        writeln!(out, "nodes = {}", limits.nodes)?;
+    }
     if limits.sets != u64::MAX {
         writeln!(out, "sets = {}", limits.sets)?;
     }

@@ -58,17 +58,10 @@ fn to_nodes(
     scratch: &mut Scratch,
 ) -> Vec<Edge> {
     let configs = roadmap.configs();
-    let mut edges = Vec::new();
-    for low in nodes {
-        let ends = (configs.get(low.index()), q);
-        let joined = local::connect(cx, &attachment.planners, ends, 1, scratch);
-        let high = id;
-        edges.extend(joined.map(|(planner, cost)| Edge {
-            low,
-            high,
-            planner: planner.tag(),
-            cost,
-        }));
-    }
-    edges
+    let planners = &attachment.planners;
+    let joined = nodes.filter_map(|node| {
+        let ends = [(node, configs.get(node.index())), (id, q)];
+        local::edge(cx, planners, ends, 1, scratch)
+    });
+    joined.collect()
 }

@@ -1,4 +1,5 @@
-//! Queries: attaching two configurations to a roadmap and finding a path between them.
+//! Queries: attaching two configurations to a roadmap and finding a path between them, through the roadmap or by the
+//! direct motion.
 //!
 //! ```
 //! use roadmill::{Build, model::Scratch, problem::Problem, query};
@@ -14,6 +15,7 @@
 //! ```
 
 mod attach;
+mod direct;
 mod path;
 mod shorten;
 
@@ -62,9 +64,10 @@ impl Attachment {
 /// What a query came to.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Answer {
-    /// Nodes that start and goal could be connected to.
+    /// Nodes that start and goal could be connected to; zero for both where the direct motion was the answer before
+    /// the roadmap was looked at.
     pub attached: [u32; 2],
-    /// Whether the two reach a common connected component.
+    /// Whether the two are joined, by the direct motion or by a connected component that both reach.
     pub connected: bool,
     /// A path whose every edge passed the finer check.
     pub path: Option<Path>,
@@ -72,9 +75,14 @@ pub struct Answer {
     pub dropped_edges: u64,
 }
 
-/// Attaches `start` and `goal`, both valid, to the roadmap and looks for a shortest path whose
-/// edges all pass a check at a [`PATH_REFINEMENT`]th of the resolution. Edges that fail it are
-/// left out and the search repeated; the roadmap itself stays as it is.
+/// Looks for a shortest path from `start` to `goal`, both valid, whose edges all pass a check at a
+/// [`PATH_REFINEMENT`]th of the resolution.
+///
+/// First the direct motion is tried, by the attachment's local planners. Where that is straight and costs its length
+/// nothing is shorter, and it is the answer, whatever the roadmap. Otherwise `start` and `goal` are attached to the
+/// roadmap, and the direct motion, where there is one, is an edge like the others. Edges that fail the check are left
+/// out and the search repeated; the roadmap itself stays as it is. What trying the direct motion takes is not counted,
+/// so that the counts of a query whose ends do not see each other are those of the roadmap's part alone.
 pub fn solve(
     cx: &Context,
     roadmap: &Roadmap,
@@ -83,9 +91,15 @@ pub fn solve(
     scratch: &mut Scratch,
 ) -> Answer {
     let [from, to] = end_ids(roadmap);
+    let ends = [start, goal];
+    let direct = direct::edge(cx, ends, from, attachment, scratch);
+    if let Some(edge) = direct.filter(direct::is_shortest) {
+        let path = Some(direct::path(cx, ends, edge));
+        return Answer { attached: [0, 0], connected: true, path, dropped_edges: 0 };
+    }
     let from_start = attach(cx, roadmap, start, from, attachment, scratch);
     let from_goal = attach(cx, roadmap, goal, to, attachment, scratch);
-    let search = Search { cx, roadmap, ends: [start, goal], attached: [from_start, from_goal] };
+    let search = Search { cx, roadmap, ends, attached: [from_start, from_goal], direct };
     let shortest = |graph: &Graph, failed: &BTreeSet<u32>| graph.shortest(from, to, failed);
     search.answer(shortest, scratch)
 }
@@ -120,9 +134,10 @@ pub fn ask(
     Ok(solve(cx, roadmap, (&start, &goal), attachment, scratch))
 }
 
-/// The lowest barrier between `start` and `goal`, both valid, through a roadmap of a model with energies, and the
-/// shortest path, by the edges' costs, that does not exceed it; infinity where there is no path. Edges are checked as
-/// [`solve`] does. The ends are attached to all nodes that were once their nearest.
+/// The lowest barrier between `start` and `goal`, both valid, in a model with energies, and the shortest path, by the
+/// edges' costs, that does not exceed it; infinity where there is no path. The ways are those through the roadmap, and
+/// the direct motion. Edges are checked as [`solve`] does. The ends are attached to all nodes that were once their
+/// nearest.
 pub fn lowest_barrier(
     cx: &Context,
     roadmap: &Roadmap,
@@ -131,10 +146,12 @@ pub fn lowest_barrier(
     scratch: &mut Scratch,
 ) -> (f64, Answer) {
     let [from, to] = end_ids(roadmap);
+    let ends = [start, goal];
+    let direct = direct::edge(cx, ends, from, attachment, scratch);
     let from_start = attach_for_good(cx, roadmap, start, from, attachment, scratch);
     let from_goal = attach_for_good(cx, roadmap, goal, to, attachment, scratch);
     let energy = cx.model.energy(start, scratch).unwrap_or(f64::NEG_INFINITY);
-    let search = Search { cx, roadmap, ends: [start, goal], attached: [from_start, from_goal] };
+    let search = Search { cx, roadmap, ends, attached: [from_start, from_goal], direct };
     let mut barrier = f64::INFINITY;
     let lowest = |graph: &Graph, failed: &BTreeSet<u32>| {
         let (found, route) = graph.lowest_barrier(from, to, energy, failed)?;
@@ -157,6 +174,8 @@ struct Search<'a> {
     roadmap: &'a Roadmap,
     ends: [&'a [f64]; 2],
     attached: [Vec<Edge>; 2],
+    /// The direct motion between the ends, which has passed the finer check.
+    direct: Option<Edge>,
 }
 
 impl Search<'_> {
@@ -167,13 +186,14 @@ impl Search<'_> {
         mut find: impl FnMut(&Graph, &BTreeSet<u32>) -> Option<Route>,
         scratch: &mut Scratch,
     ) -> Answer {
-        let Search { cx, roadmap, ends: [start, goal], attached: [from_start, from_goal] } = self;
+        let Search { cx, roadmap, ends: [start, goal], attached, direct } = self;
+        let [from_start, from_goal] = attached;
         let reached = |edges: &[Edge]| -> BTreeSet<NodeId> {
             edges.iter().map(|edge| roadmap.components().of_node(edge.low).name).collect()
         };
         let mut answer = Answer {
             attached: [from_start.len() as u32, from_goal.len() as u32],
-            connected: !reached(&from_start).is_disjoint(&reached(&from_goal)),
+            connected: direct.is_some() || !reached(&from_start).is_disjoint(&reached(&from_goal)),
             path: None,
             dropped_edges: 0,
         };
@@ -184,6 +204,8 @@ impl Search<'_> {
         let mut edges: Vec<Edge> = roadmap.edges().iter().collect();
         edges.extend(from_start);
         edges.extend(from_goal);
+        let mut passed: BTreeSet<u32> = direct.iter().map(|_| edges.len() as u32).collect();
+        edges.extend(direct);
         let [from, to] = end_ids(roadmap);
         let config = |node: NodeId| match node {
             node if node == from => start,
@@ -191,7 +213,7 @@ impl Search<'_> {
             node => roadmap.configs().get(node.index()),
         };
         let graph = Graph::new(to.index() + 1, &edges);
-        let (mut passed, mut failed) = (BTreeSet::new(), BTreeSet::new());
+        let mut failed = BTreeSet::new();
         while let Some(route) = find(&graph, &failed) {
             let blocked = route.edges.iter().find(|index| {
                 let edge = &edges[**index as usize];
@@ -220,3 +242,6 @@ impl Search<'_> {
         answer
     }
 }
+
+#[cfg(test)]
+mod tests;

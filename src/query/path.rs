@@ -8,7 +8,7 @@ use bincode::{Decode, Encode};
 /// A path: configurations to be joined by [`Space::interpolate`](crate::space::Space::interpolate).
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Path {
-    /// The configurations, from start to goal.
+    /// The configurations, from start to goal: one alone where these are the same.
     pub configs: Configs,
     /// Sum of its edges' costs in the direction of the path: of most models its length in the space's metric.
     pub length: f64,
@@ -16,7 +16,8 @@ pub struct Path {
 
 impl Path {
     /// The path along a route: each edge's own motion, turned around where it is walked from its
-    /// higher end.
+    /// higher end. Where one configuration follows itself, since an end of the query is a node, say, or a motion turns
+    /// where it begins, it stands once.
     pub(super) fn along<'a>(
         cx: &Context,
         route: &Route,
@@ -24,7 +25,11 @@ impl Path {
         config: impl Fn(NodeId) -> &'a [f64],
     ) -> Path {
         let mut configs = Configs::new(cx.space.len());
-        configs.push(config(route.nodes[0]));
+        let mut push = |q: &[f64]| match cx.tries_direct_motion {
+            true => configs.push_if_new(q),
+            false => configs.push(q),
+        };
+        push(config(route.nodes[0]));
         for (node, edge) in route.nodes.iter().zip(&route.edges) {
             let edge = &edges[*edge as usize];
             let planner = Planner::from_tag(edge.planner).expect("edges carry known planners");
@@ -32,7 +37,7 @@ impl Path {
             let forwards = *node == edge.low;
             for i in 1..motion.len() {
                 let index = if forwards { i } else { motion.len() - 1 - i };
-                configs.push(motion.get(index));
+                push(motion.get(index));
             }
         }
         Path { configs, length: route.length }
@@ -56,6 +61,11 @@ impl Path {
     pub fn sampled(&self, space: &Space, count: usize) -> Configs {
         assert!(count >= 2, "both ends are included");
         let lengths = self.lengths(space);
+        if lengths.len() == 1 {
+            let mut sampled = Configs::new(space.len());
+            (0..count).for_each(|_| sampled.push(self.configs.get(0)));
+            return sampled;
+        }
         let whole = lengths[lengths.len() - 1];
         let mut sampled = Configs::new(space.len());
         let mut q = vec![0.0; space.len()];
@@ -88,7 +98,8 @@ pub(super) struct OnPath {
     pub t: f64,
 }
 
-/// The point at `at`, a length from the path's start. `lengths` are those of [`Path::lengths`].
+/// The point at `at`, a length from the path's start. `lengths` are those of [`Path::lengths`], of a path of at least
+/// two configurations.
 pub(super) fn on_path(lengths: &[f64], at: f64) -> OnPath {
     let after = lengths.partition_point(|length| *length <= at).clamp(1, lengths.len() - 1);
     let (from, to) = (lengths[after - 1], lengths[after]);

@@ -4,35 +4,100 @@ use crate::context::Context;
 use crate::model::{Cost, Scratch};
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed};
+use std::collections::BTreeSet;
 
 /// Number of window sizes. Tries take turns with windows of the whole path, a half, a quarter, and so on: where a path
 /// winds, only places close to each other can be joined by a straight motion.
 const SCALES: u32 = 5;
 
-/// Shortens a path by shortcuts (R. Geraerts, M. H. Overmars, *Creating high-quality paths for motion
-/// planning*, IJRR 2007, §3.1): `tries` times two places on the path are drawn by length, the first
-/// uniformly, the second uniformly within a window around it, and what lies between them is replaced
-/// by the straight motion where that is shorter and free. In a model with energies *shorter* means that it costs
-/// less, and the new motions may reach no higher than what they replace.
+/// The most pairs of a path's configurations between which the straight motion is tried before shortcuts are drawn.
+const PAIRS_MAX: usize = 10_000;
+/// A place on a leg that is nearer to one of the leg's ends than this fraction of it is that end: what is interpolated
+/// there may differ from the end by rounding.
+const AT_END: f64 = 1e-9;
+
+/// Shortens a path. First configurations are left out between which the straight motion is free, those farthest apart
+/// along the path first: where nothing is in the way, start and goal remain. Then shortcuts are drawn (R. Geraerts,
+/// M. H. Overmars, *Creating high-quality paths for motion planning*, IJRR 2007, §3.1): `tries` times two places on
+/// the path are drawn by length, the first uniformly, the second uniformly within a window around it, and what lies
+/// between them is replaced by the straight motion where that is shorter and free. In a model with energies *shorter*
+/// means that it costs less, and the new motions may reach no higher than what they replace.
 ///
 /// The new motions pass the check at a [`PATH_REFINEMENT`]th of the resolution, as do the two halves
-/// of legs that are cut. The result has the same ends, is never longer, and is the same for the same
-/// arguments; the draws come from the problem's base seed.
+/// of legs that are cut. The result has the same ends, has no configuration twice in a row, is never longer (but for
+/// rounding), and is the same for the same arguments; the draws come from the problem's base seed.
 pub fn shorten(cx: &Context, path: &Path, tries: u32, scratch: &mut Scratch) -> Path {
     let mut stream = Seed::of_evaluator(cx.base_seed, "shorten").stream(Purpose::Connecting);
-    let mut short = path.clone();
+    let mut short = without_needless(cx, path, scratch);
     for index in 0..tries {
-        let window = 1.0 / f64::from(1u32 << (index % SCALES));
-        let (one, drawn) = (stream.unit(), stream.unit());
-        if short.configs.len() < 2 {
+        // One straight motion is as short as can be.
+        if short.configs.len() < 3 {
             break;
         }
+        let window = 1.0 / f64::from(1u32 << (index % SCALES));
+        let (one, drawn) = (stream.unit(), stream.unit());
         let other = (one + (2.0 * drawn - 1.0) * window).clamp(0.0, 1.0);
         if let Some(shorter) = shortcut(cx, &short, one.min(other), one.max(other), scratch) {
             short = shorter;
         }
     }
     short
+}
+
+/// The path without configurations that stand twice in a row, and without those between which the straight motion
+/// does as well. Pairs of configurations are tried in the order of how many legs lie between them, most first, and
+/// from the start on; at most [`PAIRS_MAX`] of them.
+fn without_needless(cx: &Context, path: &Path, scratch: &mut Scratch) -> Path {
+    let mut all = Configs::new(cx.space.len());
+    path.configs.iter().for_each(|q| all.push_if_new(q));
+    let mut kept: Vec<usize> = (0..all.len()).collect();
+    let mut tried = BTreeSet::new();
+    let mut legs = kept.len().saturating_sub(1);
+    while legs > 1 {
+        let mut first = 0;
+        while first + legs < kept.len() && tried.len() < PAIRS_MAX {
+            let between = &kept[first..=first + legs];
+            let is_new = tried.insert((between[0], between[legs]));
+            if is_new && is_needless(cx, &all, between, scratch) {
+                kept.drain(first + 1..first + legs);
+            }
+            first += 1;
+        }
+        // Pairs with more legs between them than these have had their turn.
+        legs = (legs - 1).min(kept.len() - 1);
+    }
+    if kept.len() == path.configs.len() {
+        return path.clone();
+    }
+    let mut configs = Configs::new(cx.space.len());
+    // A path that comes back to its start is a point.
+    kept.iter().for_each(|index| configs.push_if_new(all.get(*index)));
+    with_length(cx, configs, scratch).unwrap_or_else(|| path.clone())
+}
+
+/// Whether the straight motion from the first to the last of these configurations of a path does as well as the legs
+/// between them: it is free, and in a model with energies it costs no more and reaches no higher. That it is no longer
+/// follows from the metric.
+fn is_needless(cx: &Context, all: &Configs, between: &[usize], scratch: &mut Scratch) -> bool {
+    let ends = [all.get(between[0]), all.get(between[between.len() - 1])];
+    if cx.model.energy(ends[0], scratch).is_none() {
+        return cx.model.motion(ends[0], ends[1], PATH_REFINEMENT, scratch).is_some();
+    }
+    let before = climb(cx, between.iter().map(|index| all.get(*index)), scratch);
+    let after = climb(cx, ends.into_iter(), scratch);
+    before
+        .zip(after)
+        .is_some_and(|((cost, highest), (after, reached))| after <= cost && reached <= highest)
+}
+
+/// The path along these configurations; `None` if in a model with energies a motion between them is not valid.
+fn with_length(cx: &Context, configs: Configs, scratch: &mut Scratch) -> Option<Path> {
+    let mut path = Path { configs, length: 0.0 };
+    path.length = match cx.model.energy(path.configs.get(0), scratch) {
+        Some(_) => climb(cx, path.configs.iter(), scratch)?.0,
+        None => path.lengths(&cx.space).last().copied().unwrap_or(0.0),
+    };
+    Some(path)
 }
 
 /// The path with a straight motion between two places, which are given as fractions of its length in ascending order;
@@ -46,24 +111,21 @@ fn shortcut(cx: &Context, path: &Path, from: f64, to: f64, scratch: &mut Scratch
         return None;
     }
     let place = |OnPath { leg, t }| {
+        let [before, after] = [leg, leg + 1].map(|index| path.configs.get(index));
+        if t <= AT_END || t >= 1.0 - AT_END {
+            return Some(if t <= AT_END { before } else { after }.to_vec());
+        }
         let mut q = vec![0.0; cx.space.len()];
-        cx.space.interpolate(path.configs.get(leg), path.configs.get(leg + 1), t, &mut q);
+        cx.space.interpolate(before, after, t, &mut q);
         cx.space.canonicalize(&mut q).ok().map(|()| q)
     };
     let (a, b) = (place(first)?, place(last)?);
 
     let mut configs = Configs::new(cx.space.len());
-    let mut push = |q: &[f64]| {
-        let again = !configs.is_empty() && configs.get(configs.len() - 1) == q;
-        if !again {
-            configs.push(q);
-        }
-    };
-    (0..=first.leg).for_each(|i| push(path.configs.get(i)));
-    push(&a);
-    push(&b);
-    (last.leg + 1..path.configs.len()).for_each(|i| push(path.configs.get(i)));
-    let mut shorter = Path { configs, length: 0.0 };
+    (0..=first.leg).for_each(|i| configs.push_if_new(path.configs.get(i)));
+    configs.push_if_new(&a);
+    configs.push_if_new(&b);
+    (last.leg + 1..path.configs.len()).for_each(|i| configs.push_if_new(path.configs.get(i)));
     let ends = (path.configs.get(first.leg), path.configs.get(last.leg + 1));
     if cx.model.energy(&a, scratch).is_some() {
         let valid = cx.model.is_valid(&a, scratch) && cx.model.is_valid(&b, scratch);
@@ -73,15 +135,15 @@ fn shortcut(cx: &Context, path: &Path, from: f64, to: f64, scratch: &mut Scratch
         if !(valid && after < before && reached <= highest) {
             return None;
         }
-        shorter.length = climb(cx, shorter.configs.iter(), scratch)?.0;
-        return Some(shorter);
+        return with_length(cx, configs, scratch);
     }
-    shorter.length = shorter.lengths(&cx.space).last().copied().unwrap_or(0.0);
+    let shorter = with_length(cx, configs, scratch)?;
     if shorter.length.partial_cmp(&path.length) != Some(std::cmp::Ordering::Less) {
         return None;
     }
 
-    let mut free = |q: &[f64], p: &[f64]| cx.model.motion(q, p, PATH_REFINEMENT, scratch).is_some();
+    let mut free =
+        |q: &[f64], p: &[f64]| q == p || cx.model.motion(q, p, PATH_REFINEMENT, scratch).is_some();
     let motions = free(&a, &b) && free(ends.0, &a) && free(&b, ends.1);
     (motions && cx.model.is_valid(&a, scratch) && cx.model.is_valid(&b, scratch)).then_some(shorter)
 }
@@ -160,7 +222,60 @@ mod tests {
                 assert!(shorter.length <= length);
                 length = shorter.length;
             }
-            assert_eq!(shorten(cx, &path, 0, &mut scratch), path);
+            // Without shortcuts only configurations of the path are left out.
+            let few = shorten(cx, &path, 0, &mut scratch);
+            assert!(few.configs.iter().all(|q| path.configs.iter().any(|known| known == q)));
+            assert!(few.configs.len() < path.configs.len(), "{name}");
+        }
+    }
+
+    /// A robot that can turn, in a room with nothing in it.
+    fn open_room() -> Setup {
+        let text = "[space]\nmotion = \"rigid-2d\"\nmin = [0, 0]\nmax = [10, 10]\nbounds = \"body\"\n\
+            [robot]\nbodies = [{ shape = { box = { size = [1, 0.4, 0.4] } } }]\n";
+        let problem = Problem::parse(std::path::Path::new("room.toml"), text);
+        Setup::new(problem.expect("it is sound"))
+    }
+
+    fn path_of(cx: &Context, configs: &[[f64; 3]]) -> Path {
+        let mut path = Path { configs: Configs::new(3), length: 0.0 };
+        configs.iter().for_each(|q| path.configs.push(q));
+        path.length = path.lengths(&cx.space)[configs.len() - 1];
+        path
+    }
+
+    #[test]
+    fn in_free_space_start_and_goal_remain() {
+        let setup = open_room();
+        let (cx, scratch) = (&setup.cx, &mut Scratch::new());
+        let (start, goal) = ([1.0, 1.0, 3.0], [9.0, 9.0, -3.0]);
+        let ways: [&[[f64; 3]]; 4] = [
+            &[start, [2.0, 8.0, 0.5], [7.0, 3.0, -2.0], [9.0, 9.0, -3.000_000_000_000_000_4], goal],
+            // Needless ones that lie on the way, and twice the same.
+            &[start, [5.0, 5.0, std::f64::consts::PI - 1e-9], goal],
+            &[start, start, [5.0, 8.0, 1.0], [5.0, 8.0, 1.0], goal, goal],
+            &[start, goal],
+        ];
+        for way in ways {
+            for tries in [0, 1, 200] {
+                let short = shorten(cx, &path_of(cx, way), tries, scratch);
+                assert_eq!(short, path_of(cx, &[start, goal]), "{way:?}");
+            }
+        }
+        // A way back to where it began is no way at all.
+        let there_and_back = path_of(cx, &[start, [5.0, 8.0, 1.0], start]);
+        assert_eq!(shorten(cx, &there_and_back, 5, scratch), path_of(cx, &[start]));
+    }
+
+    #[test]
+    fn no_configuration_follows_itself_however_many_shortcuts_are_drawn() {
+        let (setup, path) = solved("maze.toml", include_str!("../../problems/maze.toml"));
+        for tries in [10, 100, 2000] {
+            let short = shorten(&setup.cx, &path, tries, &mut Scratch::new());
+            for i in 1..short.configs.len() {
+                let [before, q] = [i - 1, i].map(|i| short.configs.get(i));
+                assert!(setup.cx.space.distance(before, q) > 1e-12, "{tries} tries: {short:?}");
+            }
         }
     }
 
@@ -182,11 +297,11 @@ mod tests {
     #[test]
     fn paths_that_are_straight_or_a_point_stay_as_they_are() {
         let (setup, path) = solved("maze.toml", include_str!("../../problems/maze.toml"));
-        for ends in [[0, 1], [0, 0]] {
+        for ends in [&[0, 1][..], &[0]] {
             let mut configs = Configs::new(3);
             ends.iter().for_each(|i| configs.push(path.configs.get(*i)));
             let mut straight = Path { configs, length: 0.0 };
-            straight.length = straight.lengths(&setup.cx.space)[1];
+            straight.length = straight.lengths(&setup.cx.space)[ends.len() - 1];
             assert_eq!(shorten(&setup.cx, &straight, 50, &mut Scratch::new()), straight);
             assert_eq!(straight.sampled(&setup.cx.space, 9).len(), 9);
         }

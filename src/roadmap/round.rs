@@ -20,6 +20,11 @@ impl Round {
     pub fn parts(&self) -> impl Iterator<Item = (&Increment, &[Edge])> {
         self.sets.iter().map(|set| (&*set.increment, &set.joined.edges[..]))
     }
+
+    /// Per set the edges that join it to what came before it.
+    pub fn joins(&self) -> impl ExactSizeIterator<Item = &[Edge]> {
+        self.sets.iter().map(|set| &set.joined.edges[..])
+    }
 }
 
 /// A set of a complete round.

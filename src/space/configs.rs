@@ -57,6 +57,14 @@ impl Configs {
         self.values.extend_from_slice(q);
     }
 
+    /// Appends one configuration, unless it is the last one of the list already.
+    pub(crate) fn push_if_new(&mut self, q: &[f64]) {
+        let again = self.len().checked_sub(1).is_some_and(|last| self.get(last) == q);
+        if !again {
+            self.push(q);
+        }
+    }
+
     /// Appends another list, whose configurations have as many values.
     pub fn extend(&mut self, other: &Configs) {
         assert_eq!(other.dofs, self.dofs);

@@ -31,7 +31,7 @@ pub(super) fn count(crew: &CrewArguments) -> Result<usize, Failure> {
 
 /// Grows a roadmap and says how it goes and what came of it; the exit code.
 pub(super) fn grow(growth: Growth, json: bool) -> Result<Code, Failure> {
-    let ended = growth.watch(Telling { json, reporter: None }).grow()?;
+    let ended = growth.watch(Telling { json, reporter: None, is_late: false }).grow()?;
     let Some(summary) = ended.summary() else { return say_finished(&ended, json) };
     if json {
         print_json(summary);
@@ -40,8 +40,26 @@ pub(super) fn grow(growth: Growth, json: bool) -> Result<Code, Failure> {
         let _ = writeln!(std::io::stdout(), "{summary}");
     }
     match ended.outcome() {
-        (Code::Done, _) => Ok(Code::Done),
-        (code, reason) => Err(Failure::new(code, reason)),
+        (Code::Done, _) => {
+            say_way_on(&ended);
+            Ok(Code::Done)
+        }
+        (code, reason) => Err(Failure::new(code, with_way_on(reason, &ended))),
+    }
+}
+
+/// Says how a build goes on that has ended as was asked for.
+fn say_way_on(ended: &Ended) {
+    if let Some(way) = ended.way_on() {
+        eprintln!("{}: {way}", ended.problem().name());
+    }
+}
+
+/// Why a build ended, and how it goes on.
+fn with_way_on(reason: String, ended: &Ended) -> String {
+    match ended.way_on() {
+        Some(way) => format!("{reason}; {way}"),
+        None => reason,
     }
 }
 
@@ -63,9 +81,13 @@ fn say_finished(ended: &Ended, json: bool) -> Result<Code, Failure> {
     match ended.outcome() {
         (Code::Done, reason) => {
             eprintln!("{before}: {reason}");
+            say_way_on(ended);
             Ok(Code::Done)
         }
-        (code, reason) => Err(Failure::new(code, format!("{before}: {reason}"))),
+        (code, reason) => {
+            let reason = with_way_on(format!("{before}: {reason}"), ended);
+            Err(Failure::new(code, reason))
+        }
     }
 }
 
@@ -74,6 +96,8 @@ struct Telling {
     json: bool,
     /// From the beginning of the build on.
     reporter: Option<Reporter>,
+    /// Whether it was said that the build's time is up.
+    is_late: bool,
 }
 
 impl Watch for Telling {
@@ -87,6 +111,13 @@ impl Watch for Telling {
     fn progress(&mut self, status: &Status) {
         if let Some(reporter) = &mut self.reporter {
             reporter.report(status);
+            let Status { problem, is_late, .. } = status;
+            if *is_late && !std::mem::replace(&mut self.is_late, true) && !self.json {
+                eprintln!(
+                    "{}: the time is up; the build ends when its round is finished",
+                    problem.name()
+                );
+            }
         }
     }
 }

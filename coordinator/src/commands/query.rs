@@ -56,7 +56,8 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
         }
     }
     let (configs, length) = (path.configs.len(), path.length);
-    eprintln!("path of {configs} configurations, length {length:.6}, in {seconds:.3} s");
+    let plural = if configs == 1 { "" } else { "s" };
+    eprintln!("path of {configs} configuration{plural}, length {length:.6}, in {seconds:.3} s");
     Ok(Code::Done)
 }
 

@@ -29,6 +29,9 @@ struct Status {
     /// `running`, `held` (on another host), `killed`, or the word of a stop.
     state: String,
     reason: String,
+    /// Of a build that has stopped: how it goes on, where it can.
+    #[serde(skip)]
+    way_on: Option<String>,
     ledger_bytes: u64,
     digest: Option<String>,
 }
@@ -74,6 +77,8 @@ impl Status {
             (Some(stopped), _, _) => (stopped.word.clone(), stopped.reason.clone()),
             _ => ("killed".to_owned(), "nobody works on it; `resume` goes on".to_owned()),
         };
+        let stopped = scan.stopped.as_ref().filter(|stopped| stopped.word == state);
+        let way_on = stopped.and_then(|stopped| stopped.way_on(scan.folder()));
         let chapter = scan.chapter();
         let end = scan.last_round.as_ref();
         let count = |of: fn(&crate::run::ledger::RoundEnd) -> u64| end.map_or(0, of);
@@ -94,6 +99,7 @@ impl Status {
             evaluators: EvaluatorValue::all(problem, verdicts),
             state,
             reason,
+            way_on,
             ledger_bytes: scan.end.offset,
             digest: end.map(|end| end.roadmap.to_string()),
         }
@@ -132,6 +138,9 @@ impl fmt::Display for Status {
         }
         writeln!(f, "ledger      {} bytes", self.ledger_bytes)?;
         write!(f, "state       {}: {}", self.state, self.reason)?;
+        if let Some(way) = &self.way_on {
+            write!(f, "\nto go on    {way}")?;
+        }
         match &self.digest {
             Some(digest) => write!(f, "\ndigest {digest}"),
             None => Ok(()),

@@ -24,6 +24,12 @@ pub fn verify(arguments: &VerifyArguments) -> Result<Code, Failure> {
         "{} of {} sets and {} judgements recomputed: all as recorded",
         verified.sets, verified.sets_recorded, verified.judgements
     ));
+    if let without @ 1.. = verified.judgements_without_direct_motion {
+        say(format_args!(
+            "{without} of these judgements are by an earlier version, which looked for paths through the roadmap only; \
+             this one also tries the direct motion between a query's ends"
+        ));
+    }
     if let Some(digest) = verified.digest {
         say(format_args!("digest {digest}"));
     }

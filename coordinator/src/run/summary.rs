@@ -104,7 +104,8 @@ impl EvaluatorValue {
 impl fmt::Display for EvaluatorValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let of = if self.bound == Bound::AtMost { "of at most" } else { "of" };
-        write!(f, "{} {:.3} {of} {:.3}", self.name, self.value, self.threshold)?;
+        let [value, threshold] = compared(self.value, self.threshold);
+        write!(f, "{} {value} {of} {threshold}", self.name)?;
         for (name, value) in &self.measures {
             write!(f, ", {name} {value:.3}")?;
         }
@@ -118,6 +119,20 @@ impl fmt::Display for EvaluatorValue {
             write!(f, ", {dropped} edges failed the finer check")?;
         }
         Ok(())
+    }
+}
+
+/// A value and the threshold that it is compared with, in as many decimals as it takes to tell the two apart where
+/// they differ, three at least: what is not met never looks as if it were.
+fn compared(value: f64, threshold: f64) -> [String; 2] {
+    let rounded = |decimals: usize| [value, threshold].map(|it| format!("{it:.decimals$}"));
+    let told_apart = |[value, threshold]: &[String; 2]| value != threshold;
+    let shortest = (3..=17).map(rounded).find(told_apart);
+    match shortest {
+        _ if value == threshold => rounded(3),
+        Some(texts) => texts,
+        // The digits that give a number back to the bit.
+        None => [value, threshold].map(|it| format!("{it:e}")),
     }
 }
 
@@ -206,5 +221,25 @@ impl fmt::Display for Summary {
         let ledger = self.ledger_seconds;
         writeln!(f, "wall        {:.2} s, {ledger:.2} s of it for the ledger", self.wall_seconds)?;
         write!(f, "digest {}", self.digest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::compared;
+
+    #[test]
+    fn a_value_looks_like_its_threshold_only_where_it_is_the_same() {
+        for (value, threshold, expected) in [
+            (1.0, 1.0, ["1.000", "1.000"]),
+            (0.25, 0.95, ["0.250", "0.950"]),
+            (0.9995, 1.0, ["0.9995", "1.0000"]),
+            (0.949_999_9, 0.95, ["0.9499999", "0.9500000"]),
+            (1e-30, 2e-30, ["1e-30", "2e-30"]),
+            (f64::INFINITY, -40.6, ["inf", "-40.600"]),
+            (f64::INFINITY, f64::INFINITY, ["inf", "inf"]),
+        ] {
+            assert_eq!(compared(value, threshold), expected);
+        }
     }
 }

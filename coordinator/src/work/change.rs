@@ -35,7 +35,13 @@ impl Change {
                     }
                 }
                 // A limit of time is one of this process.
-                let limits = Limits { seconds: present.limits().seconds, ..problem.limits() };
+                let mut limits = Limits { seconds: present.limits().seconds, ..problem.limits() };
+                // What a problem leaves open depends on the version of the program, and on a limit of time.
+                let space = present.space();
+                let both = [limits, present.limits()];
+                if both.iter().all(|limits| limits.leaves_nodes_open(&space)) {
+                    limits.nodes = present.limits().nodes;
+                }
                 let problem = (**problem).clone().with_limits(limits);
                 let problem = problem.map_err(|error| error.to_string())?;
                 let next = present.continued(&problem, scan.rounds())?;

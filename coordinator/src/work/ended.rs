@@ -62,4 +62,9 @@ impl Ended {
     pub fn outcome(&self) -> (Code, String) {
         self.stopped.outcome(&self.problem)
     }
+
+    /// How the build goes on, where it can: the command and the option that decides how far.
+    pub fn way_on(&self) -> Option<String> {
+        self.stopped.way_on(self.run.folder())
+    }
 }

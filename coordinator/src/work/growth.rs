@@ -10,7 +10,7 @@ use crate::run::ledger::LEDGER;
 use crate::run::{LedgerWriter, RunFolder, RunLock, Scan, SetFiles};
 use crate::signals::Signals;
 use roadmill::img::{Executor, Setup, Threads};
-use roadmill::problem::Problem;
+use roadmill::problem::{Limits, Problem};
 use roadmill::roadmap::Tally;
 use roadmill::{BITS_VERSION, Cancel};
 use std::path::{Path, PathBuf};
@@ -122,7 +122,9 @@ impl<'a> Growth<'a> {
         self
     }
 
-    /// Stops the build after this time, instead of that of the problem's limits.
+    /// Stops the build after this time, instead of that of the problem's limits: within a round, which is then lost,
+    /// but not before one round has been finished and judged. Of a new run whose limit of nodes is left open the time
+    /// is the only limit.
     pub fn max_seconds(self, seconds: Option<f64>) -> Growth<'a> {
         Growth { seconds, ..self }
     }
@@ -217,7 +219,7 @@ impl<'a> Growth<'a> {
         let mut watch = watch.unwrap_or_else(|| Box::new(()));
         workers.check()?;
         let prepared = match origin {
-            Origin::Anew(anew) => anew.prepare(&interrupt, &mut *watch)?,
+            Origin::Anew(anew) => anew.prepare(seconds, &interrupt, &mut *watch)?,
             Origin::Again { run, chapter } => {
                 if !run.join(LEDGER).is_file() {
                     return Err(Failure::usage(format!("{}: no run here", run.display())));
@@ -246,6 +248,7 @@ impl<'a> Growth<'a> {
             seconds: seconds.or(setup.problem().limits().seconds),
             memory,
             rounds,
+            may_stop: false,
             weighed: Weighed { after_rounds: rounds, at: None },
             stored: Arc::default(),
         };
@@ -291,9 +294,19 @@ impl<'a> Growth<'a> {
 type Found = Result<Prepared, Box<Ended>>;
 
 impl Anew {
-    fn prepare(self, interrupt: &Interrupt, watch: &mut dyn Watch) -> Result<Found, Failure> {
+    /// `seconds` is the limit of time, where it is another one than the problem's.
+    fn prepare(
+        self,
+        seconds: Option<f64>,
+        interrupt: &Interrupt,
+        watch: &mut dyn Watch,
+    ) -> Result<Found, Failure> {
         let Anew { problem, max_nodes, max_sets, folder: out, replace, or_resume, imports } = self;
-        let problem = limit(problem, max_nodes, max_sets)?;
+        let mut limits = problem.limits();
+        if seconds.is_some() {
+            limits = limits.with_time(&problem.space());
+        }
+        let problem = limited(problem, limits, max_nodes, max_sets)?;
         let existing = out.as_deref().filter(|_| or_resume);
         let has_ledger = |out: &Path| out.join(LEDGER).is_file();
         let folder = match existing {
@@ -392,7 +405,17 @@ pub(crate) fn limit(
     max_nodes: Option<u64>,
     max_sets: Option<u64>,
 ) -> Result<Problem, Failure> {
-    let mut limits = problem.limits();
+    let limits = problem.limits();
+    limited(problem, limits, max_nodes, max_sets)
+}
+
+/// The problem with these limits, or others as far as something is said of them.
+fn limited(
+    problem: Problem,
+    mut limits: Limits,
+    max_nodes: Option<u64>,
+    max_sets: Option<u64>,
+) -> Result<Problem, Failure> {
     limits.nodes = max_nodes.unwrap_or(limits.nodes);
     limits.sets = max_sets.unwrap_or(limits.sets);
     match limits.complaint() {

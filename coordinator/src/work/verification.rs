@@ -5,6 +5,7 @@ use crate::exit::{Code, Failure};
 use crate::run::ledger::{Chapter, Judged, job_name};
 use crate::run::{Replay, Scan, Told};
 use crate::signals::Signals;
+use roadmill::evaluate::{EvaluatorKind, Verdict};
 use roadmill::img::{
     Cut, Event, Executor, Finished, Job, LOSSES_MAX, Loss, Outcome, RoundSet, Setup, TICK, Threads,
 };
@@ -59,6 +60,9 @@ pub struct Verified {
     pub sets_recorded: u64,
     /// Judgements recomputed.
     pub judgements: u64,
+    /// Those of them that are right for paths through the roadmap only: an earlier version of the program recorded them,
+    /// which did not try the direct motion between a query's ends. This version would have judged otherwise.
+    pub judgements_without_direct_motion: u64,
     /// Digest of the roadmap; `None` where there is no complete round.
     pub digest: Option<Digest>,
 }
@@ -109,7 +113,7 @@ impl Verification {
             difference: None,
             counts: Counts::default(),
         };
-        let Counts { sets, judgements } = match &workers.kind {
+        let counts = match &workers.kind {
             Kind::Threads => check.run(&mut Threads::new(setup.clone(), workers.count))?,
             Kind::Processes(program) => {
                 let mut dispatcher =
@@ -124,7 +128,13 @@ impl Verification {
         };
         let sets_recorded = scan.last_round.as_ref().map_or(0, |end| end.sets);
         let digest = scan.last_round.as_ref().map(|end| end.roadmap);
-        Ok(Verified { sets, sets_recorded, judgements, digest })
+        Ok(Verified {
+            sets: counts.sets,
+            sets_recorded,
+            judgements: counts.judgements,
+            judgements_without_direct_motion: counts.without_direct_motion,
+            digest,
+        })
     }
 }
 
@@ -201,6 +211,15 @@ fn lot(chain: &Digest, what: &[u8], number: u64) -> f64 {
     u64::from_le_bytes([a, b, c, d, e, f, 0, 0]) as f64 / (1u64 << 48) as f64
 }
 
+/// What was recomputed.
+#[derive(Clone, Copy, Default)]
+struct Counts {
+    sets: u64,
+    judgements: u64,
+    /// Judgements that are right without the direct motion between a query's ends only.
+    without_direct_motion: u64,
+}
+
 struct Check<'a> {
     scan: &'a Scan,
     setup: &'a Setup,
@@ -218,13 +237,6 @@ struct Recorded {
     outcome: Outcome,
     /// How many workers died at the job.
     deaths: u32,
-}
-
-/// How much has been recomputed.
-#[derive(Clone, Copy, Default)]
-struct Counts {
-    sets: u64,
-    judgements: u64,
 }
 
 /// Something that was recomputed and is not as it is recorded.
@@ -283,7 +295,7 @@ impl Check<'_> {
                         let problem = self.scan.problem_of(chapter)?;
                         judge = Some((chapter, Setup::new(problem)));
                     }
-                    if let (Some((_, judge)), Some(roadmap)) = (&judge, &roadmap) {
+                    if let (Some((_, judge)), Some(roadmap)) = (&mut judge, &roadmap) {
                         self.judge(&judged, judge, chapter, roadmap)?;
                     }
                 }
@@ -409,22 +421,22 @@ impl Check<'_> {
     fn judge(
         &mut self,
         judged: &Judged,
-        judge: &Setup,
+        judge: &mut Setup,
         chapter: usize,
         roadmap: &Roadmap,
     ) -> Result<(), Failure> {
         let name = format!("the judgement of round {}", judged.round);
         needs_bits(&name, &self.scan.chapters[chapter])?;
-        let evaluators = judge.problem().evaluators().iter().enumerate();
-        let verdicts: Vec<_> = evaluators
-            .map(|(index, evaluator)| {
-                let method = evaluator.method();
-                let scratch = &mut Scratch::new();
-                method.evaluate(judge.context(), &index.to_string(), roadmap, scratch)
-            })
-            .collect();
         self.counts.judgements += 1;
-        if let Some(found) = difference::of_verdicts(&judged.verdicts, &verdicts) {
+        if let Some(found) = difference::of_verdicts(&judged.verdicts, &verdicts(judge, roadmap)) {
+            // No version of the program or of its bits tells apart who tried the direct motion.
+            judge.context_mut().try_direct_motion(false);
+            let earlier = verdicts(judge, roadmap);
+            judge.context_mut().try_direct_motion(true);
+            if difference::of_verdicts(&judged.verdicts, &earlier).is_none() {
+                self.counts.without_direct_motion += 1;
+                return Ok(());
+            }
             let set = self.setup.plan().sets_of(judged.round).end;
             let at = Position { set, part: Part::Judgement };
             self.note(at, format!("{name}: recorded and recomputed differ: {found}"));
@@ -437,6 +449,20 @@ impl Check<'_> {
             self.difference = Some(Difference { at, what });
         }
     }
+}
+
+/// What the evaluators of a problem say of a roadmap.
+fn verdicts(judge: &Setup, roadmap: &Roadmap) -> Vec<Verdict> {
+    let evaluators = judge.problem().evaluators().iter().enumerate();
+    let verdict = |(index, evaluator): (usize, &EvaluatorKind)| {
+        evaluator.method().evaluate(
+            judge.context(),
+            &index.to_string(),
+            roadmap,
+            &mut Scratch::new(),
+        )
+    };
+    evaluators.map(verdict).collect()
 }
 
 /// Whether this program makes the bits of a chapter.

@@ -92,6 +92,8 @@ pub struct Status<'a> {
     pub workers_alive: usize,
     /// How many workers there are to be.
     pub workers_wanted: usize,
+    /// Whether the limit of time is reached, and the build goes on only until a round is finished and judged.
+    pub is_late: bool,
 }
 
 /// The path of the problem's own query, if the verdicts have one.
@@ -115,6 +117,9 @@ pub(super) struct Keeper<'a> {
     pub memory: Option<u64>,
     /// Complete rounds.
     pub rounds: u64,
+    /// Whether a limit of time or memory may end the build now: since it was begun or went on a round was finished and
+    /// judged, and no later one awaits its judgement. So every call comes on, however short its time.
+    pub may_stop: bool,
     pub weighed: Weighed,
     /// Bytes stored for the workers in shared memory, which count as no process's own.
     pub stored: Arc<AtomicU64>,
@@ -224,11 +229,13 @@ impl Observer for Keeper<'_> {
 
     fn folded(&mut self, round: &Round, tally: &Tally) -> Result<(), Failure> {
         self.rounds = round.number.0 + 1;
+        self.may_stop = false;
         self.ledger.round(round, self.setup.problem(), tally)
     }
 
     fn judged(&mut self, judgement: &Judgement) -> Result<(), Failure> {
         self.verdicts = judgement.verdicts.clone();
+        self.may_stop = true;
         self.ledger.judged(judgement)
     }
 
@@ -239,16 +246,20 @@ impl Observer for Keeper<'_> {
         alive: usize,
     ) -> Result<Option<Cut>, Failure> {
         self.ledger.sync_if_due()?;
+        let is_over = self.seconds.is_some_and(|limit| self.begun.elapsed().as_secs_f64() >= limit);
         self.watch.progress(&Status {
             problem: self.setup.problem(),
             progress,
             tally,
             workers_alive: alive,
             workers_wanted: self.workers,
+            is_late: is_over && !self.may_stop,
         });
         Ok(if self.interrupt.came() {
             Some(Cut::Interrupted)
-        } else if self.seconds.is_some_and(|limit| self.begun.elapsed().as_secs_f64() >= limit) {
+        } else if !self.may_stop {
+            None
+        } else if is_over {
             Some(Cut::Time)
         } else if self.is_short_of_memory(progress.rounds) {
             self.memory.map(Cut::Memory)

@@ -3,6 +3,7 @@ use bincode::{Decode, Encode};
 use roadmill::img::{Cut, Job, Stop};
 use roadmill::numbers::{Ordinal, StrategyIndex};
 use roadmill::problem::Problem;
+use std::path::Path;
 
 /// How a build ended, as the ledger keeps it.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
@@ -52,11 +53,27 @@ impl Stopped {
         matches!(&*self.word, "satisfied" | "node-limit" | "set-limit" | "gave-up")
     }
 
+    /// The command by which the build in the folder `run` goes on, and the option that decides how far; `None` where
+    /// it has met its criteria or something is broken.
+    pub fn way_on(&self, run: &Path) -> Option<String> {
+        let how = match &*self.word {
+            "node-limit" => "goes on with --max-nodes N and a larger N",
+            "set-limit" => "goes on with --max-sets N and a larger N",
+            "memory-limit" => "goes on; --max-memory SIZE says up to where",
+            "time-limit" => "goes on; --max-time TIME says for how long",
+            "gave-up" => "goes on with --with PROBLEM and a strategy that finds milestones",
+            "interrupted" | "workers-lost" => "goes on",
+            _ => return None,
+        };
+        Some(format!("`roadmill resume {}` {how}", run.display()))
+    }
+
     /// What a build that ends so ends with, and what it says if that is no success.
     pub fn outcome(&self, problem: &Problem) -> (Code, String) {
         let code = match &*self.word {
             "satisfied" => Code::Done,
-            // Without criteria the limit is what was asked for.
+            // Without criteria the limit is what was asked for. There is a roadmap: no limit ends a build before its
+            // first round is complete.
             "node-limit" | "set-limit" | "time-limit" | "memory-limit" => {
                 if problem.evaluators().is_empty() {
                     Code::Done
