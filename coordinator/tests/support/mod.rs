@@ -233,7 +233,7 @@ impl Drop for Scratch {
         }
         // A test that has failed leaves no shared memory behind either.
         for path in self.left() {
-            let _ = fs::remove_file(path);
+            let _ = fs::remove_dir_all(path);
         }
     }
 }
