@@ -82,7 +82,7 @@ impl SetCheck {
 pub fn verdicts_complaint(space: &Space, verdicts: &[Verdict]) -> Option<&'static str> {
     verdicts.iter().find_map(|verdict| {
         let path = verdict.answer.as_ref().and_then(|answer| answer.path.as_ref());
-        if path.is_some_and(|path| !are_in(space, &path.configs) || path.configs.len() == 0) {
+        if path.is_some_and(|path| !are_in(space, &path.configs) || path.configs.is_empty()) {
             return Some("a path that is not in the space");
         }
         counts_complaint(verdict.asked).or_else(|| verdicts_complaint(space, &verdict.parts))
