@@ -8,13 +8,13 @@ use std::fmt;
 pub enum Code {
     /// The criteria are met, or a build without criteria has reached a limit; the path is found, the problem is sound.
     Done = 0,
-    /// The system failed: a disk is full, a process cannot be started.
+    /// The system failed: a disk is full, output is lost, a process or thread cannot be started.
     System = 1,
     /// The command line, the problem or an output folder cannot be used.
     Usage = 2,
     /// A limit was reached, or a roadmap searched, without success.
     NoSuccess = 3,
-    /// A run folder or a file of sets is damaged, or a job gave two different outcomes.
+    /// A run folder or a file of sets is damaged or says what cannot be, or a job gave two different outcomes.
     BrokenRun = 4,
     /// The workers died faster than they could be replaced, or a job that kills them.
     WorkersLost = 5,
@@ -29,14 +29,15 @@ pub const HELP: &str = "\
 Exit codes:
   0  done: the criteria are met (of a build without criteria: a limit is reached), the path is
      found, the problem is sound
-  1  the system failed (disk full, no process can be started)
+  1  the system failed (disk full, output lost, no process or thread can be started)
   2  usage: the command line, the problem or the run folder cannot be used, or is in use
   3  without success: a limit was reached before the criteria were met, a sampler gave up, no
      path was found
-  4  broken run: a damaged run folder or file of sets, or a job with two different outcomes
+  4  broken run: a damaged or impossible run folder or file of sets, or a job with two different
+     outcomes
   5  workers lost: they died faster than they could be replaced, or one set killed them
   6  interrupted by a signal; the last complete round is saved
-  7  not the same: a set recomputed by verify, or two runs compared by diff";
+  7  not the same: a set, judgement or stop recomputed by verify, or two runs compared by diff";
 
 /// A failure with its exit code and one message.
 #[derive(Debug)]

@@ -1,21 +1,147 @@
-//! Files written whole.
+//! Files: opened for what they are expected to be, and written whole.
 
-use crate::exit::Failure;
+use crate::exit::{Code, Failure};
+use rustix::fs::{Mode, OFlags, open};
+use rustix::io::Errno;
+use std::fs::{self, File, Permissions};
+use std::io::{self, ErrorKind, Write};
+use std::os::unix::fs::{FileTypeExt, PermissionsExt};
 use std::path::Path;
+use tempfile::{Builder, NamedTempFile};
 
-/// Writes a file so that it is there whole or not at all.
+/// Opens a regular file, and nothing else: a FIFO would wait for its other end, a device do what devices do. New
+/// files have the mode that the umask leaves.
 ///
 /// # Errors
-/// Exit code 2: it cannot be written.
-pub(crate) fn write_whole(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), Failure> {
-    let cannot = |error| Failure::usage(format!("{}: cannot write: {error}", path.display()));
+/// What the system says; for something that is no regular file, what it is.
+pub(crate) fn open_regular(path: &Path, access: OFlags) -> io::Result<File> {
+    let flags = access | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
+    let file = match open(path, flags, Mode::from_raw_mode(0o666)) {
+        Ok(file) => File::from(file),
+        Err(Errno::LOOP) if access.contains(OFlags::NOFOLLOW) => return Err(other("a link")),
+        // A FIFO without a reader, or a socket.
+        Err(Errno::NXIO) => return Err(other("no file that can be read")),
+        Err(error) => return Err(error.into()),
+    };
+    let kind = file.metadata()?.file_type();
+    if kind.is_file() {
+        Ok(file)
+    } else if kind.is_dir() {
+        Err(other("a folder"))
+    } else if kind.is_fifo() {
+        Err(other("a FIFO"))
+    } else {
+        Err(other("a device"))
+    }
+}
+
+/// Opens a file of a run folder, as [`open_regular`] does. No link is followed: it could lead anywhere.
+///
+/// # Errors
+/// As [`open_regular`].
+pub(crate) fn open_in_run(path: &Path, access: OFlags) -> io::Result<File> {
+    open_regular(path, access | OFlags::NOFOLLOW)
+}
+
+fn other(found: &str) -> io::Error {
+    io::Error::new(ErrorKind::InvalidInput, format!("{found} found, a regular file expected"))
+}
+
+/// A failure to write a file: the user's where the path is to blame, the system's where it has no room, say.
+pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
+    let code = match error.kind() {
+        ErrorKind::NotFound
+        | ErrorKind::PermissionDenied
+        | ErrorKind::AlreadyExists
+        | ErrorKind::NotADirectory
+        | ErrorKind::IsADirectory
+        | ErrorKind::DirectoryNotEmpty
+        | ErrorKind::InvalidInput
+        | ErrorKind::InvalidFilename
+        | ErrorKind::ReadOnlyFilesystem => Code::Usage,
+        _ => Code::System,
+    };
+    Failure::new(code, format!("{}: cannot write: {error}", path.display()))
+}
+
+/// The folder that a file is in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        // A path of one name has an empty parent.
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// A new file beside `path`, to be given its name once it is whole; removed if it never is. Its mode follows the
+/// umask, as that of any file which others may be meant to read.
+pub(crate) fn beside(path: &Path) -> io::Result<NamedTempFile> {
     let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}", std::process::id()));
-    let beside = path.with_file_name(name);
-    std::fs::write(&beside, contents).map_err(cannot)?;
-    std::fs::rename(&beside, path).map_err(|error| {
-        // The temporary file is of no use to anybody now.
-        let _ = std::fs::remove_file(&beside);
-        cannot(error)
-    })
+    name.push(".");
+    let mode = Permissions::from_mode(0o666);
+    Builder::new().prefix(&name).permissions(mode).tempfile_in(folder_of(path))
+}
+
+/// Writes a file so that it is there whole or not at all. What is written to a FIFO or a device, as `/dev/stdout`,
+/// goes there.
+///
+/// # Errors
+/// Exit code 2: the path cannot be used; 1: there is no room, or the system fails otherwise.
+pub(crate) fn write_whole(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), Failure> {
+    let cannot = |error: io::Error| cannot_write(path, &error);
+    let takes_all = |file: fs::Metadata| !file.is_file() && !file.is_dir();
+    if fs::metadata(path).is_ok_and(takes_all) {
+        let mut file = File::options().write(true).open(path).map_err(cannot)?;
+        return match file.write_all(contents.as_ref()) {
+            // Whoever reads it has read enough.
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+            written => written.map_err(cannot),
+        };
+    }
+    let mut file = beside(path).map_err(cannot)?;
+    file.write_all(contents.as_ref()).map_err(cannot)?;
+    file.persist(path).map_err(|error| cannot(error.error))?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rustix::fs::{CWD, mkfifoat};
+    use std::os::unix::fs::symlink;
+
+    #[test]
+    fn only_regular_files_are_opened_and_in_run_folders_no_links() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::write(path("file"), "x").unwrap();
+        symlink(path("file"), path("link")).unwrap();
+        mkfifoat(CWD, path("fifo"), Mode::RUSR | Mode::WUSR).unwrap();
+        assert!(open_regular(&path("link"), OFlags::RDONLY).is_ok());
+        for (name, found) in [("link", "a link"), ("fifo", "a FIFO"), (".", "a folder")] {
+            let error = open_in_run(&path(name), OFlags::RDONLY).unwrap_err();
+            assert!(error.to_string().starts_with(found), "{name}: {error}");
+        }
+        let error = open_regular(Path::new("/dev/null"), OFlags::RDWR).unwrap_err();
+        assert!(error.to_string().starts_with("a device"), "{error}");
+        let error = open_in_run(&path("link"), OFlags::WRONLY | OFlags::CREATE).unwrap_err();
+        assert!(error.to_string().starts_with("a link"), "{error}");
+        open_in_run(&path("new"), OFlags::WRONLY | OFlags::CREATE).unwrap();
+    }
+
+    #[test]
+    fn a_file_is_written_whole_and_nothing_is_left_of_one_that_cannot_be() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out");
+        write_whole(&path, "first").unwrap();
+        write_whole(&path, "second").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "second");
+        let refused = write_whole(&folder.path().join("none/out"), "x").unwrap_err();
+        assert_eq!(refused.code, Code::Usage);
+        fs::create_dir(folder.path().join("folder")).unwrap();
+        let refused = write_whole(&folder.path().join("folder"), "x").unwrap_err();
+        assert_eq!(refused.code, Code::Usage, "{refused}");
+        assert_eq!(write_whole(Path::new("/dev/full"), "x").unwrap_err().code, Code::System);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
 }

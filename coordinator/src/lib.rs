@@ -13,6 +13,7 @@ pub mod dispatch;
 pub mod exit;
 mod files;
 mod memory;
+mod output;
 mod progress;
 pub mod run;
 pub mod signals;
@@ -21,12 +22,34 @@ pub mod work;
 pub use work::{Ended, Growth, Run, Selection, Workers};
 
 use clap::Parser;
-use exit::Failure;
+use exit::{Code, Failure};
 use std::process::ExitCode;
 
 /// Runs the program with the command line that the process was given.
 pub fn main() -> ExitCode {
-    let result = match cli::Arguments::parse().command {
+    if let Err(error) = signals::take_limits_for_errors() {
+        output::note(format_args!("roadmill: cannot listen to signals: {error}"));
+        return ExitCode::from(Code::System as u8);
+    }
+    let code = match cli::Arguments::try_parse() {
+        Ok(arguments) => run(arguments.command).unwrap_or_else(say_failure),
+        // Help and version are output as any other.
+        Err(told) if !told.use_stderr() => {
+            output::printed(told.print());
+            Code::Done
+        }
+        Err(error) => {
+            // Nobody may be there to read it.
+            let _ = error.print();
+            Code::Usage
+        }
+    };
+    let code = output::lost().map_or(code, say_failure);
+    ExitCode::from(code as u8)
+}
+
+fn run(command: cli::Command) -> Result<Code, Failure> {
+    match command {
         cli::Command::Build(arguments) => commands::build(&arguments),
         cli::Command::Generate(arguments) => commands::generate(&arguments),
         cli::Command::Resume(arguments) => commands::resume(&arguments),
@@ -39,10 +62,10 @@ pub fn main() -> ExitCode {
         cli::Command::Import(arguments) => commands::import(&arguments),
         cli::Command::Export(arguments) => commands::export(&arguments),
         cli::Command::Worker(arguments) => commands::worker(&arguments),
-    };
-    let code = result.unwrap_or_else(|Failure { code, message }| {
-        eprintln!("roadmill: {message}");
-        code
-    });
-    ExitCode::from(code as u8)
+    }
+}
+
+fn say_failure(Failure { code, message }: Failure) -> Code {
+    output::note(format_args!("roadmill: {message}"));
+    code
 }

@@ -1,10 +1,11 @@
 //! Telling people and programs how far a build is.
 
+use crate::output;
 use crate::run::EvaluatorValue;
 use crate::work::Status;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 const TERMINAL_PAUSE: Duration = Duration::from_millis(200);
@@ -114,12 +115,12 @@ impl Reporter {
                 TERMINAL_PAUSE
             }
             Kind::Lines(pause) => {
-                eprintln!("{report}");
+                output::note(&report);
                 *pause = (*pause * 2).min(LINE_PAUSE_MAX);
                 *pause
             }
             Kind::Json => {
-                print_json(&report);
+                output::json(&report);
                 JSON_PAUSE
             }
         };
@@ -131,12 +132,5 @@ impl Reporter {
         if let Kind::Terminal(bar) = &self.kind {
             bar.finish_and_clear();
         }
-    }
-}
-
-/// Prints an object on a line of standard output. Whoever closes the pipe does not want it.
-pub fn print_json(value: &impl Serialize) {
-    if let Ok(line) = serde_json::to_string(value) {
-        let _ = writeln!(std::io::stdout(), "{line}");
     }
 }

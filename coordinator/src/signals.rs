@@ -2,7 +2,7 @@
 
 use crate::exit::Code;
 use rustix::net::{RecvFlags, recv};
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{SIGBUS, SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 use std::os::fd::{AsFd, BorrowedFd};
 use std::os::unix::net::UnixStream;
 use std::sync::Arc;
@@ -49,4 +49,30 @@ impl Signals {
     pub fn as_fd(&self) -> BorrowedFd<'_> {
         self.bell.as_fd()
     }
+}
+
+/// What is said where memory cannot be provided.
+const OUT_OF_MEMORY: &[u8] =
+    b"roadmill: memory that was promised is not there (SIGBUS): /dev/shm is full, or a file \
+in use was shortened; what the ledger has is safe, and `resume` goes on from there\n";
+
+/// Makes a failed write of signals that would end this process without a word: a file beyond `ulimit -f` is an
+/// error of the write, and memory that cannot be provided ends the process with a message.
+///
+/// # Errors
+/// When the system refuses.
+pub(crate) fn take_limits_for_errors() -> std::io::Result<()> {
+    // A handler, not to be ignored, which children would inherit. The write then fails with `EFBIG`.
+    signal_hook::flag::register(SIGXFSZ, Arc::default())?;
+    let say = || {
+        // SAFETY: nobody closes standard error.
+        let stderr = unsafe { BorrowedFd::borrow_raw(2) };
+        // The message may be lost; the process must not go on.
+        let _ = rustix::io::write(stderr, OUT_OF_MEMORY);
+        signal_hook::low_level::exit(i32::from(Code::System as u8));
+    };
+    // SAFETY: the handler makes two system calls, `write` and `_exit`, which are async-signal-safe, and touches no
+    // memory but a constant.
+    unsafe { signal_hook::low_level::register(SIGBUS, say) }?;
+    Ok(())
 }

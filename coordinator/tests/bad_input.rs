@@ -5,7 +5,6 @@ mod support;
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use support::Scratch;
 
@@ -287,22 +286,6 @@ fn help_lists_every_exit_code() {
         let codes = table.lines().filter_map(|line| line.split_whitespace().next());
         let codes: Vec<&str> = codes.filter(|word| word.parse::<u8>().is_ok()).collect();
         assert_eq!(codes, ["0", "1", "2", "3", "4", "5", "6", "7"]);
-    }
-}
-
-#[test]
-fn run_folders_are_private() {
-    let scratch = Scratch::new();
-    scratch.write("base.toml", BASE);
-    scratch.build("run", &["base.toml", "--workers", "1"], 0);
-    let mode = |name: &str| {
-        let metadata = fs::metadata(scratch.path(name)).expect("it is there");
-        metadata.permissions().mode() & 0o777
-    };
-    assert_eq!(mode("run"), 0o700);
-    for file in ["run/ledger", "run/ledger.durable", "run/lock", "run/summary.json", "run/path.csv"]
-    {
-        assert_eq!(mode(file), 0o600, "{file}");
     }
 }
 

@@ -3,7 +3,7 @@
 mod support;
 
 use std::process::Command;
-use support::{Done, ENDLESS, Scratch};
+use support::{Done, ENDLESS, Random, Scratch, trials};
 
 /// Becomes root of a user namespace with mounts of its own.
 const UNSHARE: [&str; 4] = ["unshare", "--user", "--map-root-user", "--mount"];
@@ -75,7 +75,7 @@ fn a_small_shared_memory_suffices_or_is_refused() {
         run(&scratch, &script)
     };
     // As much as containers get by default; and hardly more than the program says that it needs.
-    for (size, run_folder, workers) in [("64m", "docker", 8), ("3600k", "just", 2)] {
+    for (size, run_folder, workers) in [("64m", "docker", 8), ("5400k", "just", 2)] {
         build(size, run_folder, workers).assert_code(0);
         assert_eq!(scratch.summary(run_folder).digest, digest, "{size}");
     }
@@ -83,4 +83,88 @@ fn a_small_shared_memory_suffices_or_is_refused() {
     done.assert_code(1);
     done.assert_stderr(&["/dev/shm has", "use fewer workers or enlarge it"]);
     assert!(!scratch.path("tiny").exists(), "nothing was begun");
+}
+
+/// What takes all shared memory takes nothing from a build but speed, or ends it with a message: never without one.
+#[test]
+fn shared_memory_that_fills_up_at_any_moment_ends_nothing_without_a_word() {
+    if !may_mount() {
+        return;
+    }
+    let scratch = Scratch::new();
+    scratch.write("endless.toml", ENDLESS);
+    let digest = scratch.undisturbed_digest(200);
+    let mut random = Random::new(0xf111);
+    let mut clean = 0;
+    for number in 0..trials(5) {
+        let (run_folder, pause) = (format!("run{number}"), random.below(400));
+        let workers = 1 + random.below(4);
+        let script = format!(
+            "mount -t tmpfs -o size=16m tmpfs /dev/shm
+             $roadmill build endless.toml --out {run_folder} --workers {workers} --max-sets 200 &
+             sleep 0.{pause:03}
+             dd if=/dev/zero of=/dev/shm/filler bs=4k 2> /dev/null || true
+             wait $! && code=0 || code=$?
+             rm /dev/shm/filler
+             echo code $code"
+        );
+        let done = run(&scratch, &script);
+        done.assert_code(0);
+        if done.stdout.contains("code 0\n") {
+            clean += 1;
+        } else {
+            // No code of a signal, and it says why.
+            let is_said = ["code 1\n", "code 5\n"].iter().any(|code| done.stdout.contains(code));
+            assert!(is_said, "{}\n{}", done.stdout, done.stderr);
+            done.assert_stderr(&["roadmill: "]);
+        }
+        if scratch.path(&run_folder).join("ledger").exists() {
+            let resume = [
+                "build",
+                "endless.toml",
+                "--out",
+                &run_folder,
+                "--or-resume",
+                "--max-sets",
+                "200",
+                "--threads",
+                "1",
+            ];
+            scratch.run(&resume).assert_code(0);
+            assert_eq!(scratch.summary(&run_folder).digest, digest);
+        }
+    }
+    eprintln!("{clean} of {} came to their end in one go", trials(5));
+}
+
+#[test]
+fn a_full_disk_is_the_systems_failure_and_nothing_is_left_on_it() {
+    if !may_mount() {
+        return;
+    }
+    let scratch = Scratch::new();
+    scratch.write("endless.toml", ENDLESS);
+    scratch.build("run", &["endless.toml", "--threads", "1", "--max-sets", "60"], 0);
+    let pose = "1 0.6 1 1 0 0 0";
+    let script = format!(
+        "mkdir small; mount -t tmpfs -o size=8k tmpfs small
+         for command in 'export run --format graphml --out small/out.graphml' \
+             'import endless.toml --out small/in.toml' \
+             'generate endless.toml --sets a:0..40 --out small/part.sets --threads 1'; do
+             $roadmill $command && echo code 0 || echo code $?
+         done
+         dd if=/dev/zero of=small/filler bs=1k 2> /dev/null || true
+         $roadmill query run --start '{pose}' --goal '{pose}' --out small/path.csv || echo code $?
+         rm small/filler; echo left $(ls -A small)"
+    );
+    let done = run(&scratch, &script);
+    done.assert_code(0);
+    let codes: Vec<&str> = done.stdout.lines().filter(|line| line.starts_with("code")).collect();
+    let is_right = codes.iter().all(|code| ["code 1", "code 0"].contains(code));
+    assert!(is_right && codes.len() >= 3, "{}\n{}", done.stdout, done.stderr);
+    done.assert_stderr(&["out.graphml: cannot write: No space left on device", "path.csv"]);
+    let left: Vec<&str> =
+        done.stdout.lines().filter_map(|line| line.strip_prefix("left")).collect();
+    let is_whole = |name: &str| ["in.toml", "path.csv"].contains(&name);
+    assert!(left[0].split_whitespace().all(is_whole), "{left:?}");
 }

@@ -31,15 +31,16 @@ impl Threads {
         Threads::start(setup, threads).expect("threads can be started")
     }
 
-    /// [`Threads::new`] for those who can go on without.
-    pub(crate) fn start(
-        setup: Arc<Setup>,
-        threads: usize,
-    ) -> Result<Threads, rayon::ThreadPoolBuildError> {
+    /// [`Threads::new`] for those who can go on without, or have somebody to tell.
+    ///
+    /// # Errors
+    /// When the system refuses to start so many threads.
+    pub fn start(setup: Arc<Setup>, threads: usize) -> std::io::Result<Threads> {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads.max(1))
             .thread_name(|index| format!("roadmill {index}"))
-            .build()?;
+            .build()
+            .map_err(std::io::Error::other)?;
         let replica = Replica::new(&setup);
         let waiting = BTreeSet::new();
         Ok(Threads { setup, replica, pool, waiting, running: 0, results: unbounded() })

@@ -2,7 +2,8 @@
 
 use super::asker::{Asked, Asker};
 use crate::exit::{Code, Failure};
-use crate::files::write_whole;
+use crate::files::{cannot_write, write_whole};
+use crate::output::note;
 use roadmill::problem::configuration;
 use std::fmt::Write;
 use std::fs;
@@ -36,7 +37,7 @@ pub(super) fn batch(asker: &Asker, file: &Path, folder: &Path) -> Result<Code, F
     }
     write_whole(&folder.join("summary.csv"), summary)?;
     let asked = queries.len();
-    eprintln!("{} of {asked} queries solved, in {whole:.3} s", asked - unsolved);
+    note(format_args!("{} of {asked} queries solved, in {whole:.3} s", asked - unsolved));
     match unsolved {
         0 => Ok(Code::Done),
         _ => Err(Failure::new(Code::NoSuccess, format!("{unsolved} of {asked} queries unsolved"))),
@@ -90,7 +91,8 @@ fn read(asker: &Asker, file: &Path) -> Result<Vec<[Vec<f64>; 2]>, Failure> {
 /// Makes a folder, or takes one that is empty.
 fn make_empty(folder: &Path) -> Result<(), Failure> {
     let cannot = |error: std::io::Error| {
-        Failure::usage(format!("{}: cannot make the folder: {error}", folder.display()))
+        let Failure { code, .. } = cannot_write(folder, &error);
+        Failure::new(code, format!("{}: cannot make the folder: {error}", folder.display()))
     };
     match fs::read_dir(folder) {
         Ok(mut entries) => match entries.next() {

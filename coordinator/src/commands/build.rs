@@ -7,14 +7,11 @@ use crate::run::SetFiles;
 use crate::signals::Signals;
 use crate::work::{Run, limit};
 use roadmill::problem::{Limits, Problem};
-use roadmill_workers::channel::private_umask;
 use std::sync::Arc;
 
 /// Grows a roadmap.
 pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
     let cpu = CpuClock::start();
-    // Run folders and shared memory are their owner's business.
-    private_umask();
     let problem = problem(arguments)?;
     let growth = &arguments.growth;
     let workers = workers(&growth.crew)?;

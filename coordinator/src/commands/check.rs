@@ -1,10 +1,10 @@
 use super::load::load;
-use super::say;
 use crate::cli::CheckArguments;
 use crate::exit::{Code, Failure};
+use crate::output::line;
 
 /// Says what is wrong with a problem, or what it would build.
 pub fn check(arguments: &CheckArguments) -> Result<Code, Failure> {
-    say(load(&arguments.problem)?.describe().trim_end());
+    line(load(&arguments.problem)?.describe().trim_end());
     Ok(Code::Done)
 }

@@ -2,9 +2,11 @@
 
 use crate::cli::CrewArguments;
 use crate::exit::{Code, Failure};
-use crate::progress::{Reporter, print_json};
+use crate::files::open_in_run;
+use crate::output::{self, Plain, note};
+use crate::progress::Reporter;
 use crate::work::{Begun, Ended, Growth, Status, Torn, WORKERS_MAX, Watch, Workers};
-use std::io::Write;
+use rustix::fs::OFlags;
 
 /// Who does the jobs, as the command line says.
 pub(super) fn workers(crew: &CrewArguments) -> Result<Workers, Failure> {
@@ -34,10 +36,9 @@ pub(super) fn grow(growth: Growth, json: bool) -> Result<Code, Failure> {
     let ended = growth.watch(Telling { json, reporter: None, is_late: false }).grow()?;
     let Some(summary) = ended.summary() else { return say_finished(&ended, json) };
     if json {
-        print_json(summary);
+        output::json(summary);
     } else {
-        // A pipe that its reader has closed is no failure: the reader has seen enough.
-        let _ = writeln!(std::io::stdout(), "{summary}");
+        output::line(summary);
     }
     match ended.outcome() {
         (Code::Done, _) => {
@@ -51,7 +52,7 @@ pub(super) fn grow(growth: Growth, json: bool) -> Result<Code, Failure> {
 /// Says how a build goes on that has ended as was asked for.
 fn say_way_on(ended: &Ended) {
     if let Some(way) = ended.way_on() {
-        eprintln!("{}: {way}", ended.problem().name());
+        note(format_args!("{}: {way}", Plain(ended.problem().name())));
     }
 }
 
@@ -66,21 +67,18 @@ fn with_way_on(reason: String, ended: &Ended) -> String {
 /// Says that there is nothing to do, and ends as the build did.
 fn say_finished(ended: &Ended, json: bool) -> Result<Code, Failure> {
     let folder = ended.run().folder();
-    let summary = std::fs::read_to_string(folder.join("summary.json")).ok();
-    let summary = summary.and_then(|text| serde_json::from_str::<serde_json::Value>(&text).ok());
-    let line = match (json, summary, ended.rounds()) {
-        (true, Some(summary), _) => Some(summary.to_string()),
-        (false, _, 1..) => Some(format!("digest {}", ended.digest())),
-        _ => None,
+    let summary = open_in_run(&folder.join("summary.json"), OFlags::RDONLY).ok();
+    let summary =
+        summary.and_then(|file| serde_json::from_reader::<_, serde_json::Value>(file).ok());
+    match (json, summary, ended.rounds()) {
+        (true, Some(summary), _) => output::json(&summary),
+        (false, _, 1..) => output::line(format_args!("digest {}", ended.digest())),
+        _ => true,
     };
-    if let Some(line) = line {
-        // Whoever closes the pipe does not want it.
-        let _ = writeln!(std::io::stdout(), "{line}");
-    }
     let before = format!("{}: the build has ended before", folder.display());
     match ended.outcome() {
         (Code::Done, reason) => {
-            eprintln!("{before}: {reason}");
+            note(format_args!("{before}: {reason}"));
             say_way_on(ended);
             Ok(Code::Done)
         }
@@ -113,10 +111,10 @@ impl Watch for Telling {
             reporter.report(status);
             let Status { problem, is_late, .. } = status;
             if *is_late && !std::mem::replace(&mut self.is_late, true) && !self.json {
-                eprintln!(
-                    "{}: the time is up; the build ends when its round is finished",
-                    problem.name()
-                );
+                let name = Plain(problem.name());
+                note(format_args!(
+                    "{name}: the time is up; the build ends when its round is finished"
+                ));
             }
         }
     }
@@ -134,22 +132,24 @@ impl Drop for Telling {
 fn say_begun(begun: &Begun) {
     match begun {
         Begun::Anew { problem, folder, imported } => {
-            let (name, seed) = (problem.name(), problem.seed());
-            eprintln!("{name}: seed {seed}, run folder {}", folder.display());
-            problem.notes().iter().for_each(|note| eprintln!("{name}: {note}"));
+            let (name, seed) = (Plain(problem.name()), problem.seed());
+            note(format_args!("{name}: seed {seed}, run folder {}", folder.display()));
+            problem.notes().iter().for_each(|text| note(format_args!("{name}: {text}")));
             if *imported > 0 {
-                eprintln!("{name}: {imported} sets are imported when they are needed");
+                note(format_args!("{name}: {imported} sets are imported when they are needed"));
             }
         }
         Begun::Again { problem, folder, rounds, nodes, is_chapter, torn } => {
-            let (name, run) = (problem.name(), folder.display());
+            let (name, run) = (Plain(problem.name()), folder.display());
             let chapter = if *is_chapter { ", in a new chapter" } else { "" };
-            eprintln!(
+            note(format_args!(
                 "{name}: goes on after {rounds} rounds and {nodes} nodes{chapter}, run folder {run}"
-            );
+            ));
             if let Some(Torn { bytes, file }) = torn {
                 let file = file.display();
-                eprintln!("{name}: {bytes} bytes of an unfinished round were moved to {file}");
+                note(format_args!(
+                    "{name}: {bytes} bytes of an unfinished round were moved to {file}"
+                ));
             }
         }
     }

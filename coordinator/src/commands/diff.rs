@@ -1,6 +1,6 @@
-use super::say;
 use crate::cli::DiffArguments;
 use crate::exit::{Code, Failure};
+use crate::output::{Plain, line};
 use crate::run::ledger::Chapter;
 use crate::run::{Replay, Scan, Told};
 use crate::work::difference;
@@ -16,7 +16,7 @@ use std::path::Path;
 pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
     let (left, right) = (Read::new(&arguments.left)?, Read::new(&arguments.right)?);
     for reason in reasons(&left.scan.chapters, &right.scan.chapters) {
-        say(reason);
+        line(reason);
     }
     let [mut ours, mut theirs] = [Side::new(&left)?, Side::new(&right)?];
     let mut sets = 0u64;
@@ -67,7 +67,7 @@ pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
             ));
         }
     }
-    say(format_args!("the same {sets} sets and judgements"));
+    line(format_args!("the same {sets} sets and judgements"));
     Ok(Code::Done)
 }
 
@@ -93,7 +93,7 @@ fn reasons(left: &[Chapter], right: &[Chapter]) -> Vec<String> {
             let is_own = index == 0 && !is_mesh_file(Path::new(&file.path));
             let other = if is_own { b.sources.first() } else { b.sources.iter().find(same) };
             let other = other.map_or("not used".to_owned(), |other| other.digest.to_string());
-            note(&format!("file {}", file.path), file.digest.to_string(), other);
+            note(&format!("file {}", Plain(&file.path)), file.digest.to_string(), other);
         }
     }
     if left.len() != right.len() {
@@ -137,6 +137,7 @@ impl<'a> Side<'a> {
                 Some(Told::Judged(judged)) => {
                     self.verdicts.insert(judged.round, judged.verdicts);
                 }
+                Some(Told::Stopped(_)) => {}
                 Some(Told::Round(round, _)) => {
                     self.sets.extend(round.sets.into_iter().map(|set| (round.number, set)));
                 }

@@ -1,29 +1,27 @@
 use super::crew::count;
 use super::load::load;
-use super::say;
 use crate::cli::{CrewArguments, GenerateArguments};
 use crate::exit::{Code, Failure};
+use crate::output::{Plain, line, note};
 use crate::run::SetsWriter;
 use crate::signals::Signals;
-use roadmill::Strategy;
-use roadmill::img::Setup;
-use roadmill::model::Scratch;
-use roadmill::numbers::Ordinal;
+use roadmill::img::{Event, Executor, Finished, Job, Outcome, Setup, TICK, Threads};
+use roadmill::numbers::{Ordinal, SetNumber, StrategyIndex};
 use roadmill::roadmap::Increment;
 use roadmill::sampler::GaveUp;
-use roadmill_workers::channel::private_umask;
+use roadmill_workers::channel::remove_leftovers;
+use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
-use std::thread;
+use std::sync::Arc;
 
-/// Sets per thread that are held in memory before they are written.
-const BATCH_PER_THREAD: u64 = 16;
+/// Sets per thread that may be made before an earlier one is written.
+const AHEAD_PER_THREAD: u64 = 16;
 
-type Made = (Ordinal, Result<Increment, GaveUp>);
+/// What making a set came to.
+type Made = Result<Increment, GaveUp>;
 
 /// Generates sets apart from a build.
 pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
-    private_umask();
     let problem = load(&arguments.problem)?;
     let seed = arguments.seed.unwrap_or(problem.seed());
     let problem = problem.with_seed(seed);
@@ -40,60 +38,80 @@ pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
             "--sets: the sets of `{label}` grow from the roadmap of a build and cannot be made apart"
         )));
     }
+    remove_leftovers();
     let signals = Signals::listen().map_err(Failure::system)?;
     let out = &arguments.out;
     let mut writer = SetsWriter::begin(out, arguments.force, &problem, label, ordinals.clone())?;
-    let setup = Setup::new(problem);
-    let batch = BATCH_PER_THREAD * threads as u64;
-    let mut left = ordinals.clone();
-    while !left.is_empty() {
-        let until = left.end.min(Ordinal(left.start.0.saturating_add(batch)));
-        let strategy = &setup.problem().strategies()[strategy];
-        let made =
-            make(&setup, strategy, left.start..until, threads, &signals).ok_or_else(|| {
-                Failure::new(Code::WorkersLost, format!("a set of `{label}` cannot be generated"))
-            })?;
-        if signals.came() {
-            return Err(Failure::new(Code::Interrupted, "a signal came; nothing is written"));
+    let executor = Threads::start(Arc::new(Setup::new(problem)), threads)
+        .map_err(|error| Failure::system(format!("cannot start the threads: {error}")))?;
+    let mut making = Making {
+        executor,
+        strategy: StrategyIndex(strategy as u32),
+        left: ordinals.clone(),
+        made: BTreeMap::new(),
+    };
+    for ordinal in Ordinal::each(ordinals.clone()) {
+        let made = making.set(ordinal, threads as u64 * AHEAD_PER_THREAD, &signals)?;
+        let made = made.ok_or_else(|| {
+            let message = format!("set {label}:{ordinal} cannot be generated");
+            Failure::new(Code::WorkersLost, message)
+        })?;
+        if let Err(gave_up) = &made {
+            note(format_args!("set {}:{ordinal}: {gave_up}", Plain(label)));
         }
-        for (ordinal, made) in made {
-            if let Err(gave_up) = &made {
-                eprintln!("set {label}:{ordinal}: {gave_up}");
-            }
-            writer.set(ordinal, made)?;
-        }
-        left.start = until;
+        writer.set(ordinal, made)?;
     }
     writer.end()?;
     let Range { start, end } = ordinals;
     let count = end.since(*start);
-    say(format_args!("{count} sets {label}:{start}..{end} in {}", out.display()));
+    line(format_args!("{count} sets {}:{start}..{end} in {}", Plain(label), out.display()));
     Ok(Code::Done)
 }
 
-/// These sets in order, or fewer of them once a signal has come; `None` if one panics.
-fn make(
-    setup: &Setup,
-    strategy: &Strategy,
-    ordinals: Range<Ordinal>,
-    threads: usize,
-    signals: &Signals,
-) -> Option<Vec<Made>> {
-    let ordinals = Mutex::new(Ordinal::each(ordinals));
-    // Nothing can go wrong while it is held.
-    let next = || ordinals.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let work = || {
-        let (mut scratch, mut made) = (Scratch::new(), Vec::new());
-        while let Some(ordinal) = next().filter(|_| !signals.came()) {
-            made.push((ordinal, strategy.generate(setup.context(), ordinal, None, &mut scratch)));
+/// Sets at work in the order in which they are written. When a signal comes nothing waits for those at work: they end
+/// with the process.
+struct Making {
+    executor: Threads,
+    strategy: StrategyIndex,
+    /// Not yet handed out.
+    left: Range<Ordinal>,
+    /// Made, but not yet written.
+    made: BTreeMap<Ordinal, Made>,
+}
+
+impl Making {
+    /// The set of this ordinal, which is the next; `None` if making it panics. Up to `ahead` sets are handed out from
+    /// it on.
+    fn set(
+        &mut self,
+        ordinal: Ordinal,
+        ahead: u64,
+        signals: &Signals,
+    ) -> Result<Option<Made>, Failure> {
+        let end = Ordinal(ordinal.0.saturating_add(ahead)).min(self.left.end);
+        while self.left.start < end {
+            let ordinal = self.left.start;
+            self.left.start = ordinal.next();
+            // The lowest number is the most urgent.
+            let number = SetNumber(ordinal.0);
+            self.executor.submit(Job::Generate { number, strategy: self.strategy, ordinal });
         }
-        made
-    };
-    let parts: thread::Result<Vec<_>> = thread::scope(|scope| {
-        let threads: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        threads.into_iter().map(|thread| thread.join()).collect()
-    });
-    let mut made = parts.ok()?.concat();
-    made.sort_unstable_by_key(|(ordinal, _)| *ordinal);
-    Some(made)
+        loop {
+            if signals.came() {
+                let message = "a signal came; nothing is written";
+                return Err(Failure::new(Code::Interrupted, message));
+            }
+            if let Some(made) = self.made.remove(&ordinal) {
+                return Ok(Some(made));
+            }
+            match self.executor.next(TICK) {
+                Some(Event::Done(Job::Generate { ordinal, .. }, Finished { outcome, .. })) => {
+                    let Outcome::Increment(made) = outcome else { return Ok(None) };
+                    self.made.insert(ordinal, made);
+                }
+                None => {}
+                Some(_) => return Ok(None),
+            }
+        }
+    }
 }

@@ -1,6 +1,6 @@
 use crate::cli::LogArguments;
 use crate::exit::{Code, Failure};
-use crate::progress::print_json;
+use crate::output::{self, Plain};
 use crate::run::{Replay, Scan, Told};
 use roadmill::img::Joined;
 use roadmill::internal::wire;
@@ -8,7 +8,7 @@ use roadmill::numbers::{Ordinal, RoundNumber, SetNumber};
 use roadmill::roadmap::{Digest, Full, Increment};
 use roadmill::seed::Seed;
 use serde::Serialize;
-use std::io::Write;
+use std::fmt;
 
 /// A set in the list.
 #[derive(Serialize)]
@@ -40,10 +40,8 @@ pub fn log(arguments: &LogArguments) -> Result<Code, Failure> {
     let scan = Scan::read(&arguments.run)?;
     let problem = scan.problem()?;
     let mut replay = Replay::new(&scan, &problem)?;
-    let mut out = std::io::stdout().lock();
     if !arguments.json {
-        let heading = "round number set seed nodes edges joining configurations motions digest";
-        let _ = writeln!(out, "{heading}");
+        output::line("round number set seed nodes edges joining configurations motions digest");
     }
     while let Some(told) = replay.read()? {
         let Told::Round(round, _) = told else { continue };
@@ -59,34 +57,38 @@ pub fn log(arguments: &LogArguments) -> Result<Code, Failure> {
                 nodes: increment.configs.len(),
                 edges: increment.edges.len() + increment.root_edges.len(),
                 joining_edges: joined.edges.len(),
-                configurations_checked: increment.asked.configurations
-                    + joined.asked.configurations,
-                motions_checked: increment.asked.motions + joined.asked.motions,
+                configurations_checked: increment
+                    .asked
+                    .configurations
+                    .saturating_add(joined.asked.configurations),
+                motions_checked: increment.asked.motions.saturating_add(joined.asked.motions),
                 digest: digest_of(increment, joined).to_string(),
             };
-            if arguments.json {
-                print_json(&line);
-                continue;
-            }
-            let written = writeln!(
-                out,
-                "{} {} {label}:{} {} {} {} {} {} {} {}",
-                line.round,
-                line.number,
-                line.ordinal,
-                &line.seed[..16],
-                line.nodes,
-                line.edges,
-                line.joining_edges,
-                line.configurations_checked,
-                line.motions_checked,
-                &line.digest[..16],
-            );
-            if written.is_err() {
-                // Whoever closes the pipe has read enough.
+            let is_read = if arguments.json { output::json(&line) } else { output::line(&line) };
+            if !is_read {
                 return Ok(Code::Done);
             }
         }
     }
     Ok(Code::Done)
+}
+
+impl fmt::Display for Line<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} {} {}:{} {} {} {} {} {} {} {}",
+            self.round,
+            self.number,
+            Plain(self.label),
+            self.ordinal,
+            &self.seed[..16],
+            self.nodes,
+            self.edges,
+            self.joining_edges,
+            self.configurations_checked,
+            self.motions_checked,
+            &self.digest[..16],
+        )
+    }
 }

@@ -29,10 +29,3 @@ pub use resume::resume;
 pub use status::status;
 pub use verify::verify;
 pub use worker::worker;
-
-use std::io::Write;
-
-/// Prints a line. A reader that closes the pipe early has read what it wanted: that is no error.
-fn say(line: impl std::fmt::Display) {
-    drop(writeln!(std::io::stdout(), "{line}"));
-}

@@ -3,18 +3,18 @@ use super::batch;
 use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
 use crate::files::write_whole;
+use crate::output::{self, note};
 use crate::work::Run;
 use roadmill::export::animation;
 use roadmill::problem::configuration;
 use roadmill::query::{Answer, PATH_REFINEMENT};
-use std::io::Write;
 
 /// Answers one query from the roadmap of a run, or, with `--queries`, all queries of a file.
 pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let run = Run::at(&arguments.run).read()?;
     match run.stopped() {
-        None => eprintln!("the build has not ended; its complete rounds are searched"),
-        Some(stopped) => eprintln!("the build ended: {}", stopped.reason),
+        None => note("the build has not ended; its complete rounds are searched"),
+        Some(stopped) => note(format_args!("the build ended: {}", stopped.reason)),
     }
     let asker = Asker::new(&run, arguments);
     let cx = asker.cx();
@@ -35,9 +35,9 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let Asked { answer, seconds } = asker.ask(&start, &goal);
     let dropped = answer.dropped_edges;
     if dropped > 0 {
-        eprintln!(
+        note(format_args!(
             "{dropped} edges failed the {PATH_REFINEMENT} times finer check and were left out"
-        );
+        ));
     }
     let Some(path) = &answer.path else {
         let why = why_not(&answer);
@@ -46,8 +46,9 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let text = asker.text(path);
     match &arguments.out {
         Some(file) => write_whole(file, &text)?,
-        // A reader that closes the pipe early has read what it wanted: that is no error.
-        None => drop(std::io::stdout().write_all(text.as_bytes())),
+        None => {
+            output::data(&text);
+        }
     }
     if let Some(file) = &arguments.animate {
         match animation(run.problem(), path) {
@@ -57,7 +58,9 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     }
     let (configs, length) = (path.configs.len(), path.length);
     let plural = if configs == 1 { "" } else { "s" };
-    eprintln!("path of {configs} configuration{plural}, length {length:.6}, in {seconds:.3} s");
+    note(format_args!(
+        "path of {configs} configuration{plural}, length {length:.6}, in {seconds:.3} s"
+    ));
     Ok(Code::Done)
 }
 

@@ -7,7 +7,6 @@ use crate::signals::Signals;
 use crate::work::Run;
 use roadmill::model::SceneOptions;
 use roadmill::problem::Problem;
-use roadmill_workers::channel::private_umask;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -19,7 +18,6 @@ fn load_changed(file: &Path) -> Result<Problem, Failure> {
 /// Goes on with a build.
 pub fn resume(arguments: &ResumeArguments) -> Result<Code, Failure> {
     let cpu = CpuClock::start();
-    private_umask();
     let growth = &arguments.growth;
     let workers = workers(&growth.crew)?;
     let with = arguments.with.as_deref().map(load_changed).transpose()?;

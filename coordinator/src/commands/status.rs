@@ -1,10 +1,10 @@
 use crate::cli::StatusArguments;
 use crate::exit::{Code, Failure};
+use crate::output::{self, Plain};
 use crate::run::{EvaluatorValue, Holder, Scan};
 use roadmill::problem::Problem;
 use serde::Serialize;
 use std::fmt;
-use std::io::Write;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -46,13 +46,12 @@ pub fn status(arguments: &StatusArguments) -> Result<Code, Failure> {
         let status = Status::new(&scan, &chapter.1, holder);
         let is_over = !matches!(&*status.state, "running" | "held");
         if last.as_ref() != Some(&status) {
-            let text = match (arguments.json, arguments.watch && !is_over) {
-                (true, _) => serde_json::to_string(&status).map_err(Failure::system)?,
-                (false, true) => status.line(),
-                (false, false) => status.to_string(),
+            let is_read = match (arguments.json, arguments.watch && !is_over) {
+                (true, _) => output::json(&status),
+                (false, true) => output::line(status.line()),
+                (false, false) => output::line(&status),
             };
-            if writeln!(std::io::stdout(), "{text}").is_err() {
-                // Whoever closes the pipe has seen enough.
+            if !is_read {
                 return Ok(Code::Done);
             }
         }
@@ -113,17 +112,18 @@ impl Status {
         let evaluators: Vec<_> = self.evaluators.iter().map(EvaluatorValue::to_string).collect();
         let evaluators = evaluators.join("; ");
         format!(
-            "{state}: {rounds} rounds, {sets} sets, {nodes} nodes, {edges} edges, {components} \
-             components; {evaluators}"
+            "{}: {rounds} rounds, {sets} sets, {nodes} nodes, {edges} edges, {components} \
+             components; {evaluators}",
+            Plain(state)
         )
     }
 }
 
 impl fmt::Display for Status {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "problem     {} (seed {})", self.problem, self.seed)?;
-        writeln!(f, "run         {}", self.run)?;
-        writeln!(f, "program     roadmill {}, bits {}", self.program, self.bits_version)?;
+        writeln!(f, "problem     {} (seed {})", Plain(&self.problem), self.seed)?;
+        writeln!(f, "run         {}", Plain(&self.run))?;
+        writeln!(f, "program     roadmill {}, bits {}", Plain(&self.program), self.bits_version)?;
         if self.chapters > 1 {
             writeln!(f, "chapters    {}", self.chapters)?;
         }
@@ -137,9 +137,9 @@ impl fmt::Display for Status {
             writeln!(f, "evaluator   {evaluator}")?;
         }
         writeln!(f, "ledger      {} bytes", self.ledger_bytes)?;
-        write!(f, "state       {}: {}", self.state, self.reason)?;
+        write!(f, "state       {}: {}", Plain(&self.state), Plain(&self.reason))?;
         if let Some(way) = &self.way_on {
-            write!(f, "\nto go on    {way}")?;
+            write!(f, "\nto go on    {}", Plain(way))?;
         }
         match &self.digest {
             Some(digest) => write!(f, "\ndigest {digest}"),

@@ -1,15 +1,13 @@
 use super::crew::workers;
-use super::say;
 use crate::cli::VerifyArguments;
 use crate::exit::{Code, Failure};
+use crate::output::line;
 use crate::signals::Signals;
 use crate::work::{Run, Selection};
-use roadmill_workers::channel::private_umask;
 use std::sync::Arc;
 
 /// Recomputes sets from their seeds and compares them with the ledger.
 pub fn verify(arguments: &VerifyArguments) -> Result<Code, Failure> {
-    private_umask();
     let workers = workers(&arguments.crew)?;
     let signals = Arc::new(Signals::listen().map_err(Failure::system)?);
     let selection = match (arguments.all, &arguments.sets[..], arguments.sample) {
@@ -20,18 +18,18 @@ pub fn verify(arguments: &VerifyArguments) -> Result<Code, Failure> {
     };
     let run = Run::at(&arguments.run);
     let verified = run.verify(selection).workers(&workers).signals(&signals).check()?;
-    say(format_args!(
+    line(format_args!(
         "{} of {} sets and {} judgements recomputed: all as recorded",
         verified.sets, verified.sets_recorded, verified.judgements
     ));
     if let without @ 1.. = verified.judgements_without_direct_motion {
-        say(format_args!(
+        line(format_args!(
             "{without} of these judgements are by an earlier version, which looked for paths through the roadmap only; \
              this one also tries the direct motion between a query's ends"
         ));
     }
     if let Some(digest) = verified.digest {
-        say(format_args!("digest {digest}"));
+        line(format_args!("digest {digest}"));
     }
     Ok(Code::Done)
 }

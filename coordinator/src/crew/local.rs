@@ -71,6 +71,7 @@ impl Crew for LocalCrew {
     fn hire(&mut self) -> io::Result<WorkerId> {
         let member = WorkerId(self.next_member);
         self.next_member += 1;
+        self.hub.close_on_exec();
         let process = WorkerProcess::start(&self.executable, self.hub.directory(), member)?;
         self.processes.insert(member, process);
         Ok(member)

@@ -5,14 +5,16 @@
 //! disk that hosts share `flock` may reach across them or not, depending on how it is mounted; a holder
 //! of another boot is therefore watched, and taken for dead only if its beat stands still.
 
-use crate::exit::Failure;
-use rustix::fs::{FlockOperation, flock, fstatfs};
+use crate::exit::{Code, Failure};
+use crate::files::open_in_run;
+use crate::output::{Plain, note};
+use rustix::fs::{FlockOperation, OFlags, flock, fstatfs};
 use rustix::io::Errno;
 use rustix::system::uname;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
+use std::fs::{self, File};
 use std::io;
-use std::os::unix::fs::FileExt;
+use std::os::unix::fs::{FileExt, MetadataExt};
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -22,6 +24,7 @@ pub const LOCK: &str = "lock";
 
 const BEAT: Duration = Duration::from_secs(5);
 const WATCH_PAUSE: Duration = Duration::from_millis(100);
+const LOCK_PAUSE: Duration = Duration::from_millis(10);
 /// Room for the holder, and more: the file is written in one piece.
 const BYTES: usize = 512;
 
@@ -65,7 +68,8 @@ impl Holder {
 
 impl std::fmt::Display for Holder {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "process {} on host {} since {}", self.pid, self.host, utc(self.since))
+        let host = Plain(&self.host);
+        write!(f, "process {} on host {host} since {}", self.pid, utc(self.since))
     }
 }
 
@@ -77,10 +81,17 @@ struct Caution {
     watch: Duration,
     /// How long others who have watched as long get to write their names.
     settle: Duration,
+    /// How long a lock is waited for whose holder is dead. A worker process that the holder was about to start when
+    /// it was killed has the lock, too, until it runs its program.
+    children: Duration,
 }
 
-const CAUTION: Caution =
-    Caution { is_local, watch: Duration::from_secs(30), settle: Duration::from_secs(2) };
+const CAUTION: Caution = Caution {
+    is_local,
+    watch: Duration::from_secs(30),
+    settle: Duration::from_secs(2),
+    children: Duration::from_secs(10),
+};
 
 /// A run held by this process.
 #[derive(Debug)]
@@ -109,28 +120,20 @@ impl RunLock {
         is_ended: impl Fn() -> bool,
     ) -> Result<RunLock, Failure> {
         let path = folder.join(LOCK);
-        let cannot = |error: io::Error| {
-            Failure::system(format!("{}: cannot lock the run: {error}", path.display()))
-        };
-        let open = File::options().read(true).write(true).create(true).truncate(false).open(&path);
-        let file = open.map_err(cannot)?;
-        let is_locked = match flock(&file, FlockOperation::NonBlockingLockExclusive) {
-            Ok(()) => true,
-            Err(Errno::WOULDBLOCK) => return Err(held(folder, read(&path).as_ref())),
-            // Some shared file systems know no such locks.
-            Err(Errno::NOSYS | Errno::NOTSUP | Errno::NOLCK | Errno::INVAL) => false,
-            Err(error) => return Err(cannot(error.into())),
-        };
+        let (file, is_locked) = lock(folder, &path, caution, &is_ended)?;
         let is_shared = !(is_locked && (caution.is_local)(&file));
         let is_dead = |other: &Holder| !is_shared || is_locked && other.boot == boot();
         let other = read(&path).filter(|other| !is_dead(other));
         let watched = other.is_some();
         if let Some(other) = other {
             let begun = Instant::now();
-            eprintln!("{}: {other} held it; watching for a sign of life", folder.display());
+            note(format_args!(
+                "{}: {other} held it; watching for a sign of life",
+                folder.display()
+            ));
             while begun.elapsed() < caution.watch {
                 if is_ended() {
-                    return Err(Failure::new(crate::exit::Code::Interrupted, "a signal came"));
+                    return Err(interrupted());
                 }
                 sleep(WATCH_PAUSE);
                 if read(&path).is_none_or(|now| now != other) {
@@ -155,6 +158,19 @@ impl RunLock {
             lock.confirm()?;
         }
         Ok(lock)
+    }
+
+    /// Takes hold of a run folder at once, or not at all where anybody may be at work on it.
+    pub(super) fn take_if_free(folder: &Path) -> Option<RunLock> {
+        let other = Holder::read(folder);
+        let is_nobodys = other.is_none_or(|other| other.lives() == Some(false));
+        let caution = Caution { children: Duration::ZERO, ..CAUTION };
+        is_nobodys.then(|| RunLock::take_with(folder, &caution, || true).ok())?
+    }
+
+    /// The run folder has been moved here, with the lock in it.
+    pub(super) fn moved(&mut self, folder: &Path) {
+        self.path = folder.join(LOCK);
     }
 
     /// Shows a sign of life if it is time, after looking whether the run is still held: a process that
@@ -204,6 +220,55 @@ impl Drop for RunLock {
     }
 }
 
+/// Opens the file and locks it; whether the file system knows such locks.
+fn lock(
+    folder: &Path,
+    path: &Path,
+    caution: &Caution,
+    is_ended: &impl Fn() -> bool,
+) -> Result<(File, bool), Failure> {
+    let cannot = |error: io::Error| {
+        Failure::system(format!("{}: cannot lock the run: {error}", path.display()))
+    };
+    let begun = Instant::now();
+    loop {
+        let file = open_in_run(path, OFlags::RDWR | OFlags::CREATE).map_err(cannot)?;
+        match flock(&file, FlockOperation::NonBlockingLockExclusive) {
+            Ok(()) if is_at(path, &file) => return Ok((file, true)),
+            // Another run has taken the place of this one meanwhile: it is that one's lock that counts.
+            Ok(()) => {}
+            Err(Errno::WOULDBLOCK) => {
+                let holder = read(path);
+                let is_dead = holder.as_ref().is_some_and(|other| other.lives() == Some(false));
+                if !is_dead || begun.elapsed() >= caution.children {
+                    return Err(held(folder, holder.as_ref()));
+                }
+                sleep(LOCK_PAUSE);
+            }
+            // Some shared file systems know no such locks.
+            Err(Errno::NOSYS | Errno::NOTSUP | Errno::NOLCK | Errno::INVAL) => {
+                return Ok((file, false));
+            }
+            Err(error) => return Err(cannot(error.into())),
+        }
+        if is_ended() {
+            return Err(interrupted());
+        }
+    }
+}
+
+/// Whether the file at `path` is this one.
+fn is_at(path: &Path, file: &File) -> bool {
+    match (fs::symlink_metadata(path), file.metadata()) {
+        (Ok(now), Ok(opened)) => (now.dev(), now.ino()) == (opened.dev(), opened.ino()),
+        _ => false,
+    }
+}
+
+fn interrupted() -> Failure {
+    Failure::new(Code::Interrupted, "a signal came")
+}
+
 fn held(folder: &Path, holder: Option<&Holder>) -> Failure {
     let holder = holder.map_or_else(|| "another process".to_owned(), Holder::to_string);
     Failure::usage(format!("{}: {holder} works on this run", folder.display()))
@@ -212,7 +277,8 @@ fn held(folder: &Path, holder: Option<&Holder>) -> Failure {
 fn read(path: &Path) -> Option<Holder> {
     let mut bytes = [0; 4 * BYTES];
     // Opened anew each time, which makes network file systems look.
-    let length = File::open(path).and_then(|file| file.read_at(&mut bytes, 0)).ok()?;
+    let length = open_in_run(path, OFlags::RDONLY).and_then(|file| file.read_at(&mut bytes, 0));
+    let length = length.ok()?;
     serde_json::from_slice(&bytes[..length]).ok()
 }
 
@@ -226,7 +292,7 @@ fn boot() -> String {
 }
 
 /// When a process was started; `None` if there is none of this id.
-fn started(pid: u32) -> Option<u64> {
+pub(crate) fn started(pid: u32) -> Option<u64> {
     let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
     // The name before the last parenthesis may hold anything; field 22 is the 20th after it.
     stat.rsplit(')').next()?.split_whitespace().nth(19)?.parse().ok()
@@ -258,6 +324,7 @@ mod tests {
         is_local: |_| false,
         watch: Duration::from_millis(300),
         settle: Duration::from_millis(10),
+        children: Duration::from_secs(60),
     };
 
     fn left_by(boot: &str) -> tempfile::TempDir {
@@ -332,6 +399,49 @@ mod tests {
         assert!(lock.beat().unwrap_err().message.contains("has taken the run over"));
         drop(lock);
         assert_eq!(Holder::read(folder.path()), Some(other), "what is another's stays");
+    }
+
+    /// As a worker process that was about to be started when its coordinator was killed.
+    #[test]
+    fn a_lock_that_only_a_dead_holders_child_has_is_waited_for() {
+        let folder = left_by(&boot());
+        let path = folder.path().join(LOCK);
+        let child = File::options().read(true).write(true).open(&path).unwrap();
+        flock(&child, FlockOperation::NonBlockingLockExclusive).unwrap();
+        let impatient = Caution { children: Duration::ZERO, ..CAUTION };
+        let refused = RunLock::take_with(folder.path(), &impatient, || false).unwrap_err();
+        assert!(refused.message.contains("works on this run"), "{refused}");
+        assert!(RunLock::take_if_free(folder.path()).is_none());
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                sleep(Duration::from_millis(50));
+                drop(child);
+            });
+            RunLock::take_with(folder.path(), &SHARED, || false).unwrap();
+        });
+    }
+
+    #[test]
+    fn the_lock_of_a_run_that_was_replaced_meanwhile_is_not_the_runs() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(LOCK);
+        let old = File::create(&path).unwrap();
+        fs::rename(&path, folder.path().join("old")).unwrap();
+        fs::write(&path, "").unwrap();
+        assert!(!is_at(&path, &old));
+        let lock = RunLock::take(folder.path(), || false).unwrap();
+        assert!(is_at(&path, &lock.file));
+    }
+
+    #[test]
+    fn a_lock_that_is_a_link_or_no_file_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, elsewhere) = (folder.path().join(LOCK), folder.path().join("elsewhere"));
+        fs::write(&elsewhere, "precious").unwrap();
+        std::os::unix::fs::symlink(&elsewhere, &path).unwrap();
+        let refused = RunLock::take(folder.path(), || false).unwrap_err();
+        assert!(refused.message.contains("a link found"), "{refused}");
+        assert_eq!(fs::read_to_string(&elsewhere).unwrap(), "precious");
     }
 
     #[test]

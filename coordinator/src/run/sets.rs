@@ -3,7 +3,9 @@
 
 use super::ledger::frame::{self, Fault, Frames, Mark};
 use super::ledger::sync_folder;
+use super::soundness::SetCheck;
 use crate::exit::{Code, Failure};
+use crate::files::{beside, cannot_write, folder_of, open_regular};
 use bincode::{Decode, Encode};
 use roadmill::BITS_VERSION;
 use roadmill::img::Outcome;
@@ -12,6 +14,7 @@ use roadmill::numbers::{Ordinal, SetName, StrategyIndex};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Full, Increment};
 use roadmill::sampler::GaveUp;
+use rustix::fs::OFlags;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
@@ -87,12 +90,7 @@ impl SetsWriter {
         if !force && path.symlink_metadata().is_ok() {
             return Err(exists(path));
         }
-        let mut beside = path.file_name().unwrap_or_default().to_owned();
-        beside.push(".");
-        let file = tempfile::Builder::new().prefix(&beside).tempfile_in(folder_of(path));
-        let file = file.map_err(|error| {
-            Failure::usage(format!("{}: cannot be made: {error}", path.display()))
-        })?;
+        let file = beside(path).map_err(|error| cannot_write(path, &error))?;
         let mut writer = SetsWriter {
             path: path.to_owned(),
             force,
@@ -159,21 +157,9 @@ impl SetsWriter {
     }
 }
 
-fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        // A path of one name has an empty parent.
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    }
-}
-
 fn exists(path: &Path) -> Failure {
     let path = path.display();
     Failure::usage(format!("{path}: exists already; a new file expected, or --force to replace it"))
-}
-
-fn cannot_write(path: &Path, error: &io::Error) -> Failure {
-    Failure::system(format!("{}: cannot write: {error}", path.display()))
 }
 
 /// Where a set is.
@@ -202,9 +188,10 @@ impl SetFiles {
     /// 4: one that is damaged.
     pub fn open(names: &[String], problem: &Problem) -> Result<SetFiles, Failure> {
         let mut files = SetFiles::default();
+        let sound = SetCheck::new(problem);
         for name in names {
             for path in expand(name)? {
-                files.look_through(path, problem)?;
+                files.look_through(path, problem, &sound)?;
             }
         }
         Ok(files)
@@ -229,7 +216,7 @@ impl SetFiles {
         let Some(place) = self.places.get(&set) else { return Ok(None) };
         let path = &self.paths[place.file];
         let read = || -> io::Result<Vec<u8>> {
-            let file = File::open(path)?;
+            let file = open_regular(path, OFlags::RDONLY)?;
             let mut payload = vec![0; place.length as usize];
             file.read_exact_at(&mut payload, place.offset)?;
             Ok(payload)
@@ -254,10 +241,14 @@ impl SetFiles {
         }
     }
 
-    fn look_through(&mut self, path: PathBuf, problem: &Problem) -> Result<(), Failure> {
+    fn look_through(
+        &mut self,
+        path: PathBuf,
+        problem: &Problem,
+        sound: &SetCheck,
+    ) -> Result<(), Failure> {
         let refuse = |why: &str| Err(Failure::usage(format!("{}: {why}", path.display())));
-        let opened = File::open(&path);
-        let file = match opened {
+        let file = match open_regular(&path, OFlags::RDONLY) {
             Ok(file) => file,
             Err(error) => return refuse(&format!("cannot be read: {error}")),
         };
@@ -293,11 +284,25 @@ impl SetFiles {
         };
         let strategy = StrategyIndex(strategy as u32);
         let file = self.paths.len();
+        if problem.strategies()[strategy.index()].generator().grows() {
+            return refuse(&format!("the sets of `{label}` grow and cannot be made apart"));
+        }
         for expected in Ordinal::each(first..end) {
-            match next(&mut frames, &path)? {
-                Record::Set(Set { ordinal, .. }) | Record::FullSet(FullSet { ordinal, .. })
-                    if ordinal == expected => {}
-                _ => return Err(damaged(&frames, &path, &format!("set {expected} expected"))),
+            let (ordinal, made) = match next(&mut frames, &path)? {
+                Record::Set(set) => (set.ordinal, set.made),
+                Record::FullSet(set) => (set.ordinal, Ok(set.made.0)),
+                Record::Beginning(_) | Record::End(_) => {
+                    return Err(damaged(&frames, &path, &format!("set {expected} expected")));
+                }
+            };
+            if ordinal != expected {
+                let why = format!("set {expected} expected, {ordinal} found");
+                return Err(damaged(&frames, &path, &why));
+            }
+            let increment = made.as_ref().ok();
+            let complaint = increment.and_then(|made| sound.complaint(strategy, made, 0));
+            if let Some(complaint) = complaint {
+                return Err(damaged(&frames, &path, &format!("set {expected}: {complaint}")));
             }
             let payload = frames.payload();
             let length = payload.len() as u64;

@@ -1,4 +1,5 @@
 use super::Stopped;
+use crate::output::Plain;
 use roadmill::evaluate::{Bound, CutEdge, EvaluatorKind, Verdict};
 use roadmill::problem::Problem;
 use roadmill::roadmap::Tally;
@@ -198,8 +199,8 @@ impl Summary {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "problem     {} (seed {})", self.problem, self.seed)?;
-        writeln!(f, "run         {}", self.run)?;
+        writeln!(f, "problem     {} (seed {})", Plain(&self.problem), self.seed)?;
+        writeln!(f, "run         {}", Plain(&self.run))?;
         writeln!(f, "sets        {}", self.sets)?;
         writeln!(f, "nodes       {}", self.nodes)?;
         writeln!(f, "edges       {}", self.edges)?;
@@ -207,7 +208,7 @@ impl fmt::Display for Summary {
         for evaluator in &self.evaluators {
             writeln!(f, "evaluator   {evaluator}")?;
         }
-        writeln!(f, "stopped     {}", self.reason)?;
+        writeln!(f, "stopped     {}", Plain(&self.reason))?;
         let coordinator = self.coordinator_cpu_seconds;
         writeln!(
             f,

@@ -6,13 +6,15 @@ use super::{Ended, Run, Workers};
 use crate::cpu::CpuClock;
 use crate::dispatch::Imported;
 use crate::exit::Failure;
+use crate::output::{Plain, note};
 use crate::run::ledger::LEDGER;
-use crate::run::{LedgerWriter, RunFolder, RunLock, Scan, SetFiles};
+use crate::run::{LedgerWriter, RunFolder, RunLock, Scan, SetFiles, tidy};
 use crate::signals::Signals;
 use roadmill::img::{Executor, Setup, Threads};
 use roadmill::problem::{Limits, Problem};
 use roadmill::roadmap::Tally;
 use roadmill::{BITS_VERSION, Cancel};
+use roadmill_workers::channel::remove_leftovers;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -221,6 +223,7 @@ impl<'a> Growth<'a> {
         let prepared = match origin {
             Origin::Anew(anew) => anew.prepare(seconds, &interrupt, &mut *watch)?,
             Origin::Again { run, chapter } => {
+                tidy(&run);
                 if !run.join(LEDGER).is_file() {
                     return Err(Failure::usage(format!("{}: no run here", run.display())));
                 }
@@ -254,7 +257,17 @@ impl<'a> Growth<'a> {
         };
         let (stop, tally, seconds) = match &workers.kind {
             Kind::Threads => {
-                let threads = Threads::new(setup.clone(), workers.count);
+                // Nobody else would look after what killed runs have left while only threads are used.
+                remove_leftovers();
+                let threads = match Threads::start(setup.clone(), workers.count) {
+                    Ok(threads) => threads,
+                    Err(error) => {
+                        if past.is_none() {
+                            folder.discard();
+                        }
+                        return Err(Failure::system(format!("cannot start the threads: {error}")));
+                    }
+                };
                 let mut threads = Imported::new(threads, imports);
                 folder.begun()?;
                 let stop = keeper.drive(past.as_ref(), &mut threads)?;
@@ -281,7 +294,8 @@ impl<'a> Growth<'a> {
                 let (tally, dispatcher) = (dispatcher.tally().clone(), dispatcher.into_inner());
                 let seconds = (dispatcher.message_seconds(), dispatcher.fold_seconds());
                 if let Err(error) = dispatcher.close() {
-                    eprintln!("{}: {error}; the next run tries again", setup.problem().name());
+                    let name = Plain(setup.problem().name());
+                    note(format_args!("{name}: {error}; the next run tries again"));
                 }
                 (stop?, tally, Some(seconds))
             }
@@ -308,6 +322,7 @@ impl Anew {
         }
         let problem = limited(problem, limits, max_nodes, max_sets)?;
         let existing = out.as_deref().filter(|_| or_resume);
+        existing.into_iter().for_each(tidy);
         let has_ledger = |out: &Path| out.join(LEDGER).is_file();
         let folder = match existing {
             None => RunFolder::make(out.as_deref(), problem.name(), replace)?,
@@ -327,13 +342,14 @@ impl Anew {
         if let Some(out) = existing.filter(|out| has_ledger(out)) {
             return go_on(out, lock, Change::None(Box::new(problem), imports), watch);
         }
-        let ledger = match LedgerWriter::begin(folder.path(), &problem, lock) {
+        let mut ledger = match LedgerWriter::begin(folder.path(), &problem, lock) {
             Ok(ledger) => ledger,
             Err(failure) => {
                 folder.discard();
                 return Err(failure);
             }
         };
+        let folder = folder.settle(&mut ledger)?;
         let imported = imports.count();
         watch.begun(&Begun::Anew { problem: &problem, folder: folder.path(), imported });
         Ok(Ok(Prepared { problem, folder, ledger, past: None, imports }))

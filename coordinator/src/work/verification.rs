@@ -1,5 +1,6 @@
 use super::difference;
 use super::interrupt::Interrupt;
+use super::stops::Standing;
 use super::workers::{Kind, Workers, start};
 use crate::exit::{Code, Failure};
 use crate::run::ledger::{Chapter, Judged, job_name};
@@ -114,7 +115,12 @@ impl Verification {
             counts: Counts::default(),
         };
         let counts = match &workers.kind {
-            Kind::Threads => check.run(&mut Threads::new(setup.clone(), workers.count))?,
+            Kind::Threads => {
+                let threads = Threads::start(setup.clone(), workers.count).map_err(|error| {
+                    Failure::system(format!("cannot start the threads: {error}"))
+                })?;
+                check.run(&mut { threads })?
+            }
             Kind::Processes(program) => {
                 let mut dispatcher =
                     start(&setup, workers.count, program.as_ref()).map_err(Failure::system)?;
@@ -249,7 +255,7 @@ struct Difference {
 /// Where in the order of the ledger something was recomputed.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Position {
-    /// The set, or of a judgement the first one after its round.
+    /// The set, or of a judgement or stop the first one after its round.
     set: SetNumber,
     part: Part,
 }
@@ -258,6 +264,7 @@ struct Position {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Part {
     Judgement,
+    Stop,
     Increment,
     Joined,
     /// An outcome of another kind than the job's.
@@ -267,13 +274,16 @@ enum Part {
 impl Check<'_> {
     fn run(mut self, executor: &mut impl Executor) -> Result<Counts, Failure> {
         let mut replay = Replay::new(self.scan, self.setup.problem())?;
+        // The problem of the chapter in which the build was judged last, and what was said.
         let mut judge: Option<(usize, Setup)> = None;
+        let mut verdicts = Vec::new();
         let space = self.setup.context().space();
         // For the judgements; sets are recomputed by those who have a roadmap of their own.
         let mut roadmap = self.choice.has_judgements().then(|| Roadmap::new(space));
         while let Some(told) = replay.read()? {
             match told {
                 Told::Round(round, digest) => {
+                    verdicts.clear();
                     let chapter = replay.chapter();
                     for set in &round.sets {
                         executor.publish(&set.increment);
@@ -289,17 +299,27 @@ impl Check<'_> {
                         roadmap.fold_round(space, round.parts());
                     }
                 }
-                Told::Judged(judged) if self.choice.has_judgement(judged.round) => {
-                    let chapter = replay.chapter();
-                    if judge.as_ref().is_none_or(|(known, _)| *known != chapter) {
-                        let problem = self.scan.problem_of(chapter)?;
-                        judge = Some((chapter, Setup::new(problem)));
+                Told::Judged(judged) => {
+                    if self.choice.has_judgement(judged.round) {
+                        let chapter = self.chapter(replay.chapter(), &mut judge)?;
+                        if let Some(roadmap) = &roadmap {
+                            self.judge(&judged, chapter, replay.chapter(), roadmap)?;
+                        }
                     }
-                    if let (Some((_, judge)), Some(roadmap)) = (&mut judge, &roadmap) {
-                        self.judge(&judged, judge, chapter, roadmap)?;
+                    verdicts = judged.verdicts;
+                }
+                Told::Stopped(stopped) => {
+                    if let (Choice::All, Some(roadmap)) = (&self.choice, &roadmap) {
+                        needs_bits("the stop", &self.scan.chapters[replay.chapter()])?;
+                        let setup = self.chapter(replay.chapter(), &mut judge)?;
+                        let last_round = replay.last_round();
+                        let standing = Standing { setup, last_round, verdicts: &verdicts, roadmap };
+                        if let Some(what) = standing.difference(&stopped) {
+                            let set = SetNumber(last_round.map_or(0, |end| end.sets));
+                            self.note(Position { set, part: Part::Stop }, what);
+                        }
                     }
                 }
-                Told::Judged(_) => {}
             }
             if self.difference.is_some() {
                 break;
@@ -318,6 +338,24 @@ impl Check<'_> {
             }
             (None, _) => Ok(self.counts),
         }
+    }
+
+    /// The problem of a chapter, made ready for work if that was not done.
+    fn chapter<'b>(
+        &self,
+        chapter: usize,
+        known: &'b mut Option<(usize, Setup)>,
+    ) -> Result<&'b mut Setup, Failure> {
+        if let Some((index, _)) = known
+            && *index != chapter
+        {
+            *known = None;
+        }
+        let (_, setup) = match known {
+            Some(known) => known,
+            None => known.insert((chapter, Setup::new(self.scan.problem_of(chapter)?))),
+        };
+        Ok(setup)
     }
 
     /// Has a set recomputed if it is chosen.

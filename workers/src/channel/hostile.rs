@@ -5,6 +5,7 @@ use std::time::Duration;
 use proptest::prelude::*;
 
 use super::header::{Fault, Header, Kind, Words};
+use super::private_memory::PrivateMemory;
 use super::service::{RunNode, RunService, WorkerPort, open_node, open_service};
 use super::{CHUNK_BYTES, Hub, Received, WorkerId};
 
@@ -17,13 +18,7 @@ struct Raw {
     _node: RunNode,
 }
 
-type Pending = iceoryx2::pending_response::PendingResponse<
-    iceoryx2::service::ipc::Service,
-    [u8],
-    Words,
-    [u8],
-    Words,
->;
+type Pending = iceoryx2::pending_response::PendingResponse<PrivateMemory, [u8], Words, [u8], Words>;
 
 impl Raw {
     fn open(hub: &Hub, worker: WorkerId) -> Raw {

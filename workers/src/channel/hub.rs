@@ -111,7 +111,7 @@ impl Hub {
         let bell = Bell::bind(&hub_socket(folder.path()))?;
         let node = service::open_node(folder.path(), workers_max)?;
         let (service, port) = service::create_service(&node, workers_max)?;
-        service::protect_shared_memory(folder.path())?;
+        service::secure_hub_memory(folder.path())?;
         let store = Store::create(folder.path(), workers_max);
         Ok(Hub {
             peers: BTreeMap::new(),
@@ -132,6 +132,11 @@ impl Hub {
     /// The run's folder, which each worker needs for [`Link::open`](super::Link::open).
     pub fn directory(&self) -> &Path {
         self.folder.path()
+    }
+
+    /// Keeps what this process has open of the channel from a program that it is about to start.
+    pub fn close_on_exec(&self) {
+        service::close_on_exec(self.folder.path());
     }
 
     /// What all workers can read; see [`StoreReader`](super::StoreReader).

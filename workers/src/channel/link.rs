@@ -6,7 +6,6 @@ use std::time::Duration;
 
 use iceoryx2::pending_response::PendingResponse;
 use iceoryx2::response::Response;
-use iceoryx2::service::ipc;
 
 use super::WorkerId;
 use super::assembly::Assembly;
@@ -14,6 +13,7 @@ use super::bell::{Bell, Note, Rung};
 use super::error::ChannelError;
 use super::header::{Fault, Header, Kind, Words};
 use super::hub::check_length;
+use super::private_memory::PrivateMemory;
 use super::run_folder::{hub_socket, join, worker_socket};
 use super::service::{self, RunNode, RunService, WorkerPort};
 
@@ -40,7 +40,7 @@ pub struct Link {
 
 /// The last chunk of a message, while its answer is awaited.
 struct Sent {
-    pending: PendingResponse<ipc::Service, [u8], Words, [u8], Words>,
+    pending: PendingResponse<PrivateMemory, [u8], Words, [u8], Words>,
     /// whether the hub knows that this end sleeps until the answer comes
     rung: Rung,
     /// whether the hub was told to look
@@ -48,7 +48,7 @@ struct Sent {
 }
 
 /// A chunk of the hub, copied out of shared memory only once it is put into its place.
-type Answer = Response<ipc::Service, [u8], Words>;
+type Answer = Response<PrivateMemory, [u8], Words>;
 
 impl Link {
     /// How many workers the hub was made for.
@@ -67,6 +67,7 @@ impl Link {
         let bell = Bell::bind(&worker_socket(directory, worker))?;
         let node = service::open_node(directory, 0)?;
         let (service, port) = service::open_service(&node, worker)?;
+        service::reserve_port_memory(directory, &port)?;
         Ok(Link {
             sent: None,
             port,

@@ -28,8 +28,10 @@
 //! Every chunk has a header with a checksum; a chunk that is malformed or out of turn
 //! ends the conversation with that worker, and only with that worker.
 //!
-//! Each hub has a private folder, and its own names in the memory file system. Both vanish with it,
-//! or, should it be killed, when the next hub of the same user starts.
+//! Each hub has a private folder for locks and sockets, and another in the memory file system for everything that is
+//! shared. Only its own user may enter them, and what is in them is opened without following links and looked at
+//! through its descriptor before it is mapped. Both vanish with the hub, or, should it be killed, when the next
+//! run of the same user starts.
 
 mod assembly;
 mod bell;
@@ -40,6 +42,7 @@ mod hostile;
 mod hub;
 mod link;
 mod peer;
+mod private_memory;
 mod run_folder;
 mod run_lock;
 mod service;
@@ -55,6 +58,7 @@ pub use error::ChannelError;
 pub use header::Fault;
 pub use hub::{Delivery, Hub, Received};
 pub use link::Link;
+pub use run_folder::remove_leftovers;
 pub use shelf::SharedShelf;
 pub use store::{Store, StoreReader};
 
@@ -64,8 +68,8 @@ pub const CHUNK_BYTES: usize = 128 << 10;
 
 /// Makes every file that this process creates from now on accessible to its own user only.
 ///
-/// The channel protects its files by itself; this covers whatever a future release of the library
-/// may create besides. To be called once, before any thread is started.
+/// For worker processes, which write nothing that is meant for others. The channel itself protects its files
+/// whatever the umask. To be called once, before any thread is started.
 pub fn private_umask() {
     rustix::process::umask(Mode::RWXG | Mode::RWXO);
 }

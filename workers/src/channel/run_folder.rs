@@ -13,7 +13,7 @@ use super::WorkerId;
 use super::bell::SOCKET_PATH_BYTES_MAX;
 use super::error::ChannelError;
 use super::run_lock::{LockedParent, try_lock};
-use super::shared_files;
+use super::shared_files::{self, SHARED_MEMORY_FOLDER, is_ours};
 
 const PREFIX: &str = "roadmill-";
 /// locked by the hub as long as it lives
@@ -28,7 +28,8 @@ const RUN_NAME_BYTES_MAX: usize = 10 + 1 + UNIQUE_DIGITS;
 #[derive(Debug)]
 pub(super) struct RunFolder {
     path: PathBuf,
-    _owner: File,
+    /// The lock that this process holds as long as the run lives; `None` while the folder is being made.
+    owner: Option<File>,
     is_removed: bool,
 }
 
@@ -40,6 +41,11 @@ impl RunFolder {
         let path = parent.path().join(new_run_name());
         let io = |action| ChannelError::io(action, &path);
         DirBuilder::new().mode(0o700).create(&path).map_err(io("could not create"))?;
+        // From here on the run is removed if anything fails.
+        let mut folder = RunFolder { path: path.clone(), owner: None, is_removed: false };
+        if let Some(memory) = memory_folder(&path) {
+            shared_files::create_folder(&memory)?;
+        }
         let create = |name| {
             File::options()
                 .write(true)
@@ -53,7 +59,8 @@ impl RunFolder {
         let owner = try_lock(&path.join(OWNER), FlockOperation::NonBlockingLockExclusive)
             .map_err(io("could not lock"))?
             .ok_or_else(|| ChannelError::Busy { path: path.clone() })?;
-        Ok(RunFolder { path, _owner: owner, is_removed: false })
+        folder.owner = Some(owner);
+        Ok(folder)
     }
 
     /// Where the folder is.
@@ -72,7 +79,8 @@ impl RunFolder {
         }
         // without this file no worker can join any more, and leave files behind
         let _ = fs::remove_file(self.path.join(MEMBERS));
-        let parent = self.path.parent().map(LockedParent::lock);
+        // While the folder is made its parent is locked already.
+        let parent = self.owner.as_ref().and(self.path.parent()).map(LockedParent::lock);
         remove_run(&self.path)?;
         if let Some(parent) = parent {
             parent?.remove_if_empty();
@@ -108,10 +116,11 @@ pub(super) fn worker_socket(folder: &Path, worker: WorkerId) -> PathBuf {
     folder.join(format!("w{:016x}", worker.0))
 }
 
-/// What the names of all shared memory of the run in `folder` begin with.
-pub(super) fn shared_memory_prefix(folder: &Path) -> Option<String> {
+/// Where the shared memory of the run in `folder` is; `None` if that is no run's folder. The name follows from the
+/// run's, which has digits that nobody can know before the run is there.
+pub(super) fn memory_folder(folder: &Path) -> Option<PathBuf> {
     let run = folder.file_name()?.to_str()?;
-    is_run_name(run).then(|| format!("{PREFIX}{run}_"))
+    is_run_name(run).then(|| Path::new(SHARED_MEMORY_FOLDER).join(format!("{PREFIX}{run}")))
 }
 
 /// `<temporary folder>/roadmill-<user>`; `/tmp` stands in for a folder that is too long for sockets.
@@ -150,6 +159,16 @@ fn is_run_name(name: &str) -> bool {
     })
 }
 
+/// Removes what runs of this user have left whose processes have all died, as [`Hub::create`](super::Hub::create)
+/// does. What cannot be removed, or may belong to somebody else, stays.
+pub fn remove_leftovers() {
+    let parent = parent_path().ok().and_then(|path| LockedParent::lock_if_free(&path));
+    if let Some(parent) = parent {
+        reap(&parent);
+        parent.remove_if_empty();
+    }
+}
+
 /// Removes every run that has neither a living hub nor a living link. What cannot be removed
 /// is left for the next time: an old run must not hinder a new one.
 fn reap(parent: &LockedParent) {
@@ -177,12 +196,28 @@ fn reap(parent: &LockedParent) {
 
 /// Shared memory first: as long as the folder stands, a later reaper finds what is left.
 fn remove_run(folder: &Path) -> Result<(), ChannelError> {
-    if let Some(prefix) = shared_memory_prefix(folder) {
-        shared_files::for_each(&prefix, "could not remove", |path| fs::remove_file(path))?;
+    if let Some(memory) = memory_folder(folder) {
+        remove_memory(&memory)?;
     }
     match fs::remove_dir_all(folder) {
         Err(error) if error.kind() != ErrorKind::NotFound => {
             Err(ChannelError::io("could not remove", folder)(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Removes a run's shared memory. Another user's folder of that name is not the run's: it is left alone, and keeps
+/// nobody from removing the rest.
+fn remove_memory(memory: &Path) -> Result<(), ChannelError> {
+    let removed = match fs::symlink_metadata(memory) {
+        Ok(metadata) if is_ours(&metadata) && metadata.is_dir() => fs::remove_dir_all(memory),
+        Ok(_) => Ok(()),
+        Err(error) => Err(error),
+    };
+    match removed {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            Err(ChannelError::io("could not remove", memory)(error))
         }
         _ => Ok(()),
     }

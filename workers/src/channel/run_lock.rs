@@ -11,6 +11,7 @@ use rustix::fs::{FlockOperation, Mode, OFlags, flock, open};
 use rustix::io::Errno;
 
 use super::error::ChannelError;
+use super::shared_files::{fault, open_private};
 
 const PATIENCE: Duration = Duration::from_secs(10);
 const PAUSE: Duration = Duration::from_millis(2);
@@ -20,7 +21,7 @@ pub(super) fn try_lock(
     path: &Path,
     operation: FlockOperation,
 ) -> Result<Option<File>, std::io::Error> {
-    let file = File::options().read(true).write(true).open(path)?;
+    let file = open_private(path, OFlags::RDWR)?;
     match flock(&file, operation) {
         Ok(()) => Ok(Some(file)),
         Err(Errno::WOULDBLOCK) => Ok(None),
@@ -36,6 +37,13 @@ pub(super) struct LockedParent {
 }
 
 impl LockedParent {
+    /// The folder, locked, if it is there, private, and nobody else has locked it.
+    pub fn lock_if_free(path: &Path) -> Option<LockedParent> {
+        fs::symlink_metadata(path).ok()?;
+        let directory = LockedParent::try_lock(path).ok()??;
+        Some(LockedParent { path: path.to_path_buf(), _directory: directory })
+    }
+
     /// Creates the folder if it is not there, checks that it is private, and locks it.
     pub fn lock(path: &Path) -> Result<LockedParent, ChannelError> {
         let deadline = Instant::now() + PATIENCE;
@@ -71,14 +79,7 @@ impl LockedParent {
             Err(error) => return Err(ChannelError::io("could not open", path)(error.into())),
         };
         let opened = directory.metadata().map_err(ChannelError::io("could not inspect", path))?;
-        let fault = if opened.uid() != rustix::process::geteuid().as_raw() {
-            Some("it belongs to another user")
-        } else if opened.mode() & 0o077 != 0 {
-            Some("other users have access to it")
-        } else {
-            None
-        };
-        if let Some(reason) = fault {
+        if let Some(reason) = fault(&opened) {
             return Err(ChannelError::Unsafe { path: path.into(), reason });
         }
         match flock(&directory, FlockOperation::NonBlockingLockExclusive) {

@@ -16,12 +16,13 @@ use iceoryx2::service::port_factory::request_response::PortFactory;
 
 use super::error::ChannelError;
 use super::header::Words;
-use super::run_folder::shared_memory_prefix;
+use super::private_memory::PrivateMemory;
+use super::run_folder::memory_folder;
 use super::shared_files::{self, SHARED_MEMORY_FOLDER};
 use super::{CHUNK_BYTES, WorkerId};
 
 // the hub is one thread, and so is a worker's conversation
-type Ipc = iceoryx2::service::ipc::Service;
+type Ipc = PrivateMemory;
 
 pub(super) type RunNode = Node<Ipc>;
 pub(super) type RunService = PortFactory<Ipc, [u8], Words, [u8], Words>;
@@ -32,6 +33,8 @@ pub(super) type Question = ActiveRequest<Ipc, [u8], Words, [u8], Words>;
 type ServiceBuilder = Builder<[u8], Words, [u8], Words, Ipc>;
 
 const SERVICE_NAME: &str = "roadmill";
+/// What the names of the library's files begin with.
+const PREFIX: &str = "roadmill_";
 /// one with the hub, one being written, and one the hub has not yet given back
 const REQUEST_CHUNKS: usize = 3;
 /// connections of dead workers with chunks that nobody has taken out: the hub looks for them when it forgets
@@ -47,23 +50,29 @@ fn clients_max(workers_max: usize) -> usize {
     2 * workers_max + 8
 }
 
+/// Chunks of the hub's: an answer for each worker, and two at hand.
+fn response_chunks(workers_max: usize) -> usize {
+    clients_max(workers_max) + 2
+}
+
 /// How many workers a service was made for.
 pub(super) fn workers_max(service: &RunService) -> usize {
     service.static_config().max_clients().saturating_sub(8) / 2
 }
 
-/// Opens a node whose files are in `folder` and whose shared memory is named after it. Hub and
-/// links derive the same configuration from the folder, so that nothing has to be stored, no global
+/// Opens a node whose files and shared memory are in the memory folder of the run in `folder`, which must be private.
+/// Hub and links derive the same configuration from the folder, so that nothing has to be stored, no global
 /// configuration is touched, and several hubs can live in one process. `workers_max` matters to a hub.
 pub(super) fn open_node(folder: &Path, workers_max: usize) -> Result<RunNode, ChannelError> {
     // the library tells about things it then copes with; failures come back as errors anyway
     set_log_level(LogLevel::Fatal);
     let unusable =
         || ChannelError::Unsafe { path: folder.into(), reason: "it is not the folder of a run" };
-    let prefix = shared_memory_prefix(folder).ok_or_else(unusable)?;
-    let root = iceoryx2::prelude::Path::new(folder.as_os_str().as_bytes());
+    let memory = memory_folder(folder).ok_or_else(unusable)?;
+    shared_files::check_folder(&memory)?;
+    let root = iceoryx2::prelude::Path::new(memory.as_os_str().as_bytes());
     let mut config = Config::default();
-    config.global.prefix = FileName::new(prefix.as_bytes()).map_err(|_| unusable())?;
+    config.global.prefix = FileName::new(PREFIX.as_bytes()).map_err(|_| unusable())?;
     config.global.set_root_path(&root.map_err(|_| unusable())?);
     // only the hub cleans up: a worker that is stopped while cleaning would make the hub wait
     config.global.node.cleanup_dead_nodes_on_creation = false;
@@ -105,7 +114,7 @@ pub(super) fn create_service(
         .initial_max_slice_len(CHUNK_BYTES)
         .allocation_strategy(AllocationStrategy::Static)
         // a worker has one answer at most, and gives it back before it asks again
-        .override_response_preallocation(move |_| clients_max + 2)
+        .override_response_preallocation(move |_| response_chunks(workers_max))
         .max_loaned_responses_per_request(2)
         .backpressure_strategy(BackpressureStrategy::DiscardData)
         .create()
@@ -169,12 +178,12 @@ pub(super) fn clean_up_dead_nodes(node: &RunNode, folder: &Path) {
         }
         CallbackProgression::Continue
     });
-    let Some(prefix) = shared_memory_prefix(folder) else {
+    let Some(memory) = memory_folder(folder) else {
         return;
     };
     // only now: all files of those that are found dead are there. `Node::blocking_cleanup_dead_nodes`
     // would also meet the files of a worker that dies after this.
-    if dead.is_empty() || shared_files::lengthen_empty(&prefix).is_err() {
+    if dead.is_empty() || shared_files::lengthen_empty(&memory).is_err() {
         return;
     }
     for view in dead {
@@ -182,15 +191,33 @@ pub(super) fn clean_up_dead_nodes(node: &RunNode, folder: &Path) {
     }
 }
 
-/// Keeps other users off the shared memory of the run in `folder`.
-pub(super) fn protect_shared_memory(folder: &Path) -> Result<(), ChannelError> {
-    match shared_memory_prefix(folder) {
-        Some(prefix) => shared_files::protect(&prefix),
-        None => Ok(()),
+/// Makes the files private that the hub of the run in `folder` has made, and takes all memory that they may need.
+pub(super) fn secure_hub_memory(folder: &Path) -> Result<(), ChannelError> {
+    let Some(memory) = memory_folder(folder) else {
+        return Ok(());
+    };
+    shared_files::protect(&memory)?;
+    shared_files::reserve(&memory, |_| true)
+}
+
+/// Keeps the library's descriptors of the run in `folder` from programs that this process starts.
+pub(super) fn close_on_exec(folder: &Path) {
+    if let Some(memory) = memory_folder(folder) {
+        shared_files::close_on_exec(&memory);
     }
 }
 
-/// Refuses to start where the memory could run out: that would be a SIGBUS in mid-write.
+/// Takes all memory that a worker's port may need: its own, and that of its connections to the hub.
+pub(super) fn reserve_port_memory(folder: &Path, port: &WorkerPort) -> Result<(), ChannelError> {
+    let Some(memory) = memory_folder(folder) else {
+        return Ok(());
+    };
+    // The library names these files by the number of the port.
+    let number = port.id().value().to_string();
+    shared_files::reserve(&memory, |name| name.contains(&number))
+}
+
+/// Refuses to start where the memory is too short for the channel, before anything is made of it.
 pub(super) fn check_free_space(workers_max: usize) -> Result<(), ChannelError> {
     let needed_bytes = needed_bytes(workers_max);
     let free_bytes =
@@ -206,11 +233,16 @@ pub(super) fn check_free_space(workers_max: usize) -> Result<(), ChannelError> {
     Ok(())
 }
 
-/// Shared memory that the channel may come to need.
-pub(super) fn needed_bytes(workers_max: usize) -> u64 {
-    let chunks_per_worker = REQUEST_CHUNKS as u64 + 1;
-    let per_worker = chunks_per_worker * CHUNK_BYTES as u64 + OVERHEAD_BYTES_PER_WORKER;
-    OVERHEAD_BYTES + workers_max as u64 * per_worker
+/// Shared memory that the channel takes.
+fn needed_bytes(workers_max: usize) -> u64 {
+    let hub = response_chunks(workers_max) as u64 * CHUNK_BYTES as u64;
+    OVERHEAD_BYTES + hub + workers_bytes(workers_max)
+}
+
+/// Of it, what is taken only as workers come: everybody else has to leave it free.
+pub(super) fn workers_bytes(workers_max: usize) -> u64 {
+    let per_worker = REQUEST_CHUNKS as u64 * CHUNK_BYTES as u64 + OVERHEAD_BYTES_PER_WORKER;
+    workers_max as u64 * per_worker
 }
 
 /// Shared memory that nobody has taken.

@@ -3,16 +3,15 @@
 use std::fs::{self, File};
 use std::io;
 use std::os::fd::AsRawFd;
-use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
 
 use memmap2::{Mmap, MmapMut};
 use roadmill::internal::shelf::{Block, BlockName, Claim, Shelf};
 use rustix::fs::{AtFlags, CWD, FallocateFlags, FlockOperation, Mode, OFlags};
 
-use super::run_folder::shared_memory_prefix;
-use super::service::{free_bytes, needed_bytes};
-use super::shared_files::SHARED_MEMORY_FOLDER;
+use super::run_folder::memory_folder;
+use super::service::{free_bytes, workers_bytes};
+use super::shared_files::open_private;
 
 /// Locked by the worker that makes what is dear to make.
 const CLAIM: &str = "claim";
@@ -22,8 +21,8 @@ const CLAIM: &str = "claim";
 /// run's shared memory.
 #[derive(Debug)]
 pub struct SharedShelf {
-    /// What the names of all files begin with.
-    prefix: Option<String>,
+    /// The folder of the run's shared memory.
+    folder: Option<PathBuf>,
     /// Left to the channel and to the store, which is written at the same time.
     spare_bytes: u64,
 }
@@ -31,13 +30,12 @@ pub struct SharedShelf {
 impl SharedShelf {
     /// That of the run in `folder`, whose channel was made for so many workers.
     pub fn open(folder: &Path, workers_max: usize) -> SharedShelf {
-        let prefix = shared_memory_prefix(folder);
-        SharedShelf { prefix, spare_bytes: 2 * needed_bytes(workers_max) }
+        let folder = memory_folder(folder);
+        SharedShelf { folder, spare_bytes: 2 * workers_bytes(workers_max) }
     }
 
     fn path(&self, name: impl std::fmt::Display) -> Option<PathBuf> {
-        let prefix = self.prefix.as_ref()?;
-        Some(Path::new(SHARED_MEMORY_FOLDER).join(format!("{prefix}{name}")))
+        Some(self.folder.as_ref()?.join(name.to_string()))
     }
 
     /// A file without a name, filled.
@@ -47,7 +45,8 @@ impl SharedShelf {
             return Err(io::ErrorKind::StorageFull.into());
         }
         let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
-        let file = rustix::fs::open(SHARED_MEMORY_FOLDER, flags, Mode::RUSR | Mode::WUSR)?;
+        let folder = self.folder.as_ref().ok_or(io::ErrorKind::NotFound)?;
+        let file = rustix::fs::open(folder, flags, Mode::RUSR | Mode::WUSR)?;
         // Writing to memory that is not there would be a SIGBUS.
         rustix::fs::fallocate(&file, FallocateFlags::empty(), 0, bytes as u64)?;
         let file = File::from(file);
@@ -60,12 +59,12 @@ impl SharedShelf {
 
 impl Shelf for SharedShelf {
     fn find(&self, name: BlockName, bytes: usize) -> Option<Block> {
-        let file = File::open(self.path(name)?).ok()?;
+        let file = open_private(&self.path(name)?, OFlags::RDONLY).ok()?;
         if file.metadata().ok()?.len() != bytes as u64 {
             return None;
         }
-        // SAFETY: a file that has its name is never written to nor shortened, only removed. It is its user's
-        // alone, as the channel's files are.
+        // SAFETY: a file that has its name is never written to nor shortened, only removed, and it is private:
+        // nobody but processes of this user can do otherwise.
         let map = unsafe { Mmap::map(&file) }.ok()?;
         Some(Block::from_owner(map))
     }
@@ -85,7 +84,7 @@ impl Shelf for SharedShelf {
 
     fn claim(&self) -> Option<Claim> {
         let path = self.path(CLAIM)?;
-        let file = File::options().create(true).append(true).mode(0o600).open(path).ok()?;
+        let file = open_private(&path, OFlags::RDWR | OFlags::CREATE).ok()?;
         rustix::fs::flock(&file, FlockOperation::NonBlockingLockExclusive).ok()?;
         // The lock ends with the file, and with the process at the latest.
         Some(Box::new(file))
@@ -102,10 +101,9 @@ impl Shelf for SharedShelf {
 #[cfg(test)]
 mod tests {
     use super::super::Hub;
-    use super::super::shared_files::for_each;
     use super::*;
-    use std::cell::RefCell;
-    use std::os::unix::fs::PermissionsExt;
+    use std::fs::Permissions;
+    use std::os::unix::fs::{PermissionsExt, symlink};
     use std::panic::{AssertUnwindSafe, catch_unwind};
 
     const NAME: BlockName = BlockName::Segment { level: 1, number: 2 };
@@ -116,18 +114,12 @@ mod tests {
 
     /// The files of a run, but for those of the channel.
     fn files(shelf: &SharedShelf) -> Vec<String> {
-        let names = RefCell::new(Vec::new());
-        let prefix = shelf.prefix.as_ref().expect("it is a run's");
-        let note = |path: &Path| {
-            let name = path.file_name().expect("it has one").to_string_lossy().into_owned();
-            let name = name[prefix.len()..].to_owned();
-            if ["segment", "configs", "edges", "claim"].iter().any(|kind| name.starts_with(kind)) {
-                names.borrow_mut().push(name);
-            }
-            Ok(())
-        };
-        for_each(prefix, "could not list", note).expect("there is shared memory");
-        names.into_inner()
+        let folder = shelf.folder.as_ref().expect("it is a run's");
+        // There is none any more once the run has ended.
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+        let kinds = ["segment", "configs", "edges", "claim"];
+        names.filter(|name| kinds.iter().any(|kind| name.starts_with(kind))).collect()
     }
 
     #[test]
@@ -164,6 +156,23 @@ mod tests {
         fs::write(shelf.path(NAME).expect("it has a name"), []).expect("it can be written");
         // The other's is of no use, so that this one is the maker's own.
         assert_eq!(put(&shelf, &[7]).expect("there is room"), &[7][..]);
+    }
+
+    /// Who finds a file that others can have written to makes the block for itself.
+    #[test]
+    fn a_block_that_others_may_have_made_is_not_believed() {
+        let hub = Hub::create(1).expect("the hub opens");
+        let shelf = SharedShelf::open(hub.directory(), 1);
+        let path = shelf.path(NAME).expect("it has a name");
+        fs::write(&path, [9, 9, 9]).expect("it can be written");
+        fs::set_permissions(&path, Permissions::from_mode(0o644)).expect("it is ours");
+        assert!(shelf.find(NAME, 3).is_none());
+        assert_eq!(put(&shelf, &[1, 2, 3]).expect("there is room"), &[1, 2, 3][..]);
+        let elsewhere = path.with_file_name("elsewhere");
+        fs::rename(&path, &elsewhere).expect("it is there");
+        fs::set_permissions(&elsewhere, Permissions::from_mode(0o600)).expect("it is ours");
+        symlink(&elsewhere, &path).expect("it can be made");
+        assert!(shelf.find(NAME, 3).is_none(), "a link");
     }
 
     #[test]

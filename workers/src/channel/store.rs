@@ -2,22 +2,23 @@
 
 use std::fs::File;
 use std::io;
-use std::os::unix::fs::{FileExt, OpenOptionsExt};
+use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::run_folder::shared_memory_prefix;
-use super::service::{free_bytes, needed_bytes};
-use super::shared_files::SHARED_MEMORY_FOLDER;
+use rustix::fs::OFlags;
+
+use super::run_folder::memory_folder;
+use super::service::{free_bytes, workers_bytes};
+use super::shared_files::open_private;
 
 const NAME: &str = "store";
 /// So much is appended between two looks at how much is free.
 const GRANT_BYTES: u64 = 1 << 20;
 
 fn path(folder: &Path) -> Option<PathBuf> {
-    let prefix = shared_memory_prefix(folder)?;
-    Some(Path::new(SHARED_MEMORY_FOLDER).join(prefix + NAME))
+    Some(memory_folder(folder)?.join(NAME))
 }
 
 /// The hub's end. It vanishes with the rest of the run's shared memory.
@@ -34,11 +35,9 @@ pub struct Store {
 
 impl Store {
     pub(super) fn create(folder: &Path, workers_max: usize) -> Store {
-        let create = |path| {
-            File::options().read(true).write(true).create_new(true).mode(0o600).open(path).ok()
-        };
-        let file = path(folder).and_then(create);
-        let spare_bytes = needed_bytes(workers_max);
+        let flags = OFlags::RDWR | OFlags::CREATE | OFlags::EXCL;
+        let file = path(folder).and_then(|path| open_private(&path, flags).ok());
+        let spare_bytes = workers_bytes(workers_max);
         Store { file, bytes: Arc::default(), spare_bytes, granted_bytes: 0 }
     }
 
@@ -76,7 +75,8 @@ pub struct StoreReader {
 impl StoreReader {
     /// Opens the store of the run in `folder`; one that cannot be opened shows it when it is read.
     pub fn open(folder: &Path) -> StoreReader {
-        StoreReader { file: path(folder).and_then(|path| File::open(path).ok()) }
+        let open = |path: PathBuf| open_private(&path, OFlags::RDONLY).ok();
+        StoreReader { file: path(folder).and_then(open) }
     }
 
     /// Reads bytes that the hub has appended. What they are is for the caller to check.

@@ -5,7 +5,9 @@
 //! and would need room on a disk that is full.
 
 use super::frame::Mark;
+use crate::files::open_in_run;
 use roadmill::roadmap::Digest;
+use rustix::fs::OFlags;
 use std::fs::File;
 use std::io;
 use std::os::unix::fs::FileExt;
@@ -30,12 +32,8 @@ pub struct DurableFile {
 impl DurableFile {
     /// Makes the file, or makes it new.
     pub fn create(folder: &Path) -> io::Result<DurableFile> {
-        let file = File::options()
-            .read(true)
-            .write(true)
-            .create(true)
-            .truncate(true)
-            .open(folder.join(DURABLE))?;
+        let flags = OFlags::RDWR | OFlags::CREATE | OFlags::TRUNC;
+        let file = open_in_run(&folder.join(DURABLE), flags)?;
         // All of its blocks are taken now.
         file.write_all_at(&[0; 2 * SLOT_DISTANCE as usize], 0)?;
         Ok(DurableFile { file, sequence: 0 })
@@ -46,7 +44,7 @@ impl DurableFile {
         match newest(folder) {
             None => DurableFile::create(folder),
             Some((sequence, _)) => {
-                let file = File::options().write(true).open(folder.join(DURABLE))?;
+                let file = open_in_run(&folder.join(DURABLE), OFlags::WRONLY)?;
                 Ok(DurableFile { file, sequence })
             }
         }
@@ -78,7 +76,7 @@ pub fn read(folder: &Path) -> Option<Mark> {
 }
 
 fn newest(folder: &Path) -> Option<(u64, Mark)> {
-    let file = File::open(folder.join(DURABLE)).ok()?;
+    let file = open_in_run(&folder.join(DURABLE), OFlags::RDONLY).ok()?;
     let slot = |index: u64| {
         let mut slot = [0; SLOT_BYTES];
         file.read_exact_at(&mut slot, index * SLOT_DISTANCE).ok()?;

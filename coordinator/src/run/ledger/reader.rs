@@ -3,7 +3,9 @@ use super::durable;
 use super::frame::{Fault, Frames, HEADING, Mark};
 use super::record::Record;
 use crate::exit::{Code, Failure};
+use crate::files::open_in_run;
 use roadmill::internal::wire;
+use rustix::fs::OFlags;
 use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -33,7 +35,7 @@ impl LedgerReader {
         // Before the ledger, which may be growing.
         let durable = durable::read(folder);
         let no_run = |error| Failure::usage(format!("{}: no run here: {error}", path.display()));
-        let file = File::open(&path).map_err(no_run)?;
+        let file = open_in_run(&path, OFlags::RDONLY).map_err(no_run)?;
         let length = file.metadata().map_err(no_run)?.len();
         let mut source = BufReader::with_capacity(BUFFER_BYTES, file);
         let mut heading = [0; HEADING.len()];
@@ -63,7 +65,7 @@ impl LedgerReader {
     /// As [`LedgerReader::open`].
     pub fn open_at(folder: &Path, at: Mark) -> Result<LedgerReader, Failure> {
         let mut reader = LedgerReader::open(folder)?;
-        let file = File::open(&reader.path).and_then(|mut file| {
+        let file = open_in_run(&reader.path, OFlags::RDONLY).and_then(|mut file| {
             file.seek(SeekFrom::Start(at.offset))?;
             Ok(file)
         });

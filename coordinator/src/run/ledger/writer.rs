@@ -6,11 +6,13 @@ use super::stopped::Stopped;
 use super::{LEDGER, sync_folder};
 use crate::cpu::Meter;
 use crate::exit::Failure;
+use crate::files::{folder_of, open_in_run};
 use crate::run::RunLock;
 use roadmill::img::{Judgement, Round};
 use roadmill::numbers::RoundNumber;
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Tally};
+use rustix::fs::OFlags;
 use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -52,7 +54,7 @@ impl LedgerWriter {
     pub fn begin(folder: &Path, problem: &Problem, lock: RunLock) -> Result<LedgerWriter, Failure> {
         let begun = folder.join(BEGUN);
         let begin = || -> io::Result<LedgerWriter> {
-            let file = File::options().write(true).create(true).truncate(true).open(&begun)?;
+            let file = open_in_run(&begun, OFlags::WRONLY | OFlags::CREATE | OFlags::TRUNC)?;
             let durable = DurableFile::create(folder)?;
             let roadmap = Tally::new(&problem.space()).digest();
             Ok(LedgerWriter::new(folder, file, durable, lock, Mark::first(), roadmap))
@@ -68,6 +70,14 @@ impl LedgerWriter {
         Ok(writer)
     }
 
+    /// The run folder has been moved here, with the ledger and the lock in it. That the system may forget after
+    /// a failure of the machine: then both runs are where they were.
+    pub(in crate::run) fn moved(&mut self, folder: &Path) {
+        self.path = folder.join(LEDGER);
+        self.lock.moved(folder);
+        let _ = sync_folder(folder_of(folder));
+    }
+
     /// Goes on with the ledger that was scanned; a torn tail is saved beside it and cut. The name of
     /// what was saved, if anything was.
     ///
@@ -81,7 +91,7 @@ impl LedgerWriter {
         let folder = scan.folder();
         let path = folder.join(LEDGER);
         let open = || -> io::Result<(LedgerWriter, Option<PathBuf>)> {
-            let mut file = File::options().read(true).write(true).open(&path)?;
+            let mut file = open_in_run(&path, OFlags::RDWR)?;
             let saved = cut_tail(folder, &mut file, scan.end.offset)?;
             let durable = DurableFile::open(folder)?;
             let empty = || Tally::new(&problem.space()).digest();

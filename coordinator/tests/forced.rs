@@ -1,0 +1,218 @@
+//! `--force`: there is a whole run at the path at every moment, and no run at work is touched.
+
+#[path = "support/by_hand.rs"]
+mod by_hand;
+mod support;
+
+use by_hand::{Fields, frames};
+use rustix::process::Signal;
+use std::fs;
+use std::path::Path;
+use std::thread;
+use std::time::Duration;
+use support::{ENDLESS, Random, Scratch, children, trials, wait_until};
+
+/// The same with another seed.
+fn other() -> String {
+    ENDLESS.replace("seed = 11", "seed = 12")
+}
+
+/// A folder with the problems `old.toml` and `new.toml`, and a run of the old one.
+fn scratch() -> Scratch {
+    let scratch = Scratch::new();
+    scratch.write("old.toml", ENDLESS);
+    scratch.write("new.toml", &other());
+    fs::create_dir(scratch.path("runs")).expect("a folder can be made");
+    scratch.build("runs/run", &["old.toml", "--threads", "1", "--max-sets", "4"], 0);
+    scratch
+}
+
+const FORCE: [&str; 8] =
+    ["build", "new.toml", "--out", "runs/run", "--force", "--max-sets", "8", "--workers"];
+
+/// Everything beside the run.
+fn beside(scratch: &Scratch) -> Vec<String> {
+    let names = children(&scratch.path("runs")).into_iter();
+    let names = names.map(|path| path.file_name().unwrap().to_string_lossy().into_owned());
+    names.filter(|name| name != "run").collect()
+}
+
+/// Waits until what killed builds have left is gone: their workers end a moment later.
+fn settle(scratch: &Scratch) {
+    wait_until("nothing to be left", || {
+        let build = ["build", "old.toml", "--out", "tidy", "--force", "--max-sets", "4"];
+        scratch.run(&[&build[..], &["--threads", "1"]].concat()).assert_code(0);
+        scratch.temporary_files().is_empty()
+    });
+}
+
+/// The seed of the problem in the run at the path, whose ledger must have its beginning.
+fn seed_of(run: &Path) -> u64 {
+    let ledger = fs::read(run.join("ledger")).expect("there is a run");
+    let frames = frames(&whole_part(&ledger));
+    let mut fields = Fields(&frames[0].payload);
+    // Kind and round, the program's version, its bits and the problem's name come before.
+    fields.u32();
+    fields.u64();
+    fields.text();
+    fields.u32();
+    fields.text();
+    fields.u64()
+}
+
+/// The records of a ledger that is being written, but for the last.
+fn whole_part(ledger: &[u8]) -> Vec<u8> {
+    let (mut at, mut end) = (16, 16);
+    while at + 48 <= ledger.len() {
+        let length = u64::from_le_bytes(ledger[at..at + 8].try_into().unwrap()) as usize;
+        at += 48 + length;
+        if at <= ledger.len() {
+            end = at;
+        }
+    }
+    ledger[..end].to_vec()
+}
+
+#[test]
+fn a_run_replaces_another_and_leaves_nothing_beside_it() {
+    let scratch = scratch();
+    let done = scratch.run(&[&FORCE[..], &["2"]].concat());
+    done.assert_code(0);
+    assert_eq!((seed_of(&scratch.path("runs/run")), beside(&scratch)), (12, vec![]));
+    // Where nothing is the folder is made.
+    fs::remove_dir_all(scratch.path("runs/run")).expect("it is there");
+    scratch.run(&[&FORCE[..], &["1"]].concat()).assert_code(0);
+    assert_eq!((seed_of(&scratch.path("runs/run")), beside(&scratch)), (12, vec![]));
+    // A build that cannot begin changes nothing.
+    let mut command = std::process::Command::new("sh");
+    let script = "ulimit -n 12; exec \"$0\" \"$@\"";
+    command.args(["-c", script, env!("CARGO_BIN_EXE_roadmill")]);
+    command.args(&FORCE[..2]).args(["--seed", "13"]).args(&FORCE[2..]).arg("4");
+    let done = scratch.start_command(command, "").finish();
+    done.assert_code(1);
+    assert_eq!((seed_of(&scratch.path("runs/run")), beside(&scratch)), (12, vec![]));
+}
+
+/// Of several at once one replaces the run, and the others say who works on it.
+#[test]
+fn builds_that_replace_a_run_at_once_are_kept_apart() {
+    let scratch = scratch();
+    for round in 0..trials(8) {
+        let running: Vec<_> =
+            (0..3).map(|_| scratch.start(&[&FORCE[..], &["1"]].concat())).collect();
+        let codes: Vec<_> =
+            running.into_iter().map(|build| build.finish().status.code().unwrap_or(-1)).collect();
+        assert!(codes.contains(&0), "{round}: {codes:?}");
+        assert!(codes.iter().all(|code| [0, 2].contains(code)), "{round}: {codes:?}");
+        assert_eq!(beside(&scratch), [""; 0]);
+        scratch.run(&["verify", "runs/run", "--threads", "1"]).assert_code(0);
+    }
+}
+
+/// A live run keeps its place, whenever somebody tries.
+#[test]
+fn a_run_at_work_is_not_replaced() {
+    let scratch = scratch();
+    let build = ["build", "old.toml", "--out", "runs/live", "--workers", "1"];
+    let running = scratch.start(&build);
+    wait_until("the ledger", || scratch.path("runs/live/ledger").exists());
+    let force = ["build", "new.toml", "--out", "runs/live", "--force", "--max-sets", "4"];
+    for _ in 0..3 {
+        let done = scratch.run(&force);
+        done.assert_code(2);
+        done.assert_stderr(&["works on this run"]);
+    }
+    running.signal(Signal::TERM);
+    running.finish().assert_code(6);
+    assert_eq!(seed_of(&scratch.path("runs/live")), 11);
+    scratch.run(&force).assert_code(0);
+    assert_eq!(seed_of(&scratch.path("runs/live")), 12);
+}
+
+#[test]
+fn a_kill_at_any_moment_leaves_a_whole_run_at_the_path() {
+    let scratch = scratch();
+    let mut random = Random::new(0xf0);
+    let mut replaced = 0;
+    for _ in 0..trials(15) {
+        let before = seed_of(&scratch.path("runs/run"));
+        let seed = before + 1;
+        let text = seed.to_string();
+        let force = [
+            "build",
+            "new.toml",
+            "--seed",
+            &text,
+            "--out",
+            "runs/run",
+            "--force",
+            "--workers",
+            "1",
+        ];
+        let running = scratch.start(&force);
+        thread::sleep(Duration::from_micros(random.below(60_000) as u64));
+        running.signal(Signal::KILL);
+        running.end();
+        let now = seed_of(&scratch.path("runs/run"));
+        assert!(now == before || now == seed, "{before}, {seed}: {now}");
+        replaced += u64::from(now == seed);
+        let next = scratch.run(&["resume", "runs/run", "--threads", "1", "--max-sets", "4"]);
+        assert!([0, 2].contains(&next.status.code().unwrap_or(-1)), "{}", next.stderr);
+        assert_eq!(beside(&scratch), [""; 0], "the next command tidies up");
+    }
+    eprintln!("{replaced} of {} replaced", trials(15));
+    settle(&scratch);
+}
+
+/// Between the start of a build and its first round.
+#[test]
+fn a_build_killed_while_it_starts_goes_on_at_once() {
+    let scratch = Scratch::new();
+    scratch.write("old.toml", ENDLESS);
+    let mut random = Random::new(0x57);
+    let mut resumed = 0usize;
+    for number in 0..trials(8) {
+        let run = format!("run{number}");
+        let running = scratch.start(&["build", "old.toml", "--out", &run, "--workers", "4"]);
+        let wanted = 1 + random.below(4);
+        wait_until("workers", || {
+            let path = format!("/proc/{0}/task/{0}/children", running.pid());
+            let children = fs::read_to_string(path).unwrap_or_default();
+            children.split_whitespace().count() >= wanted || !running.is_alive()
+        });
+        running.signal(Signal::KILL);
+        running.end();
+        let resume = ["resume", &run, "--threads", "1", "--max-sets", "4"];
+        scratch.run(&resume).assert_code(0);
+        resumed += 1;
+    }
+    assert_eq!(resumed, trials(8));
+    settle(&scratch);
+}
+
+/// An import replaces a problem file in one step, too, and tidies up after others that were killed.
+#[test]
+fn an_import_replaces_a_problem_and_what_dead_ones_have_left() {
+    let scratch = Scratch::new();
+    scratch.write("old.toml", ENDLESS);
+    scratch.write("new.toml", &other());
+    let import = |from: &str| {
+        scratch.run(&["import", from, "--out", "out/copy.toml", "--force"]).assert_code(0);
+        let check = scratch.run(&["check", "out/copy.toml"]);
+        let original = scratch.run(&["check", from]);
+        let digest = |done: &support::Done| {
+            let line = done.stdout.lines().find(|line| line.contains("digest"));
+            line.expect("there is a digest").to_owned()
+        };
+        assert_eq!(digest(&check), digest(&original));
+    };
+    fs::create_dir(scratch.path("out")).expect("a folder can be made");
+    import("old.toml");
+    let mut child = std::process::Command::new("true").spawn().expect("it starts");
+    child.wait().expect("it ends");
+    let left = scratch.path(&format!("out/.copy.toml.import-{}", child.id()));
+    fs::create_dir(&left).expect("a folder can be made");
+    fs::write(left.join("copy.toml"), "half").expect("it can be written");
+    import("new.toml");
+    assert_eq!(children(&scratch.path("out")), [scratch.path("out/copy.toml")]);
+}
