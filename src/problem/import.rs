@@ -4,12 +4,13 @@ use super::{DEFAULT_SEED, Problem, building};
 use crate::context::Ends;
 use crate::evaluate::{EvaluatorKind, Query};
 use crate::model::Imported;
-use crate::source::ProblemError;
+use crate::source::{ProblemError, plain};
 use std::path::Path;
 
 /// The problem of what was read from the file `path`.
 pub(super) fn problem_of(path: &Path, imported: Imported) -> Result<Problem, ProblemError> {
     let Imported { name, model, query, notes, sources } = imported;
+    let notes = notes.iter().map(|note| plain(note).into_owned()).collect();
     let (strategies, schedule, sets_per_round) = building::defaults();
     let mut problem = Problem {
         name,

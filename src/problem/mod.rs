@@ -13,6 +13,7 @@ mod resolve;
 mod write;
 
 pub use crate::source::ProblemError;
+use crate::source::read_file;
 pub use chapter::Earlier;
 pub use configuration::configuration;
 pub use layout::Layout;
@@ -99,8 +100,14 @@ impl Problem {
         if let Some(imported) = model::import(path, options) {
             return imported.and_then(|imported| import::problem_of(path, imported));
         }
-        let text = std::fs::read_to_string(path).map_err(|error| {
+        let bytes = read_file(path).map_err(|error| {
             ProblemError::file(path, format!("cannot read the problem: {error}"))
+        })?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = 1 + valid.iter().filter(|byte| **byte == b'\n').count();
+            let message = "not UTF-8 text; a problem file, which is TOML, expected";
+            ProblemError::line(path, line, message)
         })?;
         resolve::resolve(path, &text, runs)
     }

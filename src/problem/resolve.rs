@@ -7,7 +7,7 @@ use crate::context::Ends;
 use crate::generator::Runs;
 use crate::model::ModelKind;
 use crate::source::Step::{Index, Key};
-use crate::source::{ProblemError, Source, fits};
+use crate::source::{ProblemError, Source, fits, plain};
 use crate::space::Space;
 use crate::strategy::Strategy;
 use std::path::Path;
@@ -20,6 +20,7 @@ pub(super) fn resolve(path: &Path, text: &str, runs: &dyn Runs) -> Result<Proble
 
     let name = name_of(&source, &file)?;
     let model = ModelKind::read(&source, &mut notes)?;
+    let notes = notes.iter().map(|note| plain(note).into_owned()).collect();
     let (mut strategies, schedule, sets_per_round) = strategies_of(&source, &file)?;
     take_in_parents(&source, runs, &model.description().space(), &mut strategies)?;
     let adaptive = adaptive_of(&source, &file)?;

@@ -1,3 +1,4 @@
+use super::plain;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -27,13 +28,13 @@ impl ProblemError {
 impl fmt::Display for ProblemError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.path.as_os_str().is_empty() {
-            return f.write_str(&self.message);
+            return f.write_str(&plain(&self.message));
         }
-        write!(f, "{}", self.path.display())?;
+        f.write_str(&plain(&self.path.to_string_lossy()))?;
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
         }
-        write!(f, ": {}", self.message)
+        write!(f, ": {}", plain(&self.message))
     }
 }
 

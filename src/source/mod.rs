@@ -1,10 +1,19 @@
-//! The text of a problem file, and errors that say where in it something is wrong.
+//! How files are opened and their bytes become text; the text of a problem file, and errors that say where in it
+//! something is wrong.
 
 mod error;
+mod file;
 mod names;
+mod plain;
+mod text;
+mod xml;
 
 pub use error::ProblemError;
+pub(crate) use file::read_file;
 pub(crate) use names::{fits, fitting, fitting_name};
+pub(crate) use plain::plain;
+pub(crate) use text::{NoText, text_of, xml_text};
+pub(crate) use xml::too_many_attributes;
 
 use crate::digest::SourceFile;
 use serde::Serialize;

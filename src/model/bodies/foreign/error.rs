@@ -1,9 +1,12 @@
+use crate::digest::SourceFile;
 use crate::scene::MeshError;
+use crate::source::{NoText, plain, read_file, text_of, too_many_attributes, xml_text};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// A foreign scene that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{}{place}: {message}", path.display())]
+#[error("{}{place}: {}", plain(&path.to_string_lossy()), plain(message))]
 pub struct ForeignError {
     /// The file.
     pub path: PathBuf,
@@ -30,13 +33,28 @@ impl ForeignError {
     }
 }
 
-/// The text of a scene file.
-pub(super) fn read_text(path: &Path) -> Result<String, ForeignError> {
-    let bytes = std::fs::read(path)
+/// The text of a scene file of lines and words, and the file for the list of those read.
+pub(super) fn read_text(path: &Path) -> Result<(String, SourceFile), ForeignError> {
+    read_with(path, text_of)
+}
+
+/// The text of a scene file in XML, and the file for the list of those read.
+pub(super) fn read_xml(path: &Path) -> Result<(String, SourceFile), ForeignError> {
+    let (text, file) = read_with(path, xml_text)?;
+    match too_many_attributes(&text) {
+        Some((line, message)) => Err(ForeignError::line(path, line, message)),
+        None => Ok((text, file)),
+    }
+}
+
+fn read_with(
+    path: &Path,
+    text_of: fn(&[u8]) -> Result<Cow<'_, str>, NoText>,
+) -> Result<(String, SourceFile), ForeignError> {
+    let bytes = read_file(path)
         .map_err(|error| ForeignError::whole(path, format!("cannot read the scene: {error}")))?;
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let line = 1 + error.as_bytes()[..valid].iter().filter(|byte| **byte == b'\n').count();
-        ForeignError::line(path, line, "not UTF-8 text; a scene file expected")
-    })
+    let text = text_of(&bytes).map_err(|NoText { line, found }| {
+        ForeignError::line(path, line, format!("{found}; a scene file, which is text, expected"))
+    })?;
+    Ok((text.into_owned(), SourceFile::named(path, &bytes)))
 }

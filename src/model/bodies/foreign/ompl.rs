@@ -10,7 +10,6 @@ use super::frames::turn;
 use super::{
     Base, ForeignBody, ForeignError, ForeignLink, ForeignScene, SceneOptions, Solidity, Unit,
 };
-use crate::digest::SourceFile;
 use crate::model::bodies::validity::{Bounds, BoundsMeaning};
 use crate::scene::{Centre, LENGTH_MAX, MeshOptions, Pose, Up, UpAxis};
 use crate::space::BaseJoint;
@@ -27,11 +26,11 @@ use std::path::Path;
 /// Names the file and line: unreadable, a key missing or twice, a value that is no finite number, an
 /// empty box, or a mesh that cannot be read.
 pub fn read_ompl(path: &Path, options: &SceneOptions) -> Result<ForeignScene, ForeignError> {
-    let text = read_text(path)?;
+    let (text, source) = read_text(path)?;
     let file = Config::read(path, &text)?;
     let mut notes = Vec::new();
     let mut meshes = Meshes::new(options, &mut notes);
-    meshes.sources.push(SourceFile::named(path, text.as_bytes()));
+    meshes.sources.push(source);
     let world = file.mesh("world", options, &mut meshes, &mut notes)?;
     let robot = file.mesh("robot", options, &mut meshes, &mut notes)?;
     let corner = |which: &str| -> Result<[f64; 3], ForeignError> {

@@ -13,7 +13,6 @@ mod words;
 use super::bodies::{Meshes, Named, why_solid};
 use super::error::read_text;
 use super::{Base, ForeignBody, ForeignError, ForeignScene, SceneOptions, Solidity};
-use crate::digest::SourceFile;
 use crate::model::bodies::validity::{Bounds, BoundsMeaning};
 use crate::scene::{Centre, MeshOptions, Pose};
 use std::path::{Path, PathBuf};
@@ -37,8 +36,8 @@ pub fn read_parasol(env: &Path, options: &SceneOptions) -> Result<ForeignScene, 
         let what = "the mean of each mesh's vertices, as Parasol's library does (--origin)";
         reader.notes.push(format!("origins moved to {what}"));
     }
-    let text = read_text(env)?;
-    reader.meshes.sources.push(SourceFile::named(env, text.as_bytes()));
+    let (text, source) = read_text(env)?;
+    reader.meshes.sources.push(source);
     let found = env::read(&mut Words::new(env, &text), &mut reader)?;
     let robot = match (found.robot, options.robot) {
         (Some(_), Some(other)) => {
@@ -55,8 +54,8 @@ pub fn read_parasol(env: &Path, options: &SceneOptions) -> Result<ForeignScene, 
                     ForeignError::whole(env, message)
                 })?,
             };
-            let text = read_text(&path)?;
-            reader.meshes.sources.push(SourceFile::named(&path, text.as_bytes()));
+            let (text, source) = read_text(&path)?;
+            reader.meshes.sources.push(source);
             let mut words = Words::new(&path, &text);
             let robot = robot::read(&mut words, &mut reader)?;
             words.end("the end after the connections")?;
@@ -71,8 +70,8 @@ pub fn read_parasol(env: &Path, options: &SceneOptions) -> Result<ForeignScene, 
     };
     let query = match query {
         Some(path) => {
-            let text = read_text(&path)?;
-            reader.meshes.sources.push(SourceFile::named(&path, text.as_bytes()));
+            let (text, source) = read_text(&path)?;
+            reader.meshes.sources.push(source);
             Some(query::read(&path, &text, &robot, notes)?)
         }
         None => None,
