@@ -1,5 +1,8 @@
 //! What the readers of mesh files have in common: the mesh as stored, faces, errors.
 
+use super::polygon;
+use crate::source::{plain, text_of};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// The most vertices or triangles a mesh may have.
@@ -7,7 +10,7 @@ pub const MESH_ITEMS_MAX: usize = 1 << 26;
 
 /// A mesh file that cannot be used.
 #[derive(Debug, thiserror::Error)]
-#[error("{}{place}: {message}", path.display())]
+#[error("{}{place}: {}", plain(&path.to_string_lossy()), plain(message))]
 pub struct MeshError {
     /// The file.
     pub path: PathBuf,
@@ -55,15 +58,15 @@ pub(super) struct RawMesh {
 }
 
 impl RawMesh {
-    /// Appends a face, a polygon of vertices in order, as a fan of triangles.
+    /// Appends a face, a polygon of vertices in order, as triangles.
     ///
     /// # Errors
-    /// Says that the face has too few corners or that the mesh has too many triangles.
+    /// Says that the face has too few corners or cannot be cut into triangles, or that the mesh has too many of them.
     pub(super) fn push_face(&mut self, corners: &[u32]) -> Result<(), String> {
         if corners.len() < 3 {
             return Err(format!("a face with {} corners; at least 3 expected", corners.len()));
         }
-        self.triangles.extend(fan(corners));
+        polygon::cut(corners, &self.vertices, &mut self.triangles)?;
         if self.triangles.len() > MESH_ITEMS_MAX {
             return Err(format!("more than {MESH_ITEMS_MAX} triangles"));
         }
@@ -77,9 +80,16 @@ pub(super) fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
 }
 
 /// The text of a file; `expected` names the format in the error.
-pub(super) fn text<'a>(path: &Path, bytes: &'a [u8], expected: &str) -> Result<&'a str, MeshError> {
-    std::str::from_utf8(bytes).map_err(|error| {
-        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|b| **b == b'\n').count();
-        MeshError::line(path, line, format!("not UTF-8 text; {expected} expected"))
+pub(super) fn text<'a>(
+    path: &Path,
+    bytes: &'a [u8],
+    expected: &str,
+) -> Result<Cow<'a, str>, MeshError> {
+    text_of(bytes).map_err(|error| {
+        MeshError::line(
+            path,
+            error.line,
+            format!("{}; {expected}, which is text, expected", error.found),
+        )
     })
 }
