@@ -4,7 +4,8 @@ use bincode::{Decode, Encode};
 use petgraph::unionfind::UnionFind;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A triangle mesh: welded vertices, and triangles of which no two have the same corners.
+/// A triangle mesh: welded vertices, and triangles. No two triangles have the same corners, but for walls with material
+/// on either side, which are there twice, once for each side, so that the surface is closed.
 ///
 /// Triangles have an area, with one exception: flat triangles, whose corners lie in a line, are kept where they close
 /// the seam between neighbours whose corners do not coincide, as without them the surface would not be closed.
@@ -52,6 +53,15 @@ impl Mesh {
             .filter(|i| used[*i] && seen.insert(labels[*i]))
             .map(|i| self.vertices[i])
             .collect()
+    }
+
+    /// The diagonal of the box around the triangles, a length; 0 if there are none.
+    pub(super) fn size(&self) -> f64 {
+        if self.triangles.is_empty() {
+            return 0.0;
+        }
+        let (min, max) = self.bounding_box();
+        (0..3).map(|axis| (max[axis] - min[axis]) * (max[axis] - min[axis])).sum::<f64>().sqrt()
     }
 
     /// Least and largest coordinates.

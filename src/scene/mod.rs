@@ -5,16 +5,20 @@
 //! given in: `p ↦ rotation · p + translation`.
 
 mod byu;
+mod closing;
 mod collada;
 mod mesh;
 mod obj;
 mod ply;
+mod polygon;
 mod pose;
 mod raw;
 mod read;
 mod shape;
 mod stl;
 mod weld;
+#[cfg(test)]
+mod weld_tests;
 
 pub use mesh::Mesh;
 pub use pose::Pose;
@@ -22,6 +26,7 @@ pub use raw::{MESH_ITEMS_MAX, MeshError, UpAxis};
 pub use read::{Centre, MeshOptions, ReadMesh, Up, read_mesh, read_mesh_with};
 pub use shape::Shape;
 pub(crate) use shape::box_surface;
+pub use weld::{WELD_SHARE, Weld};
 
 use bincode::{Decode, Encode};
 

@@ -1,7 +1,8 @@
 use super::raw::{MeshError, RawMesh, UpAxis};
-use super::weld::Surface;
+use super::weld::{Weld, Welded};
 use super::{LENGTH_MAX, Mesh, byu, collada, obj, ply, stl};
 use crate::digest::Digest;
+use crate::source::read_file;
 use std::path::Path;
 
 /// Which point of a mesh becomes the origin of its frame.
@@ -32,8 +33,8 @@ pub struct MeshOptions {
     /// What coordinates are multiplied by along x, y and z, after the mesh has been turned and centred.
     /// Negative factors mirror.
     pub scale: [f64; 3],
-    /// Vertices at most this far apart, a length after scaling, are joined; 0 joins equal ones.
-    pub weld: f64,
+    /// Which vertices are one.
+    pub weld: Weld,
     /// The origin.
     pub centre: Centre,
     /// The turn.
@@ -42,7 +43,8 @@ pub struct MeshOptions {
 
 impl Default for MeshOptions {
     fn default() -> MeshOptions {
-        MeshOptions { scale: [1.0; 3], weld: 0.0, centre: Centre::AsStored, up: Up::AsStored }
+        let weld = Weld::Length(0.0);
+        MeshOptions { scale: [1.0; 3], weld, centre: Centre::AsStored, up: Up::AsStored }
     }
 }
 
@@ -57,6 +59,11 @@ pub struct ReadMesh {
     pub unique_triangles: usize,
     /// Edges that an odd number of those share: 0 for a closed surface.
     pub odd_edges: usize,
+    /// Pairs of triangles with the same corners that the mesh keeps: walls with material on either side.
+    pub pairs: usize,
+    /// Where vertices that are not equal had to be joined to close the surface ([`Weld::ToClose`]): how far apart
+    /// such vertices are at most, a length, and how many edges are open if equal ones only are joined.
+    pub closed_by: Option<(f64, usize)>,
     /// The mean that became the origin, in the file's unit (after the turn); zero where it was not
     /// asked for.
     pub centre: [f64; 3],
@@ -95,7 +102,7 @@ pub fn read_mesh_with(path: &Path, options: &MeshOptions) -> Result<ReadMesh, Me
             return Err(MeshError::whole(path, message));
         }
     };
-    let bytes = std::fs::read(path)
+    let bytes = read_file(path)
         .map_err(|error| MeshError::whole(path, format!("cannot read the mesh: {error}")))?;
     finish(path, read(path, &bytes)?, options, Digest::of(&bytes))
 }
@@ -125,19 +132,21 @@ fn finish(
     }
     let stored_triangles = raw.triangles.len();
     let (up, unit_metres) = (raw.up, raw.unit_metres);
-    let (mesh, surface) = Mesh::weld(raw, options.scale, options.weld);
+    let welded = Mesh::weld(&raw, options.scale, options.weld);
+    let Welded { mesh, unique_triangles, odd_edges, pairs, closed_by } = welded;
     if mesh.triangles.is_empty() {
         let message = format!(
             "all {stored_triangles} triangles have zero area; at least one with an area expected"
         );
         return Err(MeshError::whole(path, message));
     }
-    let Surface { unique_triangles, odd_edges } = surface;
     Ok(ReadMesh {
         mesh,
         stored_triangles,
         unique_triangles,
         odd_edges,
+        pairs,
+        closed_by,
         centre,
         up,
         unit_metres,

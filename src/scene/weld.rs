@@ -1,53 +1,84 @@
 //! From triangles as stored to a mesh: vertices joined, repeated and flat triangles dropped.
 
 use super::Mesh;
-use super::mesh::{faces_of, odd_edges};
+use super::closing::Kept;
 use super::raw::RawMesh;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-/// The surface of a file after vertices are joined and before flat triangles are dropped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Surface {
+/// The share of a mesh's size that vertices of an open mesh may be apart and still be one, where nobody says
+/// otherwise: what single precision leaves of a coordinate, a few times over.
+pub const WELD_SHARE: f64 = 1e-6;
+
+/// Which vertices of a mesh are one. Each vertex is replaced by the first one that is near enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Weld {
+    /// Those at most this far apart, a length after scaling; 0 joins equal ones only. The rounding of the decimals
+    /// in a file does not grow with the size of what it describes.
+    Length(f64),
+    /// Equal ones; and where that leaves the surface open, those at most this share of the mesh's size apart, if it
+    /// is closed by that. The size is the diagonal of the box around the triangles. Else nothing more is joined: a
+    /// closed mesh stays to the bit what it is.
+    ToClose(f64),
+}
+
+/// A mesh made of the triangles of a file, and what that took.
+pub(super) struct Welded {
+    pub mesh: Mesh,
     /// Triangles with different corners, each set of corners counted once.
     pub unique_triangles: usize,
-    /// Edges that an odd number of these triangles share. Flat triangles count, since they may close a seam between
+    /// Edges that an odd number of the triangles share. Flat triangles count, since they may close a seam between
     /// neighbours whose corners do not coincide: without them a closed surface would seem open.
     pub odd_edges: usize,
+    /// Pairs of triangles with the same corners that the mesh keeps.
+    pub pairs: usize,
+    /// How far apart vertices are that were joined to close the surface, and how many edges are open without.
+    pub closed_by: Option<(f64, usize)>,
 }
 
 impl Mesh {
-    /// Joins vertices that are near each other, and drops what is superfluous: of triangles with the same corners all
-    /// but the first (many files store both sides), triangles without an area (unless the surface is closed with them
-    /// and open without them), and vertices that no triangle uses.
-    ///
-    /// Each vertex is replaced by the first vertex at most `tolerance` away; a tolerance of 0 joins equal ones only.
-    /// The tolerance is a length, after scaling by `scale`, and no share of the mesh's size: the rounding of the
-    /// decimals in a file does not grow with the size of what it describes.
-    pub(super) fn weld(raw: RawMesh, scale: [f64; 3], tolerance: f64) -> (Mesh, Surface) {
+    /// Joins vertices, and drops what is superfluous: of triangles with the same corners all but the first (many
+    /// files store both sides; [`Kept`] says where two are kept), triangles without an area (unless the surface is
+    /// closed with them and open without them), and vertices that no triangle uses.
+    pub(super) fn weld(raw: &RawMesh, scale: [f64; 3], weld: Weld) -> Welded {
         let scaled = raw.vertices.iter();
         let scaled = scaled.map(|vertex| [0, 1, 2].map(|axis| vertex[axis] * scale[axis] + 0.0));
-        let (vertices, welded) =
-            if tolerance > 0.0 { join_near(scaled, tolerance) } else { join_equal(scaled) };
-        let mut seen = BTreeSet::new();
-        let mut triangles = Vec::new();
-        for corners in raw.triangles {
-            let corners = corners.map(|corner| welded[corner as usize]);
-            let mut sorted = corners;
-            sorted.sort_unstable();
-            if sorted[0] < sorted[1] && sorted[1] < sorted[2] && seen.insert(sorted) {
-                triangles.push(corners);
-            }
+        let (length, share) = match weld {
+            Weld::Length(length) => (length, 0.0),
+            Weld::ToClose(share) => (0.0, share),
+        };
+        let joined = if length > 0.0 { join_near(scaled, length) } else { join_equal(scaled) };
+        let welded = Welded::of(&joined, &raw.triangles);
+        let length = share * welded.mesh.size();
+        if welded.odd_edges == 0 || length == 0.0 {
+            return welded;
         }
-        let surface =
-            Surface { unique_triangles: triangles.len(), odd_edges: odd_edges(&triangles) };
-        let faces: Vec<[u32; 3]> = faces_of(&vertices, &triangles).collect();
-        // Flat triangles stay only where the surface is closed by them and not without them.
-        if faces.is_empty() || surface.odd_edges > 0 || odd_edges(&faces) == 0 {
-            triangles = faces;
+        let mut near = join_near(joined.0.iter().copied(), length);
+        near.1 = joined.1.iter().map(|equal| near.1[*equal as usize]).collect();
+        let near = Welded::of(&near, &raw.triangles);
+        if near.odd_edges > 0 || near.mesh.faces().next().is_none() {
+            return welded;
         }
-        (without_unused(vertices, triangles), surface)
+        Welded { closed_by: Some((length, welded.odd_edges)), ..near }
     }
 }
+
+impl Welded {
+    fn of((vertices, welded): &Joined, triangles: &[[u32; 3]]) -> Welded {
+        let corners = triangles.iter().map(|corners| corners.map(|corner| welded[corner as usize]));
+        let whole = corners.filter(|[a, b, c]| a != b && b != c && c != a);
+        let kept = Kept::of(vertices, &whole.collect::<Vec<_>>());
+        Welded {
+            mesh: without_unused(vertices, kept.triangles),
+            unique_triangles: kept.unique,
+            odd_edges: kept.odd_edges,
+            pairs: kept.pairs,
+            closed_by: None,
+        }
+    }
+}
+
+/// Edge of the cubes in which near vertices are looked for, in tolerances.
+const CUBE: f64 = 16.0;
 
 /// The vertices that are left after joining, and for every vertex of the file the index of the one that it became.
 type Joined = (Vec<[f64; 3]>, Vec<u32>);
@@ -67,19 +98,25 @@ fn join_equal(all: impl Iterator<Item = [f64; 3]>) -> Joined {
 }
 
 fn join_near(all: impl Iterator<Item = [f64; 3]>, tolerance: f64) -> Joined {
-    // A grid of cubes whose side is the tolerance: vertices within the tolerance lie in the same cube or in
-    // neighbouring ones.
+    // A grid of cubes, some tolerances wide: the vertices within the tolerance lie in a vertex's own cube, and in the
+    // neighbouring ones if it is that near to a side.
+    let side = CUBE * tolerance;
+    let reach = (1.0 + 1e-3) * tolerance;
     let mut cells: BTreeMap<[u64; 3], Vec<u32>> = BTreeMap::new();
     let mut vertices: Vec<[f64; 3]> = Vec::new();
-    let key = |cell: [f64; 3]| cell.map(|value| (value + 0.0).to_bits());
+    let cell = |value: f64| (value / side).floor() + 0.0;
     let welded = all
         .map(|vertex| {
-            let cell = vertex.map(|value| (value / tolerance).floor());
+            let ends = vertex.map(|value| [cell(value - reach), cell(value + reach)]);
             let mut first = u32::MAX;
-            for beside in 0..27 {
-                let step = [beside % 3, beside / 3 % 3, beside / 9].map(|s| f64::from(s) - 1.0);
-                let neighbor = [0, 1, 2].map(|axis| cell[axis] + step[axis]);
-                for index in cells.get(&key(neighbor)).into_iter().flatten() {
+            for beside in 0..8 {
+                let ways = [0, 1, 2].map(|axis| beside >> axis & 1);
+                // Where both ends are in one cube, that is looked at once.
+                if (0..3).any(|axis| ways[axis] == 1 && ends[axis][0] == ends[axis][1]) {
+                    continue;
+                }
+                let key = [0, 1, 2].map(|axis| ends[axis][ways[axis]].to_bits());
+                for index in cells.get(&key).into_iter().flatten() {
                     if distance_squared(vertices[*index as usize], vertex) <= tolerance * tolerance
                     {
                         first = first.min(*index);
@@ -89,7 +126,7 @@ fn join_near(all: impl Iterator<Item = [f64; 3]>, tolerance: f64) -> Joined {
             if first == u32::MAX {
                 first = vertices.len() as u32;
                 vertices.push(vertex);
-                cells.entry(key(cell)).or_default().push(first);
+                cells.entry(vertex.map(|value| cell(value).to_bits())).or_default().push(first);
             }
             first
         })
@@ -97,8 +134,8 @@ fn join_near(all: impl Iterator<Item = [f64; 3]>, tolerance: f64) -> Joined {
     (vertices, welded)
 }
 
-/// Removes the vertices that no triangle uses.
-fn without_unused(vertices: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Mesh {
+/// The triangles with those of the vertices that they use.
+fn without_unused(vertices: &[[f64; 3]], mut triangles: Vec<[u32; 3]>) -> Mesh {
     let mut used = vec![false; vertices.len()];
     for corner in triangles.iter().flatten() {
         used[*corner as usize] = true;
@@ -114,92 +151,11 @@ fn without_unused(vertices: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> Mesh
     for corner in triangles.iter_mut().flatten() {
         *corner = new_index[*corner as usize];
     }
-    let vertices =
-        vertices.into_iter().zip(used).filter(|(_, used)| *used).map(|(vertex, _)| vertex);
+    let vertices = vertices.iter().zip(used).filter(|(_, used)| *used).map(|(vertex, _)| *vertex);
     Mesh { vertices: vertices.collect(), triangles }
 }
 
 fn distance_squared(a: [f64; 3], b: [f64; 3]) -> f64 {
     let d = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
     d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn cube(offset: f64) -> RawMesh {
-        let corner = |i: usize| [0, 1, 2].map(|axis| (i >> axis & 1) as f64 + offset);
-        let quads =
-            [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
-        let triangles =
-            quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
-        RawMesh { vertices: (0..8).map(corner).collect(), triangles, ..RawMesh::default() }
-    }
-
-    #[test]
-    fn a_cube_is_closed_and_an_open_box_is_not() {
-        let mut mesh = Mesh::weld(cube(0.0), [1.0; 3], 0.0).0;
-        assert!(mesh.is_closed());
-        mesh.triangles.truncate(10);
-        assert_eq!(mesh.odd_edges(), 4);
-    }
-
-    #[test]
-    fn doubled_and_flat_triangles_are_dropped_and_pieces_told_apart() {
-        let (mut raw, other) = (cube(0.0), cube(5.0));
-        raw.triangles.extend(raw.triangles.clone().into_iter().map(|[a, b, c]| [a, c, b]));
-        raw.triangles.push([0, 0, 1]);
-        raw.vertices.extend(other.vertices);
-        raw.triangles.extend(other.triangles.iter().map(|corners| corners.map(|c| c + 8)));
-        let mesh = Mesh::weld(raw, [2.0; 3], 0.0).0;
-        assert_eq!(mesh.triangles.len(), 24);
-        assert_eq!(mesh.witnesses(), [[0.0; 3], [10.0; 3]]);
-        assert_eq!(mesh.bounding_box(), ([0.0; 3], [12.0; 3]));
-    }
-
-    #[test]
-    fn near_vertices_join_the_first_and_unused_ones_go() {
-        let mut raw = cube(0.0);
-        // Every triangle gets corners of its own, each a little off.
-        let own: Vec<[f64; 3]> =
-            raw.triangles.iter().flatten().map(|c| raw.vertices[*c as usize]).collect();
-        let off = |(i, v): (usize, [f64; 3])| v.map(|x| x + if i > 0 { 4e-7 } else { 0.0 });
-        raw.vertices = own.into_iter().enumerate().map(off).collect();
-        raw.triangles = (0..12).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        raw.vertices.push([9.0; 3]);
-        let mesh = Mesh::weld(raw, [1.0; 3], 1e-6).0;
-        assert_eq!((mesh.vertices.len(), mesh.vertices[0]), (8, [0.0; 3]));
-        assert!(mesh.is_closed());
-        assert!(mesh.bounding_box().1[0] < 1.1);
-    }
-
-    #[test]
-    fn a_flat_triangle_closes_a_seam() {
-        // The front is cut from edge to edge at the middle, its neighbour below is not.
-        let mut raw = cube(0.0);
-        raw.vertices.push([0.5, 0.0, 0.0]);
-        let at = raw.triangles.iter().position(|t| t.contains(&0) && t.contains(&1));
-        let [a, b, c] = raw.triangles[at.unwrap()];
-        let rest = [a, b, c].into_iter().find(|corner| *corner > 1).unwrap();
-        raw.triangles[at.unwrap()] = [0, 8, rest];
-        raw.triangles.push([8, 1, rest]);
-        let (_, open) = Mesh::weld(
-            RawMesh {
-                vertices: raw.vertices.clone(),
-                triangles: raw.triangles.clone(),
-                ..RawMesh::default()
-            },
-            [1.0; 3],
-            0.0,
-        );
-        assert_eq!(open.odd_edges, 3);
-        raw.triangles.push([0, 1, 8]);
-        let (mesh, closed) = Mesh::weld(raw, [1.0; 3], 0.0);
-        assert_eq!((closed.unique_triangles, closed.odd_edges), (14, 0));
-        assert_eq!((mesh.triangles.len(), mesh.faces().count()), (14, 13));
-        assert!(mesh.is_closed());
-        let again = super::super::obj::tests::read_text(&mesh.to_obj());
-        assert_eq!(Mesh::weld(again, [1.0; 3], 0.0).0, mesh);
-    }
 }

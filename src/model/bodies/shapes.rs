@@ -4,11 +4,14 @@ use super::robot::Robot;
 use super::tables::{BodyTable, ShapeTable, Solid, TurnTable};
 use crate::digest::SourceFile;
 use crate::math;
-use crate::scene::{Body, LENGTH_MAX, MeshOptions, Pose, Shape, read_mesh_with};
+use crate::scene::{Body, LENGTH_MAX, MeshOptions, Pose, ReadMesh, Shape, Weld, read_mesh_with};
 use crate::source::Step::{self, Index, Key};
 use crate::source::{ProblemError, Source};
 use crate::space::{canonical, stored_form};
 use std::path::Path;
+
+/// The largest share of a mesh's size that its vertices may be apart and be one.
+const WELD_MAX: f64 = 0.01;
 
 /// Reads the bodies of the table at `place`.
 pub(super) fn bodies(
@@ -22,8 +25,10 @@ pub(super) fn bodies(
         let at = |key| [place, &[Index(index), Key(key)]].concat();
         let frame = (&table.position, &table.orientation, &table.turn);
         let pose = pose_of(frame).map_err(|(key, message)| source.error(&at(key), message))?;
-        let shape =
-            shape_of(source, table).map_err(|message| source.error(&at("shape"), message))?;
+        let what = if place.len() == 1 { "obstacle" } else { "robot body" };
+        let what = format!("{what} {index}");
+        let (shape, pairs) = shape_of(source, table, &what, notes)
+            .map_err(|message| source.error(&at("shape"), message))?;
         let solid = match (&shape, table.solid) {
             (Shape::Mesh(mesh), Solid::Yes) if !mesh.is_closed() => {
                 let message = format!(
@@ -35,12 +40,10 @@ pub(super) fn bodies(
             }
             (Shape::Mesh(mesh), Solid::Auto) => {
                 let closed = mesh.is_closed();
-                let what = if place.len() == 1 { "obstacle" } else { "robot body" };
-                let found = match mesh.odd_edges() {
-                    0 => "the mesh is closed".to_owned(),
-                    odd => format!("the mesh has {odd} open edges"),
-                };
-                notes.push(format!("{what} {index}: solid = {closed}, as {found}"));
+                notes.push(format!(
+                    "{what}: solid = {closed}, as {}",
+                    found(mesh.odd_edges(), pairs)
+                ));
                 closed
             }
             (Shape::Mesh(_), Solid::Yes) => true,
@@ -107,7 +110,33 @@ fn rotation_about(axis: [f64; 3], degrees: f64) -> [f64; 4] {
     canonical(quaternion).unwrap_or(Pose::IDENTITY.rotation)
 }
 
-fn shape_of(source: &Source, table: &BodyTable) -> Result<Shape, String> {
+/// What decides whether a mesh is solid: its open edges, and pairs of equal triangles that were kept to close it.
+pub(super) fn found(odd_edges: usize, pairs: usize) -> String {
+    match (odd_edges, pairs) {
+        (0, 0) => "the mesh is closed".to_owned(),
+        (0, 1) => {
+            "the mesh is closed but for a wall within it, 1 pair of equal triangles".to_owned()
+        }
+        (0, _) => {
+            format!("the mesh is closed but for walls within it, {pairs} pairs of equal triangles")
+        }
+        (odd, _) => format!("the mesh has {odd} open edges"),
+    }
+}
+
+/// How far apart vertices are that had to be joined to close a mesh.
+pub(super) fn closed_by(read: &ReadMesh) -> Option<String> {
+    let (length, open) = read.closed_by?;
+    Some(format!("vertices at most {length:.3e} apart joined, without which {open} edges are open"))
+}
+
+/// Reads a shape, and of a mesh how many pairs of equal triangles it keeps.
+fn shape_of(
+    source: &Source,
+    table: &BodyTable,
+    what: &str,
+    notes: &mut Vec<String>,
+) -> Result<(Shape, usize), String> {
     let length = |key: &str, value: f64| {
         if value > 0.0 && value <= LENGTH_MAX {
             Ok(value)
@@ -115,7 +144,7 @@ fn shape_of(source: &Source, table: &BodyTable) -> Result<Shape, String> {
             Err(format!("{key} = {value} found; a positive length expected"))
         }
     };
-    Ok(match &table.shape {
+    let shape = match &table.shape {
         ShapeTable::Point {} => Shape::Point,
         ShapeTable::Box { size } => {
             for edge in size {
@@ -132,17 +161,29 @@ fn shape_of(source: &Source, table: &BodyTable) -> Result<Shape, String> {
             radius: length("radius", *radius)?,
             height: length("height", *height)?,
         },
-        ShapeTable::Mesh { file, scale } => {
+        ShapeTable::Mesh { file, scale, weld } => {
             length("scale", *scale)?;
+            if !(0.0..=WELD_MAX).contains(weld) {
+                let expected = format!("a share of the mesh's size from 0 to {WELD_MAX} expected");
+                return Err(format!("weld = {weld} found; {expected}"));
+            }
             let folder = source.path.parent().unwrap_or(Path::new(""));
-            let options = MeshOptions { scale: [*scale; 3], ..MeshOptions::default() };
+            let options = MeshOptions {
+                scale: [*scale; 3],
+                weld: Weld::ToClose(*weld),
+                ..MeshOptions::default()
+            };
             let read = read_mesh_with(&folder.join(file), &options);
             let read = read.map_err(|error| error.to_string())?;
             let path = file.to_string_lossy().into_owned();
             source.read(SourceFile { path, digest: read.digest });
-            Shape::Mesh(read.mesh)
+            if let Some(joined) = closed_by(&read) {
+                notes.push(format!("{what}: {joined} (weld = {weld:e})"));
+            }
+            return Ok((Shape::Mesh(read.mesh), read.pairs));
         }
-    })
+    };
+    Ok((shape, 0))
 }
 
 /// Checks the robot and the obstacles against one another.

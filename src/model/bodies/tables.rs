@@ -2,6 +2,7 @@
 //! checked.
 
 use super::validity::{BoundsMeaning, MotionChecking};
+use crate::scene::WELD_SHARE;
 use crate::space::BaseJoint;
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -122,11 +123,17 @@ pub(super) enum ShapeTable {
         file: PathBuf,
         #[serde(default = "one")]
         scale: f64,
+        #[serde(default = "weld_share")]
+        weld: f64,
     },
 }
 
 fn one() -> f64 {
     1.0
+}
+
+fn weld_share() -> f64 {
+    WELD_SHARE
 }
 
 /// `"auto"`, `true` or `false`.

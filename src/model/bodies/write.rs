@@ -108,9 +108,11 @@ impl Writer<'_> {
                 format!("{{ capsule = {{ radius = {radius:?}, height = {height:?} }} }}")
             }
             Shape::Mesh(mesh) => {
+                // Of an open mesh no more vertices are to be joined than were; a closed one stays as it is anyway.
+                let weld = if mesh.is_closed() { "" } else { ", weld = 0" };
                 let mesh = self.mesh(mesh, name);
                 let file = format!("{}/{mesh}", self.documents.folder);
-                format!("{{ mesh = {{ file = {} }} }}", value(&file))
+                format!("{{ mesh = {{ file = {}{weld} }} }}", value(&file))
             }
         }
     }

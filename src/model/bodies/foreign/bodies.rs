@@ -2,7 +2,10 @@
 
 use super::{ForeignBody, ForeignError, SceneOptions, Solidity};
 use crate::digest::SourceFile;
-use crate::scene::{Body, MESH_ITEMS_MAX, MeshOptions, Pose, ReadMesh, Shape, read_mesh_with};
+use crate::model::bodies::shapes::found;
+use crate::scene::{
+    Body, MESH_ITEMS_MAX, MeshOptions, Pose, ReadMesh, Shape, WELD_SHARE, Weld, read_mesh_with,
+};
 use std::path::{Path, PathBuf};
 
 /// Vertices nearer than this are one, a length of the scene. Exporters write six decimals, and some
@@ -33,7 +36,7 @@ impl Named<'_> {
 /// Reads mesh files and counts what they come to.
 pub(super) struct Meshes {
     triangles: usize,
-    weld: f64,
+    weld: Weld,
     /// The files read.
     pub sources: Vec<SourceFile>,
 }
@@ -42,12 +45,12 @@ impl Meshes {
     pub fn new(options: &SceneOptions, notes: &mut Vec<String>) -> Meshes {
         let weld = options.weld.unwrap_or(WELD);
         notes.push(format!("vertices at most {weld:e} apart joined (--weld)"));
-        Meshes { triangles: 0, weld, sources: Vec::new() }
+        Meshes { triangles: 0, weld: Weld::Length(weld), sources: Vec::new() }
     }
 
-    /// Joins equal vertices only.
-    pub fn exact() -> Meshes {
-        Meshes { triangles: 0, weld: 0.0, sources: Vec::new() }
+    /// Joins equal vertices, and others where that closes a mesh, as problem files do.
+    pub fn as_stored() -> Meshes {
+        Meshes { triangles: 0, weld: Weld::ToClose(WELD_SHARE), sources: Vec::new() }
     }
 
     /// Reads a mesh; the body stands at `pose`.
@@ -91,9 +94,8 @@ impl Meshes {
 /// Whether a mesh came to be solid, and why.
 pub(super) fn why_solid(body: &Body, read: &ReadMesh, asked: Option<Solidity>) -> String {
     let solid = body.solid;
-    match (asked, read.odd_edges) {
-        (Some(Solidity::Yes | Solidity::No), _) => format!("solid = {solid}, as asked"),
-        (_, 0) => format!("solid = {solid}, as the mesh is closed (--solid)"),
-        (_, odd) => format!("solid = {solid}, as the mesh has {odd} open edges (--solid)"),
+    match asked {
+        Some(Solidity::Yes | Solidity::No) => format!("solid = {solid}, as asked"),
+        _ => format!("solid = {solid}, as {} (--solid)", found(read.odd_edges, read.pairs)),
     }
 }
