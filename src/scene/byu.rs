@@ -8,7 +8,7 @@ use std::path::Path;
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let text = text(path, bytes, "a BYU .g file")?;
-    let mut words = Words::new(path, text);
+    let mut words = Words::new(path, &text);
     let parts = words.count("the number of parts")?;
     let vertices = words.count("the number of vertices")?;
     let faces = words.count("the number of faces")?;
@@ -127,6 +127,16 @@ mod tests {
         let mesh = parse(SQUARE).unwrap();
         assert_eq!(mesh.vertices.len(), 4);
         assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2]]);
+    }
+
+    #[test]
+    fn faces_need_not_be_convex() {
+        // The second corner is the reflex one; a fan from the first would cover what is outside.
+        let dart = "1 4 1 4\n1 1\n0 0 0 1 1 0 2 0 0 1 3 0\n1 2 3 -4\n";
+        assert_eq!(parse(dart).unwrap().triangles, [[3, 0, 1], [1, 2, 3]]);
+        let crossing = dart.replace("1 1 0 2 0 0 1 3 0", "2 2 0 2 0 0 0 2 0");
+        let error = parse(&crossing).err().unwrap();
+        assert!(error.starts_with("m.g:4: a face that crosses itself"), "{error}");
     }
 
     #[test]

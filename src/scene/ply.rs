@@ -5,14 +5,20 @@
 //! reserved by the counts that a header states, which may be wrong.
 
 use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
+use crate::source::{NoText, text_of};
 use std::path::Path;
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
+    // The byte order mark of a text file.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let (header, body) = Header::read(path, bytes)?;
+    let text;
     let mut values = match header.format {
         Format::Text => {
-            let text = std::str::from_utf8(&bytes[body..]).map_err(|error| {
-                MeshError::byte(path, body + error.valid_up_to(), "not UTF-8 text")
+            let lines_before = header.lines;
+            text = text_of(&bytes[body..]).map_err(|NoText { line, found }| {
+                let message = format!("{found}; text expected, as the header says `format ascii`");
+                MeshError::line(path, lines_before + line, message)
             })?;
             Values::Text { lines: text.lines(), line: header.lines, words: "".split_whitespace() }
         }
@@ -66,11 +72,13 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
                     }
                 }
             }
+            values.end_item(path)?;
             if element.name == "vertex" {
                 mesh.vertices.push(vertex);
             }
         }
     }
+    values.end(path)?;
     Ok(mesh)
 }
 
@@ -253,6 +261,33 @@ impl Values<'_> {
         }
     }
 
+    /// In text nothing follows an item in its line.
+    fn end_item(&mut self, path: &Path) -> Result<(), MeshError> {
+        if let Values::Text { words, .. } = self
+            && let Some(word) = words.next()
+        {
+            let message =
+                format!("`{word}` found; the end of the line expected, as the header says");
+            return Err(self.error(path, message));
+        }
+        Ok(())
+    }
+
+    /// After the last item nothing follows but blanks.
+    fn end(&mut self, path: &Path) -> Result<(), MeshError> {
+        let Values::Binary { bytes, at, .. } = self else {
+            self.begin_item();
+            return self.end_item(path);
+        };
+        let rest = &bytes[*at..];
+        if !rest.iter().all(|byte| *byte == 0 || byte.is_ascii_whitespace()) {
+            let over = rest.len();
+            let message = format!("{over} more bytes found; the end expected, as the header says");
+            return Err(self.error(path, message));
+        }
+        Ok(())
+    }
+
     fn error(&self, path: &Path, message: impl Into<String>) -> MeshError {
         match self {
             Values::Text { line, .. } => MeshError::line(path, *line, message),
@@ -328,6 +363,20 @@ mod tests {
     }
 
     #[test]
+    fn a_mark_before_and_blanks_after_change_nothing() {
+        let marked = [b"\xef\xbb\xbf", TEXT.as_bytes()].concat();
+        let followed = [binary(true), b"\r\n\0".to_vec()].concat();
+        for bytes in [marked, followed] {
+            let mesh = read(Path::new("m.ply"), &bytes).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(mesh.triangles.len(), 2);
+        }
+        let more = [binary(true), vec![1]].concat();
+        let error = read(Path::new("m.ply"), &more).unwrap_err().to_string();
+        let expected = format!("m.ply byte {}: 1 more bytes found", binary(true).len());
+        assert!(error.starts_with(&expected), "{error}");
+    }
+
+    #[test]
     fn errors_name_the_place() {
         for (from, to, expected) in [
             ("1 1 0 9", "1 inf 0 9", "m.ply:15: inf found; a finite"),
@@ -341,6 +390,10 @@ mod tests {
             ("vertex 4", "vertex 60000000", "m.ply:17: "),
             ("4 0 1 2 3", "4294967295 0", "m.ply:17: cut off"),
             ("4 0 1 2 3", "2 0 1", "m.ply:17: a face with 2 corners"),
+            ("2 3\n", "2 3 4\n", "m.ply:17: `4` found; the end of the line expected"),
+            ("2 3\n", "2 3\n\n5\n", "m.ply:19: `5` found; the end of the line expected"),
+            ("2 3\n", "2 3\u{0}\n", "m.ply:17: binary data (a byte 0) found; text expected"),
+            ("1 1 0 9\n0 1 0 9", "0 1 0 9\n1 1 0 9", "m.ply:17: a face that crosses itself"),
             ("property float z\n", "", "m.ply:11: an element `vertex` with x, y and z"),
             ("float y", "float128 y", "m.ply:6: `property float128 y` found"),
         ] {

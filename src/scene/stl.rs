@@ -3,6 +3,7 @@
 //! Written here for the same reason as the `.obj` reader: an error must name its line or byte.
 
 use super::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
+use crate::source::text_of;
 use std::path::Path;
 
 const HEADER_BYTES: usize = 84;
@@ -10,25 +11,46 @@ const TRIANGLE_BYTES: usize = 50;
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
     // A binary file may begin with "solid" too; its length gives it away.
-    if let Some(count) = stated_count(bytes)
-        && bytes.len() == HEADER_BYTES + count * TRIANGLE_BYTES
+    let stated = stated_count(bytes);
+    let length = |count: usize| HEADER_BYTES + count * TRIANGLE_BYTES;
+    if let Some(count) = stated
+        && bytes.len() == length(count)
     {
         return read_binary(path, bytes, count);
     }
-    if bytes.trim_ascii_start().starts_with(b"solid")
-        && let Ok(text) = std::str::from_utf8(bytes)
+    // Some programs fill up a text with zeros.
+    let zeros = bytes.iter().rev().take_while(|byte| **byte == 0).count();
+    if let Ok(text) = text_of(&bytes[..bytes.len() - zeros])
+        && zeros < bytes.len()
     {
-        return read_text(path, text);
+        if let Some(first) = text.split_whitespace().next()
+            && !first.eq_ignore_ascii_case("solid")
+        {
+            let first: String = first.chars().take(40).collect();
+            let message = format!(
+                "text that begins with `{first}` found; `solid` expected, or a binary .stl"
+            );
+            return Err(MeshError::line(path, 1, message));
+        }
+        return read_text(path, &text);
     }
-    let message = match stated_count(bytes) {
-        Some(count) => format!(
-            "cut off or no .stl: {} bytes found, {} expected for the {count} triangles it states",
-            bytes.len(),
-            HEADER_BYTES + count * TRIANGLE_BYTES
-        ),
-        None => format!("{} bytes found; at least {HEADER_BYTES} expected", bytes.len()),
+    let found = bytes.len();
+    let Some(count) = stated else {
+        let message =
+            format!("a binary file of {found} bytes found; at least {HEADER_BYTES} expected");
+        return Err(MeshError::whole(path, message));
     };
-    Err(MeshError::whole(path, message))
+    let expected = format!("{} expected for the {count} triangles that it states", length(count));
+    let Some(after) = bytes.get(length(count)..) else {
+        let message = format!("a binary .stl that is cut off: {found} bytes found, {expected}");
+        return Err(MeshError::whole(path, message));
+    };
+    // Some programs end the file in a line break or fill up a block. More than that may be triangles.
+    if after.len() >= TRIANGLE_BYTES && after.iter().any(|byte| *byte != 0) {
+        let message = format!("a binary .stl that is too long: {found} bytes found, {expected}");
+        return Err(MeshError::whole(path, message));
+    }
+    read_binary(path, &bytes[..length(count)], count)
 }
 
 fn stated_count(bytes: &[u8]) -> Option<usize> {
@@ -66,11 +88,14 @@ fn read_text(path: &Path, text: &str) -> Result<RawMesh, MeshError> {
     let mut mesh = RawMesh::default();
     let mut corners = 0;
     let mut ended = false;
-    for (index, line) in text.lines().enumerate() {
+    // Old programs end a text with the sign of its end.
+    let last = text.trim_end_matches(|c: char| c == '\u{1a}' || c.is_whitespace());
+    for (index, line) in last.lines().enumerate() {
         let fail = |message: String| Err(MeshError::line(path, index + 1, message));
         let mut words = line.split_whitespace();
-        match words.next() {
-            Some("vertex") => {
+        let word = words.next().unwrap_or_default();
+        match word.to_ascii_lowercase().as_str() {
+            "vertex" => {
                 let mut vertex = [0.0; 3];
                 for value in &mut vertex {
                     let word = words.next().unwrap_or_default();
@@ -79,10 +104,15 @@ fn read_text(path: &Path, text: &str) -> Result<RawMesh, MeshError> {
                         _ => return fail(format!("`{word}` found; a finite coordinate expected")),
                     }
                 }
+                if let Some(word) = words.next() {
+                    return fail(format!(
+                        "`{word}` found after `vertex x y z`; the end of the line expected"
+                    ));
+                }
                 mesh.vertices.push(vertex);
                 corners += 1;
             }
-            Some("endloop") => {
+            "endloop" => {
                 if corners != 3 {
                     return fail(format!("a facet with {corners} corners; 3 expected"));
                 }
@@ -90,13 +120,21 @@ fn read_text(path: &Path, text: &str) -> Result<RawMesh, MeshError> {
                 mesh.triangles.push([end - 3, end - 2, end - 1]);
                 corners = 0;
             }
-            Some("endsolid") => ended = true,
-            Some("solid" | "facet" | "outer" | "endfacet") | None => {}
-            Some(word) => return fail(format!("`{word}` found; a line of a text .stl expected")),
+            "endfacet" | "endsolid" if corners != 0 => {
+                return fail(format!("`{word}` found after {corners} corners; `endloop` expected"));
+            }
+            "endsolid" => ended = true,
+            "solid" => ended = false,
+            "facet" | "outer" | "endfacet" | "" => {}
+            _ => return fail(format!("`{word}` found; a line of a text .stl expected")),
         }
     }
     if !ended {
-        return Err(MeshError::line(path, text.lines().count(), "cut off; `endsolid` expected"));
+        return Err(MeshError::line(
+            path,
+            text.lines().count().max(1),
+            "cut off; `endsolid` expected",
+        ));
     }
     Ok(mesh)
 }
@@ -121,7 +159,19 @@ mod tests {
 
     #[test]
     fn both_kinds_hold_the_same_triangle() {
-        for bytes in [TEXT.as_bytes(), &binary()] {
+        let trailing = |bytes: &[u8]| [&binary(), bytes].concat();
+        let named = [b"\xef\xbb\xbfsolid W\xfcrfel\x1b".as_slice(), &TEXT.as_bytes()[7..]].concat();
+        for bytes in [
+            TEXT.as_bytes(),
+            TEXT.to_uppercase().as_bytes(),
+            TEXT.replace('\n', "\r").as_bytes(),
+            (TEXT.to_owned() + "\n\u{1a}\r\n").as_bytes(),
+            (TEXT.to_owned() + "\0\0").as_bytes(),
+            &named,
+            &binary(),
+            &trailing(b"\r\n"),
+            &trailing(&[0; 512]),
+        ] {
             let mesh = read(Path::new("m.stl"), bytes).unwrap_or_else(|error| panic!("{error}"));
             assert_eq!(mesh.vertices, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
             assert_eq!(mesh.triangles, [[0, 1, 2]]);
@@ -136,12 +186,42 @@ mod tests {
         for end in 0..TEXT.len() - "endsolid t\n".len() {
             assert!(read(Path::new("m.stl"), &TEXT.as_bytes()[..end]).is_err());
         }
-        let mut stated = binary();
-        stated[80..84].copy_from_slice(&1_000_000_000u32.to_le_bytes());
-        let error = read(Path::new("m.stl"), &stated).err().unwrap().to_string();
-        assert!(error.contains("134 bytes found, 50000000084 expected"), "{error}");
-        let error = read(Path::new("m.stl"), TEXT.replace("vertex 1 0 0\n", "").as_bytes());
-        assert!(error.err().unwrap().to_string().starts_with("m.stl:6: a facet with 2 corners"));
+    }
+
+    #[test]
+    fn errors_tell_text_from_binary() {
+        let with_count = |count: u32, more: usize| {
+            let mut bytes = binary();
+            bytes[80..84].copy_from_slice(&count.to_le_bytes());
+            bytes.extend(vec![1; more]);
+            bytes
+        };
+        let text = |from: &str, to: &str| TEXT.replacen(from, to, 1).into_bytes();
+        for (bytes, expected) in [
+            (
+                with_count(1_000_000_000, 0),
+                "m.stl: a binary .stl that is cut off: 134 bytes found, 50000000084",
+            ),
+            (
+                with_count(0, 0),
+                "m.stl: a binary .stl that is too long: 134 bytes found, 84 expected",
+            ),
+            (
+                with_count(1, 50),
+                "m.stl: a binary .stl that is too long: 184 bytes found, 134 expected",
+            ),
+            (vec![0; 40], "m.stl: a binary file of 40 bytes found"),
+            (text("vertex 1 0 0\n", ""), "m.stl:6: a facet with 2 corners"),
+            (text("endloop\n", ""), "m.stl:7: `endfacet` found after 3 corners"),
+            (text("solid", "solids"), "m.stl:1: text that begins with `solids` found"),
+            (text("vertex", "Vertx"), "m.stl:4: `Vertx` found"),
+            (text("0 1 0\n", "0 1 0 1\n"), "m.stl:6: `1` found after `vertex x y z`"),
+            (text("endsolid t\n", "endsolid t\nsolid u\n"), "m.stl:10: cut off"),
+            (Vec::new(), "m.stl: a binary file of 0 bytes"),
+        ] {
+            let error = read(Path::new("m.stl"), &bytes).err().unwrap().to_string();
+            assert!(error.starts_with(expected), "{error}");
+        }
     }
 
     proptest! {

@@ -2,6 +2,7 @@
 
 use super::affine::Affine;
 use super::{Dae, child, children};
+use crate::scene::polygon;
 use crate::scene::raw::{MESH_ITEMS_MAX, MeshError, RawMesh, fan};
 use roxmltree::Node;
 use std::collections::BTreeMap;
@@ -89,7 +90,12 @@ impl Geometry {
                     polygons += self.triangles.len() - before;
                 }
                 "polylist" => polygons += self.polylist(dae, group, list, &corners)?,
-                "polygons" | "trifans" => {
+                "polygons" => {
+                    polygon::cut(&corners, &self.vertices, &mut self.triangles)
+                        .map_err(|message| dae.error(list, message))?;
+                    polygons += 1;
+                }
+                "trifans" => {
                     self.triangles.extend(fan(&corners));
                     polygons += 1;
                 }
@@ -132,7 +138,8 @@ impl Geometry {
                 );
                 return Err(dae.error(counts, message));
             };
-            self.triangles.extend(fan(polygon));
+            polygon::cut(polygon, &self.vertices, &mut self.triangles)
+                .map_err(|message| dae.error(list, format!("polygon {polygons}: {message}")))?;
             at += polygon.len();
             polygons += 1;
         }

@@ -12,7 +12,8 @@ mod affine;
 mod geometry;
 mod nodes;
 
-use super::raw::{MeshError, RawMesh, UpAxis, text};
+use super::raw::{MeshError, RawMesh, UpAxis};
+use crate::source::{too_many_attributes, xml_text};
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -25,8 +26,14 @@ struct Dae<'a> {
 }
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<RawMesh, MeshError> {
-    let text = text(path, bytes, "a COLLADA .dae")?;
-    let document = Document::parse(text).map_err(|error| {
+    let text = xml_text(bytes).map_err(|error| {
+        let message = format!("{}; a COLLADA .dae expected", error.found);
+        MeshError::line(path, error.line, message)
+    })?;
+    if let Some((line, message)) = too_many_attributes(&text) {
+        return Err(MeshError::line(path, line, message));
+    }
+    let document = Document::parse(&text).map_err(|error| {
         MeshError::line(path, error.pos().row as usize, format!("not COLLADA: {error}"))
     })?;
     let mut by_id = BTreeMap::new();

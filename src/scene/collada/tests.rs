@@ -108,6 +108,60 @@ fn small_files_do_not_grow() {
 }
 
 #[test]
+fn the_same_mesh_in_every_encoding() {
+    let nodes = "<node name=\"W\u{fc}rfel\"><instance_geometry url=\"#g\"/></node>";
+    let declared =
+        |name: &str| format!("<?xml version=\"1.0\" encoding=\"{name}\"?>\n{}", file(nodes));
+    let utf16 = |mark: &str, order: fn(u16) -> [u8; 2]| {
+        (mark.to_owned() + &declared("UTF-16")).encode_utf16().flat_map(order).collect::<Vec<u8>>()
+    };
+    for bytes in [
+        declared("UTF-8").into_bytes(),
+        format!("\u{feff}{}", declared("utf-8")).into_bytes(),
+        declared("ISO-8859-1").chars().map(|c| c as u8).collect(),
+        utf16("\u{feff}", u16::to_le_bytes),
+        utf16("\u{feff}", u16::to_be_bytes),
+        utf16("", u16::to_le_bytes),
+    ] {
+        let mesh = read(Path::new("m.dae"), &bytes).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((mesh.triangles.len(), mesh.vertices.len()), (4, 12));
+    }
+    let undeclared: Vec<u8> = file(nodes).chars().map(|c| c as u8).collect();
+    let error = read(Path::new("m.dae"), &undeclared).unwrap_err().to_string();
+    assert!(
+        error.starts_with("m.dae:16: not UTF-8 text, and no other encoding declared"),
+        "{error}"
+    );
+}
+
+#[test]
+fn polygons_need_not_be_convex() {
+    // The polygon list's square becomes a dart whose second corner is the reflex one.
+    let text = file("<node><instance_geometry url=\"#g\"/></node>");
+    let dart = text.replace("0 0 0 1 0 0 1 1 0 0 1 0<", "0 0 0 1 1 0 2 0 0 1 3 0<");
+    let polygons = dart
+        .replace("<polylist", "<polygons")
+        .replace("</polylist", "</polygons")
+        .replace("<vcount>4</vcount>", "");
+    for text in [&dart, &polygons] {
+        let mesh = parse(text).unwrap();
+        let first = mesh.triangles[2][0].min(mesh.triangles[3][0]).min(mesh.triangles[2][1]);
+        let cut: Vec<[u32; 3]> = mesh.triangles[2..].iter().map(|t| t.map(|i| i - first)).collect();
+        assert_eq!(cut, [[3, 0, 1], [1, 2, 3]]);
+    }
+    let crossing = text.replace("<p>0 1 2 3</p></polylist>", "<p>0 2 1 3</p></polylist>");
+    let error = parse(&crossing).unwrap_err();
+    assert!(error.starts_with("m.dae:12: polygon 0: a face that crosses itself"), "{error}");
+}
+
+#[test]
+fn very_many_attributes_are_refused_at_once() {
+    let attributes: String = (0..200_000).map(|i| format!(" a{i}=\"\"")).collect();
+    let error = parse(&file(&format!("<node{attributes}/>"))).unwrap_err();
+    assert!(error.starts_with("m.dae:16: an element with 200000 attributes found"), "{error}");
+}
+
+#[test]
 fn cut_off_files_are_errors_at_every_byte() {
     let text = file("<node><instance_geometry url=\"#g\"/></node>");
     for end in 0..text.len() {
