@@ -111,6 +111,16 @@ fn errors_name_file_line_and_joint() {
             "arm.urdf:12: joint `shoulder`: limits -100 to 2",
         ),
         ("lower=\"-1\"", "lower=\"nan\"", "arm.urdf:14: lower = `nan` found"),
+        (
+            "<limit lower=\"-1\" upper=\"2\"/>",
+            "",
+            "arm.urdf:12: joint `shoulder`: type `revolute` without <limit> found; <limit lower=\"…\" upper=\"…\"/>, or the type continuous,",
+        ),
+        (
+            "type=\"spherical\">",
+            "type=\"prismatic\">",
+            "arm.urdf:16: joint `free`: type `prismatic` without <limit> found; <limit lower=\"…\" upper=\"…\"/> expected",
+        ),
         ("xyz=\"0 0 2\"", "xyz=\"0 0 0\"", "arm.urdf:12: joint `shoulder`: axis [0.0, 0.0, 0.0]"),
         ("xyz=\"0 0 2\"", "xyz=\"0 0 x 2\"", "arm.urdf:13: xyz = `0 0 x 2` found; three"),
         ("rpy=\"0 0 1.5707963267948966\"", "quat_xyzw=\"0 0 0 1\"", "arm.urdf:11: quat_xyzw found"),
@@ -189,6 +199,81 @@ fn errors_name_file_line_and_joint() {
     let deep = format!("<robot>{}{}</robot>", "<a>".repeat(1000), "</a>".repeat(1000));
     let error = read(folder.path(), deep.as_bytes()).unwrap_err().to_string();
     assert!(error.contains("arm.urdf:1: elements nested more than 64 deep"), "{error}");
+}
+
+#[test]
+fn what_is_not_read_may_lack_what_the_format_requires() {
+    let folder = folder();
+    let (expected, _) = read(folder.path(), ARM.as_bytes()).unwrap_or_else(|e| panic!("{e}"));
+    for (from, to) in [
+        ("</geometry></visual>", "</geometry><material name=\"\"><texture/></material></visual>"),
+        (
+            "  <link name=\"hand\">",
+            "  <material name=\"red\"><color/></material>\n  <link name=\"hand\">\n<inertial/>",
+        ),
+        ("<limit", "<dynamics/><calibration rising=\"x\"/><safety_controller/><limit"),
+        ("<?xml version=\"1.0\"?>", "\u{feff}<?xml version=\"1.0\"?>"),
+    ] {
+        let text = ARM.replacen(from, to, 1);
+        assert_ne!(text, ARM, "{from}");
+        let (links, _) =
+            read(folder.path(), text.as_bytes()).unwrap_or_else(|e| panic!("{to}: {e}"));
+        assert_eq!(links, expected, "{to}");
+    }
+    let latin = ARM.replace("version=\"1.0\"?>", "version=\"1.0\" encoding=\"ISO-8859-1\"?>");
+    let latin: Vec<u8> =
+        latin.replace("upper arm", "\u{e9}paule").chars().map(|c| c as u8).collect();
+    let (links, _) = read(folder.path(), &latin).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(links[1].name, "épaule");
+}
+
+#[test]
+fn a_limit_without_ends_locks_the_joint_and_a_note_says_so() {
+    let folder = folder();
+    let text = ARM.replace("lower=\"-1\" upper=\"2\"", "effort=\"1\" velocity=\"1\"");
+    let (links, notes) = read(folder.path(), text.as_bytes()).unwrap_or_else(|e| panic!("{e}"));
+    let limits = Some(Limits { min: 0.0, max: 0.0 });
+    let shoulder = JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits };
+    assert_eq!(links[1].joint.as_ref().unwrap().kind, shoulder);
+    assert!(notes.iter().any(|note| note.starts_with("joint `shoulder` stays at 0")), "{notes:?}");
+}
+
+/// A mesh whose corners differ by rounding, named by a URI.
+#[test]
+fn meshes_of_robots_are_closed_where_rounding_opened_them() {
+    let folder = folder();
+    let corner = "solid c\n".to_owned()
+        + &[
+            "0 0 0,0 1 0,1 0 0",
+            "1e-17 0 0,1 0 0,0 0 1",
+            "1 0 0,0 1 0,1e-17 0 1",
+            "0 0 1,0 1 0,0 1e-17 0",
+        ]
+        .map(|facet| {
+            format!(
+                "facet normal 0 0 0\nouter loop\nvertex {}\nendloop\nendfacet\n",
+                facet.replace(',', "\nvertex ")
+            )
+        })
+        .concat()
+        + "endsolid c\n";
+    fs::write(folder.path().join("meshes/a corner.stl"), corner).unwrap();
+    let text = ARM.replace("package://own/meshes/corner.obj", "file://../../meshes/a%20corner.stl");
+    let (links, notes) = read(folder.path(), text.as_bytes()).unwrap_or_else(|e| panic!("{e}"));
+    assert!(links[2].bodies[0].solid, "{notes:?}");
+    assert!(notes.iter().any(|note| note.contains("apart joined, without which")), "{notes:?}");
+}
+
+#[test]
+fn joints_of_one_name_have_values_of_their_own() {
+    let folder = folder();
+    let text =
+        ARM.replace("name=\"free\" type=\"spherical\">", "name=\"shoulder\" type=\"continuous\">");
+    let path = folder.path().join("robots/arm/arm.urdf");
+    fs::write(&path, text).unwrap();
+    let space = Problem::load(&path).unwrap_or_else(|error| panic!("{error}")).space();
+    let names: Vec<&str> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
+    assert_eq!(names, ["shoulder", "shoulder-2"]);
 }
 
 #[test]

@@ -14,6 +14,11 @@ pub(super) struct Lines {
     pub links: Vec<(usize, Vec<usize>)>,
     /// Of each joint.
     pub joints: Vec<usize>,
+    /// For each joint whether its `<limit>` names neither a least nor a largest value.
+    pub without_ends: Vec<bool>,
+    /// The text as `urdf-rs` reads it: blanks in place of elements that say nothing of shapes or joints, such as
+    /// materials, in which files leave out what that library requires.
+    pub text: String,
 }
 
 impl Lines {
@@ -36,12 +41,40 @@ impl Lines {
             let children = parent.children().filter(move |node| node.has_tag_name(name));
             children.map(line).collect::<Vec<_>>()
         };
+        let mut bytes = text.as_bytes().to_vec();
+        for node in root.descendants().filter(says_no_shape) {
+            for byte in &mut bytes[node.range()] {
+                // Line breaks stay, so that an error of the library would name the right line.
+                *byte = if *byte == b'\n' { b'\n' } else { b' ' };
+            }
+        }
+        let shapes = String::from_utf8(bytes).expect("whole elements have become blanks");
+        let joints = || root.children().filter(|node| node.has_tag_name("joint"));
+        let ends = |joint: Node| {
+            let limit = joint.children().find(|node| node.has_tag_name("limit"));
+            limit.is_some_and(|limit| {
+                ["lower", "upper"].iter().all(|end| limit.attribute(*end).is_none())
+            })
+        };
         let links = root.children().filter(|node| node.has_tag_name("link"));
         Ok(Lines {
+            text: shapes,
+            without_ends: joints().map(ends).collect(),
             links: links.map(|link| (line(link), named(link, "collision"))).collect(),
-            joints: named(root, "joint"),
+            joints: joints().map(line).collect(),
         })
     }
+}
+
+/// Whether an element is about looks, mass or wear and is not read.
+fn says_no_shape(node: &Node) -> bool {
+    let parent = node.parent_element().map_or("", |parent| parent.tag_name().name());
+    matches!(
+        (parent, node.tag_name().name()),
+        ("robot" | "visual", "material")
+            | ("link", "inertial")
+            | ("joint", "dynamics" | "calibration" | "safety_controller")
+    )
 }
 
 fn check(node: Node) -> Result<(), String> {
@@ -62,6 +95,15 @@ fn check(node: Node) -> Result<(), String> {
                 let joint = node.attribute("name").unwrap_or_default();
                 let expected = "revolute, continuous, prismatic, spherical or fixed expected";
                 return Err(format!("joint `{joint}`: type `{kind}` found; {expected}"));
+            }
+            let has_limit = node.children().any(|child| child.has_tag_name("limit"));
+            if matches!(kind, "revolute" | "prismatic") && !has_limit {
+                let joint = node.attribute("name").unwrap_or_default();
+                let other = if kind == "revolute" { ", or the type continuous," } else { "" };
+                return Err(format!(
+                    "joint `{joint}`: type `{kind}` without <limit> found; <limit lower=\"…\" \
+                     upper=\"…\"/>{other} expected"
+                ));
             }
         }
         ("joint", "mimic") => {

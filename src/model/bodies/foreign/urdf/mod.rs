@@ -2,21 +2,20 @@
 //! place in the file is checked before.
 
 mod lines;
+mod uri;
 
 use super::bodies::{Meshes, Named};
-use super::error::read_text;
+use super::error::read_xml;
 use super::frames::roll_pitch_yaw;
 use super::{ForeignError, Solidity};
 use crate::digest::SourceFile;
 use crate::model::bodies::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, TURN_MAX};
+use crate::model::bodies::shapes::{closed_by, found};
 use crate::scene::{Body, LENGTH_MAX, MeshOptions, Pose, Shape};
 use lines::Lines;
 use std::collections::BTreeMap;
 use std::path::Path;
 use urdf_rs::{Geometry, JointType};
-
-/// How many folders above the file's own are searched for a package.
-const LEVELS_MAX: usize = 32;
 
 /// A robot without a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,16 +35,16 @@ pub struct UrdfRobot {
 /// Names the file and line: no XML, a joint that is not supported, joints that make no tree, limits
 /// inside out, a shape without extent, a mesh that cannot be read.
 pub fn read_urdf(path: &Path) -> Result<UrdfRobot, ForeignError> {
-    let text = read_text(path)?;
+    let (text, source) = read_xml(path)?;
     let lines = Lines::of(path, &text)?;
     if let Some((line, _)) = lines.links.get(LINKS_MAX) {
         let message = format!("more than {LINKS_MAX} links found");
         return Err(ForeignError::line(path, *line, message));
     }
-    let robot = urdf_rs::read_from_string(&text)
+    let robot = urdf_rs::read_from_string(&lines.text)
         .map_err(|error| ForeignError::whole(path, format!("not a URDF: {error}")))?;
-    let mut reader = Reader { path, lines, meshes: Meshes::exact(), notes: Vec::new() };
-    reader.meshes.sources.push(SourceFile::named(path, text.as_bytes()));
+    let mut reader = Reader { path, lines, meshes: Meshes::as_stored(), notes: Vec::new() };
+    reader.meshes.sources.push(source);
     let mut links = Vec::new();
     for (link, joint) in reader.walk(&robot)? {
         let joint = match joint {
@@ -145,7 +144,7 @@ impl Reader<'_> {
     }
 
     fn joint(
-        &self,
+        &mut self,
         joint: &urdf_rs::Joint,
         index: usize,
         parent: usize,
@@ -182,6 +181,12 @@ impl Reader<'_> {
                 return Err(fail("its type is not supported".to_owned()));
             }
         };
+        let limited = matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic);
+        if limited && self.lines.without_ends[index] {
+            let what =
+                "stays at 0, the format's default, as its <limit> gives neither lower nor upper";
+            self.notes.push(format!("joint `{name}` {what}"));
+        }
         let before = pose(&joint.origin);
         Ok(Joint { name: name.clone(), parent: parent as u32, kind, before, after: Pose::IDENTITY })
     }
@@ -224,7 +229,8 @@ impl Reader<'_> {
         scale: [f64; 3],
         pose: Pose,
     ) -> Result<Body, ForeignError> {
-        let file = self.resolve(filename).map_err(|m| ForeignError::line(self.path, line, m))?;
+        let file = uri::resolve(self.path, filename)
+            .map_err(|m| ForeignError::line(self.path, line, m))?;
         let named = Named { scene: self.path, line, file: &file };
         if scale.contains(&0.0) {
             return Err(named.error("scale = 0 found; another factor expected"));
@@ -239,41 +245,12 @@ impl Reader<'_> {
             self.notes
                 .push(format!("{what}: lengths times {metres}, the metres of the file's unit"));
         }
-        let solid = body.body.solid;
-        let why = match read.odd_edges {
-            0 => "the mesh is closed".to_owned(),
-            odd => format!("the mesh has {odd} open edges"),
-        };
+        if let Some(joined) = closed_by(&read) {
+            self.notes.push(format!("{what} ({file}): {joined}"));
+        }
+        let (solid, why) = (body.body.solid, found(read.odd_edges, read.pairs));
         self.notes.push(format!("{what} ({file}): solid = {solid}, as {why}"));
         Ok(body.body)
-    }
-
-    /// The path of a mesh from the file's folder. Packages are searched for by going up from there.
-    fn resolve(&self, filename: &str) -> Result<String, String> {
-        let Some(path) = filename.strip_prefix("package://") else {
-            let path = filename.strip_prefix("file://").unwrap_or(filename);
-            if path.contains("://") {
-                let expected = "a path, file:// or package:// expected";
-                return Err(format!("`{filename}` found; {expected}"));
-            }
-            return Ok(path.to_owned());
-        };
-        let within = path.split_once('/').map_or("", |(_, within)| within);
-        let folder = self.path.parent().unwrap_or(Path::new(""));
-        let mut up = String::new();
-        for _ in 0..LEVELS_MAX {
-            for candidate in [within, path] {
-                let file = format!("{up}{candidate}");
-                if folder.join(&file).is_file() {
-                    return Ok(file);
-                }
-            }
-            up += "../";
-        }
-        Err(format!(
-            "`{filename}`: neither {within} nor {path} found in {} or a folder above it",
-            if folder == Path::new("") { Path::new(".") } else { folder }.display()
-        ))
     }
 }
 
