@@ -171,6 +171,56 @@ fn unit_and_upward_axis_of_a_mesh_are_taken_or_left_as_asked() {
     assert_eq!(last_corner(stored), ([0.0, 1.0, 3.0], [true, false]));
 }
 
+/// The older dialect, with the robot in the `.env`, as Vizmo wrote it.
+const VIZMO: &str = "Boundary Box [-15:15 ; -2:2 ; -3:3]\n\nMultibodies\n3\n\nActive\n1\n#VIZMO_COLOR 1 0 0\n\
+                     cube.g Volumetric Rotational\nConnections\n0\n\nPassive\ncube.g 9 0 0 0 0 0\n\nPassive\ncube.g -9 0 0 0 90 0\n";
+
+#[test]
+fn every_dialect_of_vizmo_says_the_same() {
+    let folder = folder();
+    fs_write(&folder, "room.query", "0 1 0 0 0 0 0\n0 -1 0 0 0 0 0\n");
+    let read_as = |env: &str, name: &str| {
+        fs_write(&folder, name, env);
+        let options = SceneOptions::default();
+        read_parasol(&folder.path().join(name), &options).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let mut expected = read_as(VIZMO, "room.env");
+    assert_eq!((expected.bounds.min, expected.bounds.max), ([-15.0, -2.0, -3.0], [15.0, 2.0, 3.0]));
+    assert_eq!((expected.obstacles.len(), expected.links.len()), (2, 1));
+    for (from, to) in [
+        ("[-15:15 ; -2:2 ; -3:3]", "-15:15 -2:2 -3:3"),
+        ("[-15:15 ; -2:2 ; -3:3]", "-15:15; -2 :2;\n-3: 3"),
+        ("Box [-15:15 ; -2:2 ; -3:3]", "BOX [ -15:15 ; -2:2 ; -3:3 ]"),
+        ("Passive\ncube.g -9", "Internal\ncube.g -9"),
+        ("Multibodies", "MULTIBODIES"),
+        ("Passive\ncube.g 9", "passive # a wall\ncube.g -c(1 0 0 1) Fixed 9"),
+    ] {
+        let changed = VIZMO.replacen(from, to, 1);
+        assert_ne!(changed, VIZMO, "{from}");
+        for text in [
+            changed.clone(),
+            changed.replace('\n', "\r\n"),
+            format!("\u{feff}# caf\u{e9}\n{changed}"),
+        ] {
+            let found = read_as(&text, "room.env");
+            expected.notes.clone_from(&found.notes);
+            expected.sources.clone_from(&found.sources);
+            assert_eq!(found, expected, "{text}");
+        }
+    }
+    // Two intervals are enough for a planar robot.
+    let planar = VIZMO.replace("Volumetric Rotational", "Planar Translational");
+    fs_write(&folder, "room.query", "0 1 0\n0 -1 0\n");
+    for bounds in ["Box -15:15 -2:2", "Box2D -15:15 -2:2", "Box2D [-15:15 ; -2:2]"] {
+        let scene = read_as(&planar.replace("Box [-15:15 ; -2:2 ; -3:3]", bounds), "room.env");
+        assert_eq!((scene.bounds.min, scene.bounds.max), ([-15.0, -2.0, 0.0], [15.0, 2.0, 0.0]));
+    }
+}
+
+fn fs_write(folder: &TempDir, name: &str, text: &str) {
+    std::fs::write(folder.path().join(name), text).expect("writing to a scratch folder");
+}
+
 #[test]
 fn errors_name_file_and_line() {
     for (name, from, to, expected) in [
@@ -187,9 +237,17 @@ fn errors_name_file_and_line() {
         (
             "room.env",
             "Passive\ncube.g -a",
-            "Internal\ncube.g -a",
-            "room.env:8: `Internal` not supported",
+            "Surface\ncube.g -a",
+            "room.env:8: `Surface` not supported; `Passive`, `Internal` or `Active` expected",
         ),
+        (
+            "room.env",
+            "[-9:9 ; -9:9; -9 : 9]",
+            "-9:9 9:-9 -9:9",
+            "room.env:2: `9:-9` found; an interval",
+        ),
+        ("room.env", "[-9:9 ; -9:9; -9 : 9]", "-9:9", "room.env:2: 1 intervals found; 3 expected"),
+        ("room.env", "[-9:9 ; -9:9; -9 : 9]", "", "room.env:2: a boundary without intervals"),
         ("room.env", "-a(NONE)", "-a(SURFACE)", "room.env:9: `-a(SURFACE)` not supported"),
         ("room.env", "0 0 -5 0 45", "0 0 nan 0 45", "room.env:7: `nan` found; x y z of a pose"),
         ("room.env", "cube.g -c", "lost.g -c", "lost.g: cannot read the mesh"),

@@ -5,6 +5,9 @@ use super::words::{Words, number};
 use super::{Boundary, Geometry, Reader};
 use crate::model::bodies::foreign::{ForeignBody, ForeignError};
 
+/// The most characters of a boundary.
+const TEXT_MAX: usize = 1000;
+
 pub(super) struct Env {
     pub boundary: Boundary,
     pub obstacles: Vec<ForeignBody>,
@@ -21,7 +24,8 @@ pub(super) fn read(words: &mut Words, reader: &mut Reader) -> Result<Env, Foreig
     for body in 0..count {
         let kind = words.next(&format!("body {} of {count}, `Passive` or `Active`,", body + 1))?;
         match kind.to_ascii_lowercase().as_str() {
-            "passive" => {
+            // The library tests either for collisions; internal ones are not drawn.
+            "passive" | "internal" => {
                 let geometry = Geometry::read(words)?;
                 if words.peek().is_some_and(|word| word.eq_ignore_ascii_case("fixed")) {
                     words.keyword("Fixed")?;
@@ -35,7 +39,7 @@ pub(super) fn read(words: &mut Words, reader: &mut Reader) -> Result<Env, Foreig
             }
             "active" => env.robot = Some(robot::read(words, reader)?),
             _ => {
-                let expected = "`Passive` or `Active` expected";
+                let expected = "`Passive`, `Internal` or `Active` expected";
                 return Err(words.error(format!("`{kind}` not supported; {expected}")));
             }
         }
@@ -44,7 +48,8 @@ pub(super) fn read(words: &mut Words, reader: &mut Reader) -> Result<Env, Foreig
     Ok(env)
 }
 
-/// `Box [x:x; y:y; z:z]` or `Box2D [x:x; y:y]`, with blanks wherever.
+/// `Box [x:x; y:y; z:z]` or `Box2D [x:x; y:y]`, with blanks wherever, or in the oldest files the intervals without
+/// brackets and with blanks between them, `Box x:x y:y z:z`.
 fn boundary(words: &mut Words) -> Result<Boundary, ForeignError> {
     let kind = words.next("the kind of the boundary")?;
     let line = words.line();
@@ -57,16 +62,10 @@ fn boundary(words: &mut Words) -> Result<Boundary, ForeignError> {
             );
         }
     };
-    let mut text = String::new();
-    while !text.ends_with(']') {
-        text += words.next("the `]` of the boundary")?;
-        if !text.starts_with('[') || text.len() > 1000 {
-            return Err(words.error(format!("`{text}` found; `[x:x; y:y; z:z]` expected")));
-        }
-    }
-    let inner = &text[1..text.len() - 1];
+    let bracketed = words.peek().is_some_and(|word| word.starts_with('['));
+    let text = if bracketed { in_brackets(words)? } else { bare(words)? };
     let mut intervals = Vec::new();
-    for interval in inner.split(';') {
+    for interval in text.split(';') {
         let ends = interval.split_once(':');
         let ends = ends.and_then(|(low, high)| Some([number(low)?, number(high)?]));
         match ends {
@@ -82,4 +81,36 @@ fn boundary(words: &mut Words) -> Result<Boundary, ForeignError> {
         return Err(words.error(message));
     }
     Ok(Boundary { line, intervals })
+}
+
+/// What stands between the brackets, without blanks.
+fn in_brackets(words: &mut Words) -> Result<String, ForeignError> {
+    let mut text = String::new();
+    while !text.ends_with(']') {
+        text += words.next("the `]` of the boundary")?;
+        if text.len() > TEXT_MAX {
+            return Err(words.error(format!("`{text}` found; `[x:x; y:y; z:z]` expected")));
+        }
+    }
+    Ok(text[1..text.len() - 1].to_owned())
+}
+
+/// The words up to `Multibodies` as intervals with `;` between them. Blanks may stand on either side of a colon.
+fn bare(words: &mut Words) -> Result<String, ForeignError> {
+    let mut text = String::new();
+    while let Some(word) = words.peek().filter(|word| !word.eq_ignore_ascii_case("multibodies")) {
+        let word = word.trim_end_matches(';');
+        words.next("an interval min:max")?;
+        if !(text.is_empty() || text.ends_with(':') || word.starts_with(':')) {
+            text.push(';');
+        }
+        text += word;
+        if text.len() > TEXT_MAX {
+            return Err(words.error(format!("`{text}` found; `x:x y:y z:z` expected")));
+        }
+    }
+    if text.is_empty() {
+        return Err(words.error("a boundary without intervals found; `[x:x; y:y; z:z]` expected"));
+    }
+    Ok(text)
 }
