@@ -18,6 +18,7 @@ use quaternion::Slerp;
 
 use crate::math;
 use crate::seed::Stream;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
 /// One factor of the product.
@@ -76,19 +77,41 @@ pub struct Direction {
 /// Relative margin of every pruning bound on distances; rounding errors are a thousand times smaller.
 const PRUNING_MARGIN: f64 = 1e-12;
 
+/// Gives every value a name that no other has. Names that are given only once stay.
+fn make_unique(dofs: &mut [Dof]) {
+    let mut taken: BTreeSet<String> = dofs.iter().map(|dof| dof.name.clone()).collect();
+    // For each name that is given, the next number to try.
+    let mut numbers: BTreeMap<String, usize> = BTreeMap::new();
+    for dof in dofs {
+        let given = dof.name.clone();
+        let number = numbers.entry(given.clone()).or_insert(1);
+        while *number > 1 {
+            let name = format!("{given}-{number}");
+            if taken.insert(name.clone()) {
+                dof.name = name;
+                break;
+            }
+            *number += 1;
+        }
+        *number += 1;
+    }
+}
+
 impl Space {
     /// The product of `factors`, described by `dofs`, of which the first `translations` are the position of the robot's
-    /// base.
+    /// base. Where a name is given to several values, those after the first get `NAME-2`, `NAME-3` and so on: exported
+    /// columns and attributes are told apart by these names.
     ///
     /// # Panics
     /// If the factors do not cover the degrees of freedom in order.
-    pub fn new(factors: Vec<Factor>, dofs: Vec<Dof>, translations: usize) -> Space {
+    pub fn new(factors: Vec<Factor>, mut dofs: Vec<Dof>, translations: usize) -> Space {
         let mut next = 0;
         for factor in &factors {
             assert_eq!(factor.at, next, "factors follow one another");
             next += if factor.kind == FactorKind::Rotation { 4 } else { 1 };
         }
         assert_eq!(next, dofs.len(), "every value has a name");
+        make_unique(&mut dofs);
         Space { factors, dofs, translations }
     }
 

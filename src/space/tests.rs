@@ -105,3 +105,14 @@ fn bad_configurations_are_named() {
     space.canonicalize(&mut q).unwrap();
     assert_eq!(q.map(f64::to_bits), [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0].map(f64::to_bits));
 }
+
+#[test]
+fn values_of_the_same_name_are_told_apart() {
+    let names = ["x", "y", "j", "x", "j-2", "j", "j", "y"];
+    let dofs = names.map(|name| Dof { name: name.to_owned(), unit: "length" });
+    let kind = FactorKind::Real { min: 0.0, max: 1.0 };
+    let factors = (0..names.len()).map(|at| Factor { kind, at, weight: 1.0 }).collect();
+    let space = Space::new(factors, dofs.to_vec(), 2);
+    let found: Vec<&str> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
+    assert_eq!(found, ["x", "y", "j", "x-2", "j-2", "j-3", "j-4", "y-2"]);
+}
