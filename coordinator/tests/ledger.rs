@@ -7,8 +7,7 @@ mod support;
 use by_hand::{Fields, Frame, durable, frames, hash, ledger_of};
 use proptest::prelude::*;
 use roadmill::internal::wire;
-use roadmill::model::ModelKind;
-use roadmill::model::landscape::{Energy, Landscape};
+use roadmill::numbers::RoundNumber;
 use roadmill::problem::Problem;
 use roadmill::scene::Shape;
 use roadmill_coordinator::exit::Code;
@@ -250,54 +249,42 @@ fn another_format_is_refused_by_name() {
     }
 }
 
-/// A ledger whole in itself, with hashes and a digest as they should be, of a problem that no file could give.
+/// A ledger whole in itself, with hashes as they should be, of a problem that no file could give: among its bytes are
+/// other values.
 #[test]
 fn a_problem_that_no_file_could_give_is_refused_with_the_reason() {
     let (ledger, _) = small();
-    let problem = match wire::decode(&frames(ledger)[0].payload) {
+    let wedge = match wire::decode(&frames(ledger)[0].payload) {
         Ok(Record::Chapter(chapter)) => chapter.decode().expect("it is sound"),
         other => panic!("{other:?}"),
     };
-    type Change = fn(&mut Problem);
-    let landscape = |tolerance: f64| Landscape {
-        min: [0.0; 2],
-        max: [9.0; 2],
-        energy: Energy::MullerBrown,
-        highest: None,
-        tolerance,
-    };
+    let text = "[landscape]\nmin = [-1, -1]\nmax = [1, 1]\nenergy = { muller-brown = {} }\n\
+        tolerance = 0.123\n";
+    let landscape = Problem::parse(Path::new("landscape.toml"), text).expect("it is sound");
     let folder = in_memory();
-    let refused = |problem: &Problem, expected: &str| {
-        let record = Chapter::new(0, problem).into_record();
-        fs::write(folder.path().join(LEDGER), ledger_of([wire::encode(&record)])).expect("written");
+    let refused = |problem: &Problem, value: &[u8], other: &[u8], expected: &str| {
+        let mut chapter = Chapter::new(RoundNumber(0), problem);
+        let windows = chapter.problem.windows(value.len()).enumerate();
+        let places: Vec<usize> =
+            windows.filter(|(_, window)| *window == value).map(|(at, _)| at).collect();
+        let [place] = places[..] else { panic!("{value:?} found at {places:?}") };
+        chapter.problem[place..place + other.len()].copy_from_slice(other);
+        let record = wire::encode(&chapter.into_record());
+        fs::write(folder.path().join(LEDGER), ledger_of([record])).expect("written");
         let error = Ledger::read(folder.path()).expect_err(expected);
         assert_eq!(error.code, Code::BrokenRun, "{error:?}");
         assert!(error.message.contains(expected), "{error:?}");
     };
-    for (tolerance, expected) in [(f64::NAN, "tolerance: NaN found"), (0.0, "tolerance: 0 found")] {
-        let model = ModelKind::Landscape(landscape(tolerance));
-        refused(&Problem { model, query: None, ..problem.clone() }, expected);
-    }
-    let changes: [(Change, &str); 2] = [
-        (
-            |problem| problem.model.bodies_mut().unwrap().resolution = f64::NAN,
-            "resolution: NaN found",
-        ),
-        (
-            |problem| {
-                let bodies = problem.model.bodies_mut().unwrap();
-                if let Shape::Mesh(mesh) = &mut bodies.obstacles[0].shape {
-                    mesh.triangles[0][0] = 1_000_000;
-                }
-            },
-            "a triangle of [1000000,",
-        ),
-    ];
-    for (change, expected) in changes {
-        let mut problem = problem.clone();
-        change(&mut problem);
-        refused(&problem, expected);
-    }
+    let tolerance = 0.123f64.to_le_bytes();
+    refused(&landscape, &tolerance, &f64::NAN.to_le_bytes(), "tolerance: NaN found");
+    refused(&landscape, &tolerance, &0f64.to_le_bytes(), "tolerance: 0 found");
+    let bodies = wedge.model().bodies().expect("it has bodies");
+    let resolution = bodies.resolution().to_le_bytes();
+    refused(&wedge, &resolution, &f64::NAN.to_le_bytes(), "resolution: NaN found");
+    let Shape::Mesh(mesh) = &bodies.obstacles()[0].shape else { panic!("the wedge is a mesh") };
+    let triangles = mesh.triangles.as_flattened().iter();
+    let triangles: Vec<u8> = triangles.flat_map(|corner| corner.to_le_bytes()).collect();
+    refused(&wedge, &triangles, &1_000_000u32.to_le_bytes(), "a triangle of [1000000,");
 }
 
 /// A build killed while it wrote, or a machine that failed: whatever of the bytes beyond the mark is
