@@ -11,7 +11,7 @@
 //! one less after a round than the roadmap's and the increments' were before. One local planner, so a
 //! motion is an edge tried.
 
-use roadmill::connect::{AmongKind, ComponentPairs, NearestNodes, UntilJoined};
+use roadmill::connect::{AmongKind, ComponentPairs, NearestNodes, NodesAndComponents, UntilJoined};
 use roadmill::evaluate::{EvaluatorKind, Not, Query};
 use roadmill::img::{Core, Judgement, Observer, Round, Serial, Setup, drive};
 use roadmill::local::Planner;
@@ -35,6 +35,7 @@ fn main() {
     let planners = vec![Planner::StraightLine];
     let ways = [
         ("component-pairs", AmongKind::ComponentPairs(ComponentPairs::default())),
+        ("nodes-and-components", AmongKind::NodesAndComponents(NodesAndComponents::default())),
         ("nearest-nodes 1", nearest(1, &planners)),
         ("nearest-nodes 3", nearest(3, &planners)),
         ("nearest-nodes 10", nearest(10, &planners)),

@@ -9,14 +9,14 @@
 //! PEER is `bench/peers/race.cpp`, built as `bench/race.rs` says. Builds every scene at default settings
 //! with seeds 1 to N (default 20), each for at most S CPU seconds (default 60), ours and OMPL's in turn.
 //! `--among nearest-nodes,until-joined,…` builds it as often again with other connections among sets
-//! (`docs/problems.md`; `component-pairs` is the default). Prints the medians, those of the times over
+//! (`docs/problems.md`; `nodes-and-components` is the default). Prints the medians, those of the times over
 //! all builds: one that is not solved counts with the seconds that it took. The CSV file gets a line for each
 //! build: scene, program, seed, solved or not, nodes, CPU seconds; the SVG file a dot, or a ring where it was
 //! not solved. `--from` draws what stands in a CSV file.
 
 mod support;
 
-use roadmill::connect::{AmongKind, ComponentPairs, NearestNodes, UntilJoined};
+use roadmill::connect::{AmongKind, ComponentPairs, NearestNodes, NodesAndComponents, UntilJoined};
 use roadmill::img::Setup;
 use roadmill::local::Planner;
 use std::fmt::Write;
@@ -80,7 +80,7 @@ fn main() {
         println!("solve: skipped, ROADMILL_PEER does not name the built bench/peers/race.cpp");
         return;
     };
-    let ways = words[0].as_deref().unwrap_or("component-pairs");
+    let ways = words[0].as_deref().unwrap_or("nodes-and-components");
     let ways: Vec<_> = ways.split(',').map(|name| (name, among(name))).collect();
     println!("| scene | program | solved | nodes | CPU s | OMPL's median : this |");
     println!("|{}", " --- |".repeat(6));
@@ -156,6 +156,7 @@ fn among(name: &str) -> AmongKind {
     let (neighbors, planners) = (10, vec![Planner::StraightLine]);
     match name {
         "component-pairs" => AmongKind::ComponentPairs(ComponentPairs::default()),
+        "nodes-and-components" => AmongKind::NodesAndComponents(NodesAndComponents::default()),
         "nearest-nodes" => AmongKind::NearestNodes(NearestNodes { neighbors, planners }),
         "until-joined" => AmongKind::UntilJoined(UntilJoined { neighbors, planners }),
         _ => panic!("--among: `{name}` found; a connection among sets expected"),

@@ -70,7 +70,7 @@ pub use digest::SourceFile;
 pub use strategy::Strategy;
 
 /// Version of the bits: raised whenever the same problem and seed come to give another roadmap.
-pub const BITS_VERSION: u32 = 2;
+pub const BITS_VERSION: u32 = 3;
 
 /// The README's example is a test.
 #[cfg(doctest)]
