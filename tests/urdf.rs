@@ -74,7 +74,7 @@ fn links_stand_where_their_joints_put_them() {
     let quarter = std::f64::consts::FRAC_PI_2;
     let half = 0.5f64.sqrt();
     let mut poses = Vec::new();
-    robot.place(&[quarter, half, half, 0.0, 0.0], &mut poses);
+    robot.link_poses(&[quarter, half, half, 0.0, 0.0], &mut poses);
     // The shoulder turns x to y, the grip once more.
     assert!(close(poses[2].apply([0.0; 3]), [0.0, 1.0, 1.0]));
     assert!(close(poses[2].apply([1.0, 0.0, 0.0]), [-1.0, 1.0, 1.0]));

@@ -56,7 +56,7 @@ impl Brute {
 
     fn placed(&self, q: &[f64]) -> Vec<Convex> {
         let mut poses = Vec::new();
-        self.robot.place(q, &mut poses);
+        self.robot.link_poses(q, &mut poses);
         let links = self.links.iter().zip(&poses).map(|(link, pose)| {
             let pose = pose_of(pose);
             link.iter().map(|(shape, local)| (shape.clone(), pose * *local)).collect()

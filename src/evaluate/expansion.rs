@@ -82,13 +82,14 @@ impl Evaluator for Expansion {
         _scratch: &mut Scratch,
     ) -> Verdict {
         let space = &cx.space;
-        let now = self.layout(space, roadmap, roadmap.components(), None);
+        let now = self.distributions(space, roadmap, roadmap.components(), None);
         let (mut moved, diameter) = ([0.0f64; 2], space.diameter());
         let mut later = None;
         let before = roadmap.rounds().iter().rev().skip(1).take(self.rounds as usize);
         for extent in before.clone() {
             let components = roadmap.components_at(space, *extent);
-            let then = self.layout(space, roadmap, &components, later.as_ref().or(Some(&now)));
+            let then =
+                self.distributions(space, roadmap, &components, later.as_ref().or(Some(&now)));
             moved[0] = moved[0].max(earth_movers(&now.width, &then.width));
             moved[1] = moved[1].max(earth_movers(&now.separation, &then.separation));
             later = Some(then);
@@ -118,7 +119,7 @@ impl Evaluator for Expansion {
 type Distances = Vec<(f64, u128)>;
 
 /// The two distributions of a round.
-struct Layout {
+struct Distributions {
     /// The farthest nodes of each component.
     widths: Vec<FarPair>,
     width: Distances,
@@ -128,13 +129,13 @@ struct Layout {
 impl Expansion {
     /// The distributions for the roadmap whose connected components are `components`; `later`, those of a later round,
     /// spares searches for farthest pairs that have not changed.
-    fn layout(
+    fn distributions(
         &self,
         space: &Space,
         roadmap: &Roadmap,
         components: &Components,
-        later: Option<&Layout>,
-    ) -> Layout {
+        later: Option<&Distributions>,
+    ) -> Distributions {
         let mut largest: Vec<&Component> = components.iter().collect();
         largest.sort_by_key(|component| (Reverse(component.members.len()), component.name));
         largest.truncate(self.components as usize);
@@ -153,7 +154,7 @@ impl Expansion {
         }
         width.sort_by(|a, b| a.0.total_cmp(&b.0));
         separation.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Layout { widths, width, separation }
+        Distributions { widths, width, separation }
     }
 }
 
@@ -164,7 +165,7 @@ fn ends(
     configs: &Configs,
     components: &Components,
     component: &Component,
-    later: Option<&Layout>,
+    later: Option<&Distributions>,
 ) -> FarPair {
     let known = later.and_then(|later| {
         later.widths.iter().find(|pair| {
@@ -262,12 +263,12 @@ mod tests {
 
     impl Expansion {
         /// The layouts of the round before, if there is one, and of the present round.
-        fn layouts(&self, space: &Space, roadmap: &Roadmap) -> (Layout, Layout) {
-            let now = self.layout(space, roadmap, roadmap.components(), None);
+        fn layouts(&self, space: &Space, roadmap: &Roadmap) -> (Distributions, Distributions) {
+            let now = self.distributions(space, roadmap, roadmap.components(), None);
             let before = roadmap.rounds().iter().rev().nth(1).copied().unwrap_or_default();
             let components = roadmap.components_at(space, before);
-            let then = self.layout(space, roadmap, &components, Some(&now));
-            let anew = self.layout(space, roadmap, &components, None);
+            let then = self.distributions(space, roadmap, &components, Some(&now));
+            let anew = self.distributions(space, roadmap, &components, None);
             assert_eq!(then.widths, anew.widths, "what is known of later rounds changes nothing");
             (then, now)
         }

@@ -31,7 +31,7 @@ pub fn animation(problem: &Problem, path: &Path) -> Option<String> {
     let links = figure.links().into_iter().map(|bodies| surfaces(bodies, dot));
     let frames: Vec<String> = (sampled.iter())
         .map(|q| {
-            let placed = figure.place(q).poses;
+            let placed = figure.placement(q).poses;
             let values =
                 placed.iter().flat_map(|pose| pose.translation.into_iter().chain(pose.rotation));
             numbers(values)

@@ -227,7 +227,7 @@ impl Drawing<'_> {
             let [x, y] = self.view.px(self.figure.marker(q));
             // Of a linkage with a fixed base the last link is marked, so that the word stands above that link rather
             // than above the highest one.
-            let bodies = match self.figure.place(q).marked {
+            let bodies = match self.figure.placement(q).marked {
                 Some(link) => self.figure.bodies_of_link(link, q),
                 None => self.figure.bodies_at(q),
             };

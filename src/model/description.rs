@@ -70,7 +70,7 @@ pub struct Documents {
 
 /// A problem that another program's file describes, as far as that file goes.
 #[derive(Debug)]
-pub struct Imported {
+pub struct ForeignProblem {
     /// Its name there.
     pub name: String,
     /// What is planned for.
@@ -111,6 +111,6 @@ pub(crate) trait Resolve: Sized {
 pub(crate) fn import(
     path: &Path,
     options: &SceneOptions,
-) -> Option<Result<Imported, ProblemError>> {
+) -> Option<Result<ForeignProblem, ProblemError>> {
     super::bodies::import(path, options)
 }

@@ -26,7 +26,7 @@ pub trait Figure {
     }
 
     /// Where these links stand at a configuration.
-    fn place(&self, _q: &[f64]) -> Placement {
+    fn placement(&self, _q: &[f64]) -> Placement {
         Placement::default()
     }
 
@@ -52,13 +52,13 @@ fn placed(bodies: &[Body], pose: &Pose) -> impl Iterator<Item = Body> {
 impl dyn Figure + '_ {
     /// All bodies that move, where they stand at `q`.
     pub fn bodies_at(&self, q: &[f64]) -> Vec<Body> {
-        let placement = self.place(q);
+        let placement = self.placement(q);
         let links = self.links().into_iter().zip(&placement.poses);
         links.flat_map(|(bodies, pose)| placed(bodies, pose)).collect()
     }
 
     /// The bodies of one link where they stand at `q`.
     pub fn bodies_of_link(&self, link: usize, q: &[f64]) -> Vec<Body> {
-        placed(self.links()[link], &self.place(q).poses[link]).collect()
+        placed(self.links()[link], &self.placement(q).poses[link]).collect()
     }
 }

@@ -33,7 +33,7 @@ pub mod landscape;
 pub use bodies::foreign::SceneOptions;
 pub use clearance::{Clearance, Clearances};
 pub use cost::{Cost, Directed};
-pub use description::{Description, Documents, Imported};
+pub use description::{Description, Documents, ForeignProblem};
 pub use figure::{Figure, Placement};
 pub use scratch::{Asked, ModelScratch, Scratch};
 

@@ -1,7 +1,7 @@
 //! Building the tree of a segment of the index, in the segment's block of bytes.
 
 use super::embedding::{Embedding, FAN, length};
-use super::layout::{Head, Layout, NONE};
+use super::layout::{Head, NONE, SegmentLayout};
 use bytemuck::{cast_slice, cast_slice_mut};
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ pub(super) struct Source<'a, 'q> {
 }
 
 /// Fills a block of zeros with the tree over the configurations of these ids.
-pub(super) fn fill(source: &Source, layout: &Layout, ids: Range<u32>, block: &mut [u8]) {
+pub(super) fn fill(source: &Source, layout: &SegmentLayout, ids: Range<u32>, block: &mut [u8]) {
     let (first, len) = (ids.start, ids.end - ids.start);
     let axes = source.embedding.axes();
     let mut rows = Vec::with_capacity(len as usize * axes);
@@ -58,7 +58,7 @@ fn side(axes: usize, index: usize, axis: usize) -> usize {
 }
 
 /// Fills the boxes of a level, each around [`FAN`] boxes of the level below.
-fn enclose(source: &Source, layout: &Layout, level: usize, block: &mut [u8]) {
+fn enclose(source: &Source, layout: &SegmentLayout, level: usize, block: &mut [u8]) {
     let (below, own) = (&layout.levels[level - 1], &layout.levels[level]);
     let axes = source.embedding.axes();
     let parts = [&below.sides, &own.sides, &layout.ids, &below.uniform, &own.uniform];
@@ -145,7 +145,7 @@ impl Build {
     fn leaf(
         &self,
         source: &Source,
-        layout: &Layout,
+        layout: &SegmentLayout,
         first: u32,
         leaf: usize,
         rows: &[u32],

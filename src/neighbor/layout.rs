@@ -10,7 +10,7 @@ pub(super) const NONE: u32 = u32::MAX;
 /// Where the parts of a segment lie in its block, in bytes from its begin. The head comes first, then everything
 /// made of numbers of four bytes, then what has one byte per box.
 #[derive(Debug)]
-pub(super) struct Layout {
+pub(super) struct SegmentLayout {
     /// Per leaf and axis the coordinates of its [`FAN`] points, an `f32` each.
     pub points: Range<usize>,
     /// Per leaf the ids of its points in ascending order, a `u32` each.
@@ -34,9 +34,9 @@ pub(super) struct Level {
     pub uniform: Range<usize>,
 }
 
-impl Layout {
+impl SegmentLayout {
     /// The layout of a segment of `len` points with `axes` coordinates.
-    pub(super) fn new(axes: usize, len: usize) -> Layout {
+    pub(super) fn new(axes: usize, len: usize) -> SegmentLayout {
         let leaves = len.div_ceil(FAN);
         let mut counts = vec![leaves];
         while counts[counts.len() - 1] > FAN {
@@ -53,7 +53,7 @@ impl Layout {
         let ids = next(4 * leaves * FAN);
         let level = |(count, sides)| Level { count, sides, uniform: next(count) };
         let levels = counts.into_iter().zip(sides).map(level).collect();
-        Layout { points, ids, levels, bytes: end }
+        SegmentLayout { points, ids, levels, bytes: end }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::build::{self, Source};
 use super::embedding::{Embedding, FAN};
-use super::layout::{Head, Layout, Level};
+use super::layout::{Head, Level, SegmentLayout};
 use crate::shelf::Block;
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ use std::ops::Range;
 #[derive(Debug)]
 pub(super) struct Tree {
     head: Head,
-    layout: Layout,
+    layout: SegmentLayout,
     block: Block,
 }
 
@@ -25,7 +25,7 @@ impl Tree {
         ids: Range<u32>,
         keep: impl FnOnce(usize, &mut dyn FnMut(&mut [u8])) -> Block,
     ) -> Tree {
-        let layout = Layout::new(source.embedding.axes(), ids.len());
+        let layout = SegmentLayout::new(source.embedding.axes(), ids.len());
         let mut fill = |block: &mut [u8]| build::fill(source, &layout, ids.clone(), block);
         let block = keep(layout.bytes, &mut fill);
         Tree { head: Head::read(&block), layout, block }
@@ -39,7 +39,7 @@ impl Tree {
         find: impl FnOnce(usize) -> Option<Block>,
     ) -> Option<Tree> {
         let axes = embedding.axes();
-        let layout = Layout::new(axes, ids.len());
+        let layout = SegmentLayout::new(axes, ids.len());
         let block = find(layout.bytes)?;
         let head = Head::read(&block);
         let as_expected =

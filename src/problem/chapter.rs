@@ -8,7 +8,7 @@ use bincode::{Decode, Encode};
 
 /// How the sets of some rounds were scheduled, before another schedule took over.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
-pub struct Earlier {
+pub struct EarlierSchedule {
     /// How many rounds.
     pub rounds: u64,
     /// As [`Problem::schedule`].
@@ -55,7 +55,7 @@ impl Problem {
         if (&schedule, changed.adaptive, changed.sets_per_round) != present {
             let before: u64 = earlier.iter().map(|earlier| earlier.rounds).sum();
             if rounds > before {
-                earlier.push(Earlier {
+                earlier.push(EarlierSchedule {
                     rounds: rounds - before,
                     schedule: self.schedule.clone(),
                     adaptive: self.adaptive,

@@ -4,13 +4,13 @@ use super::building::{self, Sets};
 use super::{DEFAULT_SEED, Limits, Problem};
 use crate::context::Ends;
 use crate::evaluate::{EvaluatorKind, Query};
-use crate::model::Imported;
+use crate::model::ForeignProblem;
 use crate::source::{ProblemError, plain};
 use std::path::Path;
 
 /// The problem of what was read from the file `path`.
-pub(super) fn problem_of(path: &Path, imported: Imported) -> Result<Problem, ProblemError> {
-    let Imported { name, model, query, notes, sources } = imported;
+pub(super) fn problem_of(path: &Path, imported: ForeignProblem) -> Result<Problem, ProblemError> {
+    let ForeignProblem { name, model, query, notes, sources } = imported;
     let notes = notes.iter().map(|note| plain(note).into_owned()).collect();
     let Sets { strategies, schedule, sets_per_round } = building::default_sets();
     let limits = Limits::left_open(&model.description().space());

@@ -5,7 +5,7 @@
 //! problem has the second. New models, generators and other methods come as new variants at the end of their enums,
 //! which changes the bytes of no problem without them; what even the second layout cannot say will be a third.
 
-use super::{Earlier, Limits, Problem};
+use super::{EarlierSchedule, Limits, Problem};
 use crate::BITS_VERSION;
 use crate::connect::{AmongKind, WithinKind};
 use crate::context::Ends;
@@ -82,7 +82,7 @@ struct Rest<S> {
     limits: Limits,
     notes: Vec<String>,
     sources: Vec<SourceFile>,
-    earlier: Vec<Earlier>,
+    earlier: Vec<EarlierSchedule>,
 }
 
 impl From<FirstStrategy> for Strategy {

@@ -19,7 +19,7 @@ mod write;
 pub use crate::source::ProblemError;
 use crate::source::read_file;
 pub use builder::ProblemBuilder;
-pub use chapter::Earlier;
+pub use chapter::EarlierSchedule;
 pub use configuration::configuration;
 pub use layout::Layout;
 pub use limits::{Limits, NODES_MAX};
@@ -72,7 +72,7 @@ pub struct Problem {
     /// The files that were read, first its own, if it came from one.
     pub(crate) sources: Vec<SourceFile>,
     /// Of a build that was continued with another schedule: what came before, in order.
-    pub(crate) earlier: Vec<Earlier>,
+    pub(crate) earlier: Vec<EarlierSchedule>,
 }
 
 impl Problem {
@@ -193,7 +193,7 @@ impl Problem {
     }
 
     /// Of a build that was continued with another schedule: what came before, in order.
-    pub fn earlier(&self) -> &[Earlier] {
+    pub fn earlier(&self) -> &[EarlierSchedule] {
         &self.earlier
     }
 

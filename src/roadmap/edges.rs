@@ -15,13 +15,13 @@ pub struct Edges {
     /// The first ones, as far as they are on a shelf, [`BLOCK`] in each: all weights, of directed edges then all
     /// weights back and all peaks, then all lower ids, all higher ids, all planners.
     blocks: Vec<Block>,
-    /// The others.
-    rest: Rest,
+    /// Those after them, which fill no block yet.
+    open: OpenBlock,
 }
 
 /// Edges that fill no block yet.
 #[derive(Clone, Debug, Default)]
-struct Rest {
+struct OpenBlock {
     weights: Vec<f64>,
     /// Of directed edges.
     back: Vec<f64>,
@@ -34,7 +34,7 @@ struct Rest {
 impl Edges {
     /// Number of edges.
     pub fn len(&self) -> usize {
-        self.blocks.len() * BLOCK + self.rest.weights.len()
+        self.blocks.len() * BLOCK + self.open.weights.len()
     }
 
     /// Whether there are none.
@@ -50,7 +50,7 @@ impl Edges {
     /// Edge `index`.
     pub fn get(&self, index: usize) -> Edge {
         match self.blocks.get(index / BLOCK) {
-            None => self.rest.columns().edge(index - self.blocks.len() * BLOCK),
+            None => self.open.columns().edge(index - self.blocks.len() * BLOCK),
             Some(block) => Columns::of(block, self.is_directed).edge(index % BLOCK),
         }
     }
@@ -61,8 +61,8 @@ impl Edges {
             let columns = Columns::of(block, self.is_directed);
             (0..BLOCK).map(move |index| columns.edge(index))
         });
-        let columns = self.rest.columns();
-        shared.chain((0..self.rest.weights.len()).map(move |index| columns.edge(index)))
+        let columns = self.open.columns();
+        shared.chain((0..self.open.weights.len()).map(move |index| columns.edge(index)))
     }
 
     pub(super) fn extend(&mut self, edges: impl IntoIterator<Item = Edge>) {
@@ -70,7 +70,7 @@ impl Edges {
             if self.is_empty() {
                 self.is_directed = edge.cost.directed().is_some();
             }
-            let Rest { weights, back, peaks, low, high, planners } = &mut self.rest;
+            let OpenBlock { weights, back, peaks, low, high, planners } = &mut self.open;
             low.push(edge.low.0);
             high.push(edge.high.0);
             planners.push(edge.planner);
@@ -85,15 +85,15 @@ impl Edges {
 
     /// Moves what fills whole blocks to the shelf, which replicas of the roadmap share.
     pub(super) fn share_full_blocks(&mut self, shelf: &dyn Shelf) {
-        let blocks = self.rest.weights.len() / BLOCK;
-        let columns = self.rest.columns();
+        let blocks = self.open.weights.len() / BLOCK;
+        let columns = self.open.columns();
         let bytes = BLOCK * bytes_of(self.is_directed);
         for index in 0..blocks {
             let name = BlockName::Edges(self.blocks.len() as u32);
             let mut fill = |block: &mut [u8]| columns.write(index * BLOCK, block);
             self.blocks.push(shelf::kept(shelf, name, bytes, &mut fill));
         }
-        self.rest.drop_first(blocks * BLOCK);
+        self.open.drop_first(blocks * BLOCK);
     }
 }
 
@@ -103,15 +103,15 @@ fn bytes_of(is_directed: bool) -> usize {
     numbers * size_of::<f64>() + 2 * size_of::<u32>() + 1
 }
 
-impl Rest {
+impl OpenBlock {
     fn columns(&self) -> Columns<'_> {
-        let Rest { weights, back, peaks, low, high, planners } = self;
+        let OpenBlock { weights, back, peaks, low, high, planners } = self;
         let directed = (!back.is_empty()).then_some([&back[..], peaks]);
         Columns { weights, directed, ids: [low, high], planners }
     }
 
     fn drop_first(&mut self, count: usize) {
-        let Rest { weights, back, peaks, low, high, planners } = self;
+        let OpenBlock { weights, back, peaks, low, high, planners } = self;
         for numbers in [weights, back, peaks] {
             numbers.drain(..count.min(numbers.len()));
         }
@@ -138,13 +138,13 @@ impl Columns<'_> {
         let (weights, mut rest) = block.split_at(BLOCK * size_of::<f64>());
         let mut directed = None;
         if is_directed {
-            let (back, after) = rest.split_at(BLOCK * size_of::<f64>());
+            let (back, after) = open.split_at(BLOCK * size_of::<f64>());
             let (peaks, after) = after.split_at(BLOCK * size_of::<f64>());
             directed = Some([back, peaks].map(cast_slice));
             rest = after;
         }
-        let (low, rest) = rest.split_at(BLOCK * size_of::<u32>());
-        let (high, planners) = rest.split_at(BLOCK * size_of::<u32>());
+        let (low, rest) = open.split_at(BLOCK * size_of::<u32>());
+        let (high, planners) = open.split_at(BLOCK * size_of::<u32>());
         let ids = [low, high].map(cast_slice);
         Columns { weights: cast_slice(weights), directed, ids, planners }
     }
@@ -178,6 +178,6 @@ impl Columns<'_> {
             cast_slice_mut::<u8, u32>(column).copy_from_slice(&ids[range.clone()]);
             rest = after;
         }
-        rest.copy_from_slice(&self.planners[range]);
+        open.copy_from_slice(&self.planners[range]);
     }
 }

@@ -6,12 +6,12 @@ mod components;
 mod digest;
 mod edges;
 mod encoding;
-mod finder;
 mod forest;
 mod increment;
 mod indices;
 mod round;
 mod search;
+mod searches;
 mod tally;
 
 pub use crate::digest::Digest;

@@ -17,7 +17,7 @@ pub(super) struct Asker<'a> {
 }
 
 /// The answer to a query, and the wall-clock seconds that it took, shortening included.
-pub(super) struct Asked {
+pub(super) struct TimedAnswer {
     pub answer: Answer,
     pub seconds: f64,
 }
@@ -38,14 +38,14 @@ impl<'a> Asker<'a> {
     }
 
     /// Searches the roadmap for a path between two configurations.
-    pub fn ask(&self, start: &[f64], goal: &[f64]) -> Asked {
+    pub fn ask(&self, start: &[f64], goal: &[f64]) -> TimedAnswer {
         let begun = Instant::now();
         let mut scratch = Scratch::new();
         let mut answer = self.run.solve((start, goal), &mut scratch);
         if let (Some(path), Some(tries)) = (&mut answer.path, self.shorten_tries) {
             *path = shorten(self.cx(), path, tries, &mut scratch);
         }
-        Asked { answer, seconds: begun.elapsed().as_secs_f64() }
+        TimedAnswer { answer, seconds: begun.elapsed().as_secs_f64() }
     }
 
     /// A path in the format that was asked for.

@@ -1,6 +1,6 @@
 //! Many queries from a file.
 
-use super::asker::{Asked, Asker};
+use super::asker::{Asker, TimedAnswer};
 use crate::exit::{Code, Failure};
 use crate::files::{cannot_write, write_whole};
 use crate::output::note;
@@ -20,7 +20,7 @@ pub(super) fn batch(asker: &Asker, file: &Path, folder: &Path) -> Result<Code, F
         format!("index,solved,length [{unit}],configurations,dropped_edges,seconds\n");
     let (mut unsolved, mut whole) = (0, 0.0);
     for (index, [start, goal]) in queries.iter().enumerate() {
-        let Asked { answer, seconds } = asker.ask(start, goal);
+        let TimedAnswer { answer, seconds } = asker.ask(start, goal);
         whole += seconds;
         let (solved, length, configs) = match &answer.path {
             Some(path) => {

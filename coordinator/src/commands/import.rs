@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 /// there again, so that what comes to stand there is whole and the same problem.
 pub fn import(arguments: &ImportArguments) -> Result<Code, Failure> {
     let problem = load(&arguments.problem)?;
-    let place = Place::of(&arguments.out)?;
+    let place = Destination::of(&arguments.out)?;
     place.tidy();
     place.check(arguments.force)?;
     // Listened to, so that a signal leaves no half of anything.
@@ -51,15 +51,15 @@ pub fn import(arguments: &ImportArguments) -> Result<Code, Failure> {
 }
 
 /// Where the files go.
-struct Place {
+struct Destination {
     folder: PathBuf,
     file_name: String,
     meshes_name: String,
     staged: PathBuf,
 }
 
-impl Place {
-    fn of(out: &Path) -> Result<Place, Failure> {
+impl Destination {
+    fn of(out: &Path) -> Result<Destination, Failure> {
         let name = out.file_name().and_then(|name| name.to_str());
         let stem = name.and_then(|name| name.strip_suffix(".toml")).filter(|stem| !stem.is_empty());
         let (Some(name), Some(stem)) = (name, stem) else {
@@ -69,7 +69,7 @@ impl Place {
         let folder = out.parent().unwrap_or(Path::new("")).to_owned();
         let staged = folder.join(format!(".{name}.import-{}", std::process::id()));
         let meshes_name = format!("{stem}-meshes");
-        Ok(Place { folder, file_name: name.to_owned(), meshes_name, staged })
+        Ok(Destination { folder, file_name: name.to_owned(), meshes_name, staged })
     }
 
     fn file(&self) -> PathBuf {

@@ -12,7 +12,7 @@ use std::fmt;
 
 /// A set in the list.
 #[derive(Serialize)]
-struct Line<'a> {
+struct SetLine<'a> {
     number: SetNumber,
     round: RoundNumber,
     label: &'a str,
@@ -48,7 +48,7 @@ pub fn log(arguments: &LogArguments) -> Result<Code, Failure> {
         for set in &round.sets {
             let (increment, joined) = (&set.increment, &set.joined);
             let label = problem.strategies()[set.strategy.index()].label();
-            let line = Line {
+            let line = SetLine {
                 number: set.number,
                 round: round.number,
                 label,
@@ -73,7 +73,7 @@ pub fn log(arguments: &LogArguments) -> Result<Code, Failure> {
     Ok(Code::Done)
 }
 
-impl fmt::Display for Line<'_> {
+impl fmt::Display for SetLine<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,

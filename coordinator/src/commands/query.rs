@@ -1,4 +1,4 @@
-use super::asker::{Asked, Asker};
+use super::asker::{Asker, TimedAnswer};
 use super::batch;
 use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
@@ -32,7 +32,7 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let start = end("start", &arguments.start, given.map(|query| &query.start))?;
     let goal = end("goal", &arguments.goal, given.map(|query| &query.goal))?;
 
-    let Asked { answer, seconds } = asker.ask(&start, &goal);
+    let TimedAnswer { answer, seconds } = asker.ask(&start, &goal);
     let dropped = answer.dropped_edges;
     if dropped > 0 {
         note(format_args!(

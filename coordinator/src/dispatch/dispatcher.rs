@@ -1,4 +1,4 @@
-use super::log::{Log, bytes_of};
+use super::log::{EntryLog, bytes_of};
 use super::roster::Roster;
 use crate::cpu::Meter;
 use crate::crew::{Crew, CrewError, News};
@@ -48,7 +48,7 @@ pub struct Dispatcher<C> {
     /// Of the roadmap only what this process needs: the workers have it.
     outline: Outline,
     front: Front,
-    log: Log,
+    log: EntryLog,
     crew: C,
     workers: BTreeMap<WorkerId, Worker>,
     /// The digest of every worker's canary increment.
@@ -85,7 +85,7 @@ impl<C: Crew> Dispatcher<C> {
         let mut dispatcher = Dispatcher {
             outline: Outline::new(setup.context().space()),
             front: Front::default(),
-            log: Log::default(),
+            log: EntryLog::default(),
             canary: canary(&setup),
             problem: Arc::new(wire::encode(&problem)),
             setup,

@@ -14,7 +14,7 @@ const PART_BYTES_MAX: usize = 32 << 20;
 /// to a place of its own; a new worker begins at the beginning. Where the crew can store bytes for all its
 /// members they stand there once, as they came from the worker that made them.
 #[derive(Debug, Default)]
-pub struct Log {
+pub struct EntryLog {
     entries: Vec<Entry>,
     /// By set, the outcomes that are increments to be published.
     increments: BTreeMap<SetNumber, Bytes>,
@@ -22,7 +22,7 @@ pub struct Log {
     joins: BTreeMap<SetNumber, Bytes>,
 }
 
-impl Log {
+impl EntryLog {
     /// Keeps the outcome of a job until it is published or folded.
     pub fn keep(&mut self, job: Job, outcome: Bytes) {
         match job {
@@ -102,7 +102,7 @@ mod tests {
     fn parts_are_whole_entries_and_together_the_log() {
         let sizes = [1, PART_BYTES_MAX - 1, 1, PART_BYTES_MAX + 5, 7, 9];
         let entry = |size: &usize| Entry::Fold(vec![Bytes::Here(Arc::new(vec![0; *size]))]);
-        let log = Log { entries: sizes.iter().map(entry).collect(), ..Log::default() };
+        let log = EntryLog { entries: sizes.iter().map(entry).collect(), ..EntryLog::default() };
         let (mut place, mut parts) = (0, Vec::new());
         while place < log.end() {
             let (part, next) = log.part(place);

@@ -1,9 +1,9 @@
 //! The dispatcher: which worker gets which jobs, whatever the crew.
 
 mod dispatcher;
-mod imported;
 mod log;
 mod roster;
+mod sets_from_files;
 
 pub use dispatcher::Dispatcher;
-pub use imported::Imported;
+pub use sets_from_files::SetsFromFiles;

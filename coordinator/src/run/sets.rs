@@ -164,7 +164,7 @@ fn exists(path: &Path) -> Failure {
 
 /// Where a set is.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct SetLocation {
     file: usize,
     /// Of the payload.
     offset: u64,
@@ -177,7 +177,7 @@ struct Place {
 #[derive(Debug, Default)]
 pub struct SetFiles {
     paths: Vec<PathBuf>,
-    places: BTreeMap<SetName, Place>,
+    locations: BTreeMap<SetName, SetLocation>,
 }
 
 impl SetFiles {
@@ -199,12 +199,12 @@ impl SetFiles {
 
     /// Sets in the files.
     pub fn count(&self) -> usize {
-        self.places.len()
+        self.locations.len()
     }
 
     /// Whether a set is in the files.
     pub fn has(&self, set: SetName) -> bool {
-        self.places.contains_key(&set)
+        self.locations.contains_key(&set)
     }
 
     /// What generating the set came to, if it is in the files.
@@ -213,7 +213,7 @@ impl SetFiles {
     /// Exit code 1: the file can no longer be read; 4: it is no longer what it was.
     pub fn read(&self, set: SetName) -> Result<Option<Outcome>, Failure> {
         let SetName { ordinal, .. } = set;
-        let Some(place) = self.places.get(&set) else { return Ok(None) };
+        let Some(place) = self.locations.get(&set) else { return Ok(None) };
         let path = &self.paths[place.file];
         let read = || -> io::Result<Vec<u8>> {
             let file = open_regular(path, OFlags::RDONLY)?;
@@ -307,8 +307,9 @@ impl SetFiles {
             let payload = frames.payload();
             let length = payload.len() as u64;
             let (offset, hash) = (frames.at().offset - length, Digest::of(payload));
-            let place = Place { file, offset, length, hash };
-            let known = self.places.entry(SetName { strategy, ordinal: expected }).or_insert(place);
+            let place = SetLocation { file, offset, length, hash };
+            let known =
+                self.locations.entry(SetName { strategy, ordinal: expected }).or_insert(place);
             if known.hash != hash {
                 let other = self.paths[known.file].display();
                 return refuse(&format!("set {label}:{expected} is another one than in {other}"));
@@ -420,7 +421,7 @@ sets = 4
         assert_eq!(files.read(name(8)).expect("not there"), None);
 
         let file = File::options().write(true).open(&path).expect("it is there");
-        let place = files.places[&name(7)];
+        let place = files.locations[&name(7)];
         file.write_all_at(&[0xff], place.offset + place.length - 1).expect("it can be written");
         assert_eq!(files.read(name(7)).map_err(|failure| failure.code), Err(Code::BrokenRun));
         file.set_len(place.offset).expect("it can be cut");

@@ -4,7 +4,7 @@ use super::watch::{Begun, Keeper, Status, Torn, Watch, Weighed, path_in};
 use super::workers::{Kind, start};
 use super::{Ended, Run, Workers};
 use crate::cpu::CpuClock;
-use crate::dispatch::Imported;
+use crate::dispatch::SetsFromFiles;
 use crate::exit::Failure;
 use crate::output::{Plain, note};
 use crate::run::ledger::LEDGER;
@@ -268,7 +268,7 @@ impl<'a> Growth<'a> {
                         return Err(Failure::system(format!("cannot start the threads: {error}")));
                     }
                 };
-                let mut threads = Imported::new(threads, imports);
+                let mut threads = SetsFromFiles::new(threads, imports);
                 folder.begun()?;
                 let stop = keeper.drive(past.as_ref(), &mut threads)?;
                 (stop, threads.tally().clone(), None)
@@ -288,7 +288,7 @@ impl<'a> Growth<'a> {
                 }
                 folder.begun()?;
                 keeper.stored = dispatcher.stored_bytes();
-                let mut dispatcher = Imported::new(dispatcher, imports);
+                let mut dispatcher = SetsFromFiles::new(dispatcher, imports);
                 let stop = keeper.drive(past.as_ref(), &mut dispatcher);
                 // Closed before a failure is returned, too: the workers have to end before their channel does.
                 let (tally, dispatcher) = (dispatcher.tally().clone(), dispatcher.into_inner());

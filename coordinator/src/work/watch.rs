@@ -1,7 +1,7 @@
 use super::interrupt::Interrupt;
 use super::{Ended, Run};
 use crate::cpu::CpuClock;
-use crate::dispatch::Imported;
+use crate::dispatch::SetsFromFiles;
 use crate::exit::Failure;
 use crate::files::write_whole;
 use crate::memory::resident_bytes;
@@ -137,7 +137,7 @@ impl Keeper<'_> {
     pub fn drive(
         &mut self,
         past: Option<&Scan>,
-        executor: &mut Imported<impl Executor>,
+        executor: &mut SetsFromFiles<impl Executor>,
     ) -> Result<Stop, Failure> {
         let past = match past {
             Some(scan) => self.restore(scan, executor)?,

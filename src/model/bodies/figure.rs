@@ -33,9 +33,9 @@ impl Figure for Bodies {
         self.robot.links.iter().map(|link| &link.bodies[..]).collect()
     }
 
-    fn place(&self, q: &[f64]) -> Placement {
+    fn placement(&self, q: &[f64]) -> Placement {
         let mut poses = Vec::new();
-        self.robot.place(q, &mut poses);
+        self.robot.link_poses(q, &mut poses);
         // Of a linkage that stands, the last link is what the marker shows.
         let stands = self.robot.motion == BaseJoint::Fixed;
         Placement { poses, marked: stands.then(|| self.robot.links.len() - 1) }

@@ -10,7 +10,7 @@ use super::resolve::{default_resolution, default_rotation_length, diagonal_of, t
 use super::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, Robot};
 use super::validity::{Bounds, BoundsMeaning, MotionChecking};
 use crate::digest::SourceFile;
-use crate::model::{Imported, ModelKind};
+use crate::model::{ForeignProblem, ModelKind};
 use crate::scene::{Body, LENGTH_MAX, Pose};
 use crate::source::{ProblemError, fitting_name};
 use crate::space::BaseJoint;
@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// Reads a scene of OMPL.app or Parasol, or a robot in URDF, told apart by the extension; `None` for any
 /// other file.
-pub fn import(path: &Path, options: &SceneOptions) -> Option<Result<Imported, ProblemError>> {
+pub fn import(path: &Path, options: &SceneOptions) -> Option<Result<ForeignProblem, ProblemError>> {
     let extension = path.extension().and_then(|extension| extension.to_str());
     let (kind, what) = match extension.map(str::to_ascii_lowercase).as_deref() {
         Some("cfg") => (SceneKind::Ompl, "an OMPL.app scene"),
@@ -41,7 +41,7 @@ pub fn import(path: &Path, options: &SceneOptions) -> Option<Result<Imported, Pr
 }
 
 /// A robot alone, in a box as large as it can reach.
-fn from_urdf(path: &Path) -> Result<Imported, ProblemError> {
+fn from_urdf(path: &Path) -> Result<ForeignProblem, ProblemError> {
     let UrdfRobot { links, mut notes, sources } =
         read_urdf(path).map_err(|error| ProblemError::pathless(error.to_string()))?;
     let links = fitting_names(links);
@@ -78,14 +78,14 @@ struct Parts {
     sources: Vec<SourceFile>,
 }
 
-fn from_scene(path: &Path, scene: ForeignScene) -> Result<Imported, ProblemError> {
+fn from_scene(path: &Path, scene: ForeignScene) -> Result<ForeignProblem, ProblemError> {
     let robot = robot_of(&scene);
     let obstacles = scene.obstacles.into_iter().map(|obstacle| obstacle.body).collect();
     let ForeignScene { name, bounds, query, notes, sources, .. } = scene;
     finished(path, Parts { name, bounds, robot, obstacles, query, notes, sources })
 }
 
-fn finished(path: &Path, parts: Parts) -> Result<Imported, ProblemError> {
+fn finished(path: &Path, parts: Parts) -> Result<ForeignProblem, ProblemError> {
     let Parts { name: given, bounds, robot, obstacles, query, mut notes, sources } = parts;
     if robot.bodies().next().is_none() {
         return Err(ProblemError::file(path, "the robot has no bodies; at least one expected"));
@@ -108,7 +108,7 @@ fn finished(path: &Path, parts: Parts) -> Result<Imported, ProblemError> {
     let edges = MotionChecking::default();
     let bodies = Bodies { bounds, resolution, edges, rotation_length, robot, obstacles };
     let query = query.map(|(start, goal)| [start, goal]);
-    Ok(Imported { name, model: ModelKind::Bodies(bodies), query, notes, sources })
+    Ok(ForeignProblem { name, model: ModelKind::Bodies(bodies), query, notes, sources })
 }
 
 fn robot_of(scene: &ForeignScene) -> Robot {

@@ -36,7 +36,7 @@ impl Geometry {
     }
 
     /// Adds the geometry to the mesh as it stands at `frame`.
-    pub(super) fn place(&self, frame: &Affine, mesh: &mut RawMesh) -> Result<(), String> {
+    pub(super) fn append_to(&self, frame: &Affine, mesh: &mut RawMesh) -> Result<(), String> {
         let first = mesh.vertices.len();
         let vertices = first + self.vertices.len();
         let triangles = mesh.triangles.len() + self.triangles.len();

@@ -124,7 +124,7 @@ impl<'a> Walk<'_, 'a> {
             self.geometries.insert(key, Geometry::read(self.dae, described, &mut self.sources)?);
         }
         let geometry = &self.geometries[&key];
-        geometry.place(frame, mesh).map_err(|message| self.dae.error(instance, message))
+        geometry.append_to(frame, mesh).map_err(|message| self.dae.error(instance, message))
     }
 
     fn numbers<const N: usize>(&self, node: Node) -> Result<[f64; N], MeshError> {

@@ -129,7 +129,7 @@ impl Hub {
         })
     }
 
-    /// The run's folder, which each worker needs for [`Link::open`](super::Link::open).
+    /// The run's folder, which each worker needs for [`WorkerEnd::open`](super::WorkerEnd::open).
     pub fn directory(&self) -> &Path {
         self.folder.path()
     }

@@ -1,5 +1,5 @@
 //! Byte messages between one coordinator process (the [`Hub`]) and many worker processes (the
-//! [`Link`]s), through shared memory of iceoryx2.
+//! [`WorkerEnd`]s), through shared memory of iceoryx2.
 //!
 //! A worker sends a message and gets exactly one reply to it, possibly much later; meanwhile it may work.
 //! That is request-response reversed: the hub is the one server, the workers are its clients, and the
@@ -40,7 +40,6 @@ mod header;
 #[cfg(test)]
 mod hostile;
 mod hub;
-mod link;
 mod peer;
 mod private_memory;
 mod run_folder;
@@ -49,6 +48,7 @@ mod service;
 mod shared_files;
 mod shelf;
 mod store;
+mod worker_end;
 
 use rustix::fs::Mode;
 
@@ -57,10 +57,10 @@ pub use crate::message::MESSAGE_BYTES_MAX;
 pub use error::ChannelError;
 pub use header::Fault;
 pub use hub::{Delivery, Hub, Received};
-pub use link::Link;
 pub use run_folder::remove_leftovers;
 pub use shelf::SharedShelf;
 pub use store::{Store, StoreReader};
+pub use worker_end::WorkerEnd;
 
 /// Bytes of a message that travel at once. Throughput hardly changes from 128 KiB on, and with this
 /// the channel of 64 workers still fits into 64 MB, the `/dev/shm` that containers often get.

@@ -79,7 +79,7 @@ impl Robot {
     /// All bodies where they stand in the world's frame at the configuration `q`.
     pub fn bodies_at(&self, q: &[f64]) -> Vec<Body> {
         let mut poses = Vec::new();
-        self.place(q, &mut poses);
+        self.link_poses(q, &mut poses);
         let placed = self.links.iter().zip(&poses).flat_map(|(link, pose)| {
             link.bodies.iter().map(|body| Body { pose: pose.then(&body.pose), ..body.clone() })
         });
@@ -90,14 +90,14 @@ impl Robot {
     /// or, where the base stands still, the origin of the last link.
     pub fn marker(&self, q: &[f64]) -> [f64; 3] {
         let mut poses = Vec::new();
-        self.place(q, &mut poses);
+        self.link_poses(q, &mut poses);
         let moving = if self.motion == BaseJoint::Fixed { poses.last() } else { poses.first() };
         moving.map_or([0.0; 3], |pose| pose.translation)
     }
 
     /// Places the links: `poses` becomes, for every link, its frame in the world's at the
     /// configuration `q`.
-    pub fn place(&self, q: &[f64], poses: &mut Vec<Pose>) {
+    pub fn link_poses(&self, q: &[f64], poses: &mut Vec<Pose>) {
         poses.clear();
         let mut at = self.motion.values();
         for link in &self.links {

@@ -59,7 +59,7 @@ fn seen(
     let mut q = ends[0].to_vec();
     space.interpolate(ends[0], ends[1], t, &mut q);
     let mut poses = Vec::new();
-    robot.place(&q, &mut poses);
+    robot.link_poses(&q, &mut poses);
     let to = poses[pair.1].to_parry();
     pair.0.map_or(to, |from| poses[from].to_parry().inv_mul(&to))
 }

@@ -44,7 +44,7 @@ fn links_stand_where_their_joints_put_them() {
     let mut poses = Vec::new();
     let quarter = std::f64::consts::FRAC_PI_2;
     // The base at (10, 20), turned by 90°: its x is the world's y.
-    robot.place(&[10.0, 20.0, quarter, quarter, 1.5, quarter], &mut poses);
+    robot.link_poses(&[10.0, 20.0, quarter, quarter, 1.5, quarter], &mut poses);
     let origins: Vec<_> = poses.iter().map(|pose| pose.translation).collect();
     assert!(close(origins[0], [10.0, 20.0, 0.0]));
     assert!(close(origins[1], [10.0, 21.0, 0.0]));

@@ -216,7 +216,7 @@ impl BodyValidity {
         if bounded && self.keeps_away(q, q, 0.0) {
             return Validity::Valid;
         }
-        self.robot.place(q, &mut scratch.stance.poses);
+        self.robot.link_poses(q, &mut scratch.stance.poses);
         scratch.stance.update_frames();
         let held = bounded
             || self.links.iter().all(|Moving { link, group, .. }| {
@@ -306,7 +306,7 @@ impl Model for BodyValidity {
 impl Clearances for BodyValidity {
     fn clearance(&self, q: &[f64], scratch: &mut Scratch) -> Option<Clearance> {
         let scratch: &mut BodyScratch = scratch.of_model();
-        self.robot.place(q, &mut scratch.stance.poses);
+        self.robot.link_poses(q, &mut scratch.stance.poses);
         scratch.stance.update_frames();
         let BodyScratch { stance, stacks, .. } = scratch;
         let among = self.meetings().take_while(|meeting| meeting.still_link.is_none());

@@ -124,8 +124,8 @@ impl Meeting<'_> {
         let other_at = stance.pose(self.still_link);
         match (one.is_point(), other.is_point()) {
             (true, true) => false,
-            (true, false) => other.holds(&other_at, one.place(&at).translation),
-            (false, true) => one.holds(&at, other.place(&other_at).translation),
+            (true, false) => other.holds(&other_at, one.pose_at(&at).translation),
+            (false, true) => one.holds(&at, other.pose_at(&other_at).translation),
             (false, false) => {
                 let (one, at) = part(one, first, &at);
                 let (other, other_at) = part(other, second, &other_at);
@@ -189,7 +189,7 @@ impl Group {
         let piece = self.piece(element);
         match piece.primitive() {
             Some(shape) if element.flat => {
-                Support { shape: *shape, at: piece.place(at), thick: 0.0 }
+                Support { shape: *shape, at: piece.pose_at(at), thick: 0.0 }
             }
             _ => {
                 let (shape, at) = Convex::triangle(element.corners, at);
@@ -203,7 +203,7 @@ impl Group {
 /// in the world.
 fn part(piece: &Piece, element: &Element, at: &Pose) -> (Convex, Pose) {
     match piece.primitive() {
-        Some(shape) => (*shape, piece.place(at)),
+        Some(shape) => (*shape, piece.pose_at(at)),
         None => Convex::triangle(element.corners, at),
     }
 }

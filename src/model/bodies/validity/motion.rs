@@ -47,7 +47,7 @@ impl BodyValidity {
             // enclosed at a step, which is excluded if the surfaces meet at no time at all; where that cannot be
             // proved, the steps are checked one by one.
             MotionChecking::Sampled => {
-                let asks = if self.solid { Asks::AllTimes } else { Asks::Samples };
+                let asks = if self.solid { Asks::AllTimes } else { Asks::SampleRange };
                 let exact = within && steps <= SAMPLES_MAX;
                 match exact.then(|| self.sweep((a, b), steps, bounded, asks, scratch)).flatten() {
                     Some(Finds::Free) => true,

@@ -61,14 +61,14 @@ impl Piece {
     }
 
     /// The pose of [`Piece::primitive`] in the world, the link being at the pose `link`.
-    pub fn place(&self, link: &Pose) -> Pose {
+    pub fn pose_at(&self, link: &Pose) -> Pose {
         *link * self.pose
     }
 
     /// Whether a primitive holds a point of the world's frame; a mesh never does, but see
     /// [`Piece::encloses`].
     pub fn holds(&self, link: &Pose, point: Vector) -> bool {
-        self.primitive.as_ref().is_some_and(|shape| shape.holds(&self.place(link), point))
+        self.primitive.as_ref().is_some_and(|shape| shape.holds(&self.pose_at(link), point))
     }
 
     /// Whether the body is a solid mesh: its inside is material, but only its surface is in the tree.

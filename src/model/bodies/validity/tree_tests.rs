@@ -124,7 +124,7 @@ proptest! {
         for _ in 0..5 {
             space.sample_uniform(&mut stream, &mut q);
             let mut stance = Stance::default();
-            robot.place(&q, &mut stance.poses);
+            robot.link_poses(&q, &mut stance.poses);
             stance.update_frames();
             let frame: Frame = stance.frames[0];
             let mut least = (f64::INFINITY, 0);

@@ -16,7 +16,7 @@ pub struct Work {
     pub looks: u64,
     /// Pairs of elements tested by conservative advancement.
     pub pairs: u64,
-    /// Samples at which the distances of these pairs were computed.
+    /// SampleRange at which the distances of these pairs were computed.
     pub advances: u64,
 }
 

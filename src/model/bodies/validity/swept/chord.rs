@@ -1,7 +1,7 @@
 //! Moving boxes over a chord of the motion, up to four at once.
 
 use super::clip::{Clip, Met, Turned, apart, least, turned};
-use super::span::{Samples, Span};
+use super::span::{SampleRange, Span};
 use crate::model::bodies::robot::Rates;
 use crate::model::bodies::validity::frame::Frame;
 use crate::model::bodies::validity::light::{Four, Frames, Stands, Three, above, dot, grain};
@@ -63,7 +63,7 @@ impl Course {
 
 /// The motion between two samples, every point being thought to go straight.
 pub(super) struct Chord<S: Simd> {
-    pub samples: Samples,
+    pub samples: SampleRange,
     /// The same stretch in time, from 0 at the beginning of the motion to 1 at its end.
     pub span: Span,
     frames: Frames<f32x8<S>>,
@@ -82,7 +82,7 @@ impl<S: Simd> Chord<S> {
     pub fn new(
         simd: S,
         course: &Course,
-        samples: Samples,
+        samples: SampleRange,
         step: f64,
         frames: [&Frame; 2],
         grain: f32,
@@ -248,7 +248,7 @@ mod tests {
             let met = |rates: Rates, frame: &Frame, lanes: Lanes| {
                 let course = Course::of(rates, 1e-7, 1e-12 * size, (Vector::ZERO, reach));
                 with_lanes!(lanes, simd => {
-                    let samples = Samples { from: 0, to: 1 << 20 };
+                    let samples = SampleRange { from: 0, to: 1 << 20 };
                     let step = 1.0 / f64::from(1 << 20);
                     let chord = Chord::new(simd, &course, samples, step, [frame, frame], grain);
                     let swept = SweptBoxes::new(simd, &course, &chord, &Four::same(simd, &mover));

@@ -7,7 +7,7 @@ use crate::space::{Space, Way};
 /// The memory of that cache, used for one motion after the other.
 #[derive(Clone, Debug, Default)]
 pub(in crate::model::bodies::validity) struct Timeline {
-    /// Samples and the poses there.
+    /// SampleRange and the poses there.
     slots: Vec<(u64, Stance)>,
     /// A configuration, while its poses are computed.
     q: Vec<f64>,
@@ -69,7 +69,7 @@ impl<'a> Clock<'a> {
                 way.at(sample as f64 / self.samples as f64, q);
                 q
             };
-            self.robot.place(q, &mut stance.poses);
+            self.robot.link_poses(q, &mut stance.poses);
             stance.update_frames();
         }
         stance

@@ -2,7 +2,7 @@
 
 use super::Asks;
 use super::search::Sweep;
-use super::span::{Samples, Span};
+use super::span::{SampleRange, Span};
 use crate::model::bodies::validity::directions::separating_axis;
 use crate::model::bodies::validity::element::Element;
 use fearless_simd::Simd;
@@ -18,7 +18,7 @@ enum Apart {
 
 impl<S: Simd> Sweep<'_, '_, S> {
     /// Whether the elements of two leaves come nearer to each other, at a sample within the span, than half a step
-    /// moves the points of the moving one; with [`Asks::Samples`], whether they meet at one of the samples.
+    /// moves the points of the moving one; with [`Asks::SampleRange`], whether they meet at one of the samples.
     ///
     /// The gap between the elements is computed at the middle sample. Since the velocity of their points is bounded, it
     /// proves that they stay apart for some time before and after; the samples that are left on either side are
@@ -36,13 +36,13 @@ impl<S: Simd> Sweep<'_, '_, S> {
         // Slightly fewer samples to a unit of time, so that rounding never makes a proved stretch too long.
         let samples = self.clock.samples as f64 * (1.0 - 1e-9);
         self.stacks.work.count(|work| work.pairs += 1);
-        let Samples { from, to } = Samples::around(span, self.clock.samples);
+        let SampleRange { from, to } = SampleRange::around(span, self.clock.samples);
         let (from, to) = (from.max(self.asked.from), to.min(self.asked.to));
-        let mut open = [Samples { from, to }; 64];
+        let mut open = [SampleRange { from, to }; 64];
         let mut count = usize::from(from <= to);
         while count > 0 {
             count -= 1;
-            let Samples { from, to } = open[count];
+            let SampleRange { from, to } = open[count];
             let middle = from + (to - from) / 2;
             self.stacks.work.count(|work| work.advances += 1);
             let frame = self.frame(middle);
@@ -83,13 +83,13 @@ impl<S: Simd> Sweep<'_, '_, S> {
                 let held = first as i64 as u64;
                 let held = if (held as f64) < first { held + 1 } else { held };
                 if held.min(middle) > from {
-                    open[count] = Samples { from, to: held.min(middle) - 1 };
+                    open[count] = SampleRange { from, to: held.min(middle) - 1 };
                     count += 1;
                 }
             }
             let last = middle as f64 + after * samples;
             if last < to as f64 {
-                open[count] = Samples { from: (last as i64 as u64).max(middle) + 1, to };
+                open[count] = SampleRange { from: (last as i64 as u64).max(middle) + 1, to };
                 count += 1;
             }
         }

@@ -25,7 +25,7 @@ use super::work::Work;
 use crate::lanes::with_lanes;
 use crate::model::bodies::robot::Rates;
 use search::Sweep;
-use span::{Samples, Span};
+use span::{SampleRange, Span};
 
 /// A chord is halved while its points may leave their straight lines by more than this share of the radius of the
 /// larger of the two boxes.
@@ -65,7 +65,7 @@ pub(super) struct Stacks {
     /// Of the bounds on the motion of a link: the links on the way down to it.
     pub descent: Vec<usize>,
     /// For the test of the bounds: nodes of the moving tree, and the samples between which they are to be tested.
-    inside: Vec<(u32, Samples)>,
+    inside: Vec<(u32, SampleRange)>,
     /// A bit for each of the last 32 searches, set where the motion was blocked.
     blocked: u32,
     pub work: Work,
@@ -83,7 +83,7 @@ impl Stacks {
         self.found = vec![NearChild { child: 7, still: u32::MAX, span }; rubbish as usize % 4];
         self.pairs = vec![(u32::MAX, 7); rubbish as usize % 3];
         self.descent = vec![usize::MAX; rubbish as usize % 4];
-        self.inside = vec![(u32::MAX, Samples { from: 7, to: rubbish }); rubbish as usize % 6];
+        self.inside = vec![(u32::MAX, SampleRange { from: 7, to: rubbish }); rubbish as usize % 6];
         self.blocked = rubbish as u32;
     }
 }
@@ -95,7 +95,7 @@ pub(super) enum Asks {
     /// can move a point of the moving one. They are then apart at all times.
     AllTimes,
     /// That no surfaces meet at the samples between the ends.
-    Samples,
+    SampleRange,
 }
 
 impl Asks {

@@ -1,7 +1,7 @@
 //! Whether bodies stand inside the bounds, and whether they stay there during a motion.
 
 use super::clock::Clock;
-use super::span::Samples;
+use super::span::SampleRange;
 use super::{BEND, Stacks};
 use crate::model::bodies::robot::Rates;
 use crate::model::bodies::validity::frame::Frame;
@@ -66,7 +66,7 @@ pub(in crate::model::bodies::validity) fn stays_inside(
     let time = 1.0 / clock.samples as f64;
     let least = bend_of(&tree.nodes[0], rates) * time * time / 8.0;
     open.clear();
-    open.push((0, Samples { from: 0, to: clock.samples }));
+    open.push((0, SampleRange { from: 0, to: clock.samples }));
     while let Some((at, span)) = open.pop() {
         let node = &tree.nodes[at as usize];
         let mut room = |sample: u64| walls.room(tree, node, &clock.at(sample).frames[link]);
@@ -81,8 +81,8 @@ pub(in crate::model::bodies::validity) fn stays_inside(
         }
         if span.length() > 1 && (node.is_leaf() || bend > BEND * node.space.radius) {
             let middle = span.from + span.length() / 2;
-            open.push((at, Samples { from: middle, ..span }));
-            open.push((at, Samples { to: middle, ..span }));
+            open.push((at, SampleRange { from: middle, ..span }));
+            open.push((at, SampleRange { to: middle, ..span }));
         } else if !node.is_leaf() {
             open.push((node.left + 1, span));
             open.push((node.left, span));

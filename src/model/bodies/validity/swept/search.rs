@@ -4,7 +4,7 @@
 use super::chord::{Chord, Course, SweptBoxes};
 use super::clip::MOMENT;
 use super::clock::Clock;
-use super::span::{Samples, Span};
+use super::span::{SampleRange, Span};
 use super::{Asks, BEND, Finds, NearChild, Stacks};
 use crate::model::bodies::robot::Rates;
 use crate::model::bodies::validity::frame::Frame;
@@ -35,7 +35,7 @@ pub(super) struct Sweep<'a, 'c, S: Simd> {
     pub(super) meeting: Meeting<'a>,
     pub(super) course: Course,
     pub(super) asks: Asks,
-    pub(super) asked: Samples,
+    pub(super) asked: SampleRange,
     pub(super) clock: &'c mut Clock<'a>,
     pub(super) stacks: &'c mut Stacks,
     /// Whether surfaces were found to meet at a sample strictly between the ends of the motion.
@@ -58,14 +58,14 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         stacks: &'c mut Stacks,
     ) -> Sweep<'a, 'c, S> {
         let half_step = 0.5 / clock.samples as f64;
-        let spare = if asks == Asks::Samples { 0.0 } else { half_step };
+        let spare = if asks == Asks::SampleRange { 0.0 } else { half_step };
         let whole = stacks.blocked.count_ones() >= OFTEN.0;
         let patience = if whole { OFTEN.1 } else { PATIENCE };
         let course = Course::new(rates, spare, &meeting);
         let samples = clock.samples;
         let asked = match asks {
-            Asks::AllTimes => Samples { from: 0, to: samples },
-            Asks::Samples => Samples { from: 1, to: samples - 1 },
+            Asks::AllTimes => SampleRange { from: 0, to: samples },
+            Asks::SampleRange => SampleRange { from: 1, to: samples - 1 },
         };
         let (meets, rest) = (false, PATIENCE);
         Sweep { simd, meeting, course, asks, asked, clock, stacks, meets, whole, patience, rest }
@@ -82,9 +82,9 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         self.stacks.children.clear();
         self.stacks.found.clear();
         let Some(span) = self.near_the_ball() else { return Finds::Free };
-        let part = Samples::around(span, last);
+        let part = SampleRange::around(span, last);
         let all = 2 * part.length() > last;
-        let samples = if all { Samples { from: 0, to: last } } else { part };
+        let samples = if all { SampleRange { from: 0, to: last } } else { part };
         let blocked = self.blocked(0, samples);
         self.stacks.blocked = self.stacks.blocked << 1 | u32::from(blocked);
         match (blocked, self.meets) {
@@ -111,7 +111,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
 
     /// Whether anything in the box of the moving `node` comes near anything below the open nodes of the other
     /// tree, at a sample within the chord and within the time span of that open node.
-    fn blocked(&mut self, node: u32, samples: Samples) -> bool {
+    fn blocked(&mut self, node: u32, samples: SampleRange) -> bool {
         let simd = self.simd;
         let frames = [self.between_origins(samples.from), self.between_origins(samples.to)];
         let grain = self.meeting.grain(frames.map(|frame| frame.shift));
@@ -214,10 +214,10 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let spans = self.stacks.halves[list..].iter().map(|(_, span)| *span);
         let whole = spans.reduce(Span::with).unwrap_or(chord.span);
         let last = self.clock.samples;
-        let Samples { from, to } = chord.samples;
+        let SampleRange { from, to } = chord.samples;
         let middle = from + (to - from) / 2;
-        let part = Samples::around(whole, last);
-        let part = Samples { from: part.from.max(from), to: part.to.min(to) };
+        let part = SampleRange::around(whole, last);
+        let part = SampleRange { from: part.from.max(from), to: part.to.min(to) };
         // One chord over the time that is left, where that is less than half; else one half after the other.
         let (parts, count) = if 2 * part.length() <= to - from {
             ([(part, whole); 2], 1)
@@ -225,8 +225,10 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             let half = (middle as f64 / last as f64) as f32;
             let first = Span { to: half + MOMENT, ..chord.span };
             let second = Span { from: half - MOMENT, ..chord.span };
-            let (first, second) =
-                ((Samples { from, to: middle }, first), (Samples { from: middle, to }, second));
+            let (first, second) = (
+                (SampleRange { from, to: middle }, first),
+                (SampleRange { from: middle, to }, second),
+            );
             ([first, second], 2)
         };
         for (chord, asked) in &parts[..count] {
@@ -321,7 +323,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let (pair, sample) = if std::mem::take(&mut self.whole) {
             ((0, 0), last / 2)
         } else {
-            let Samples { from, to } = Samples::around(span, last);
+            let SampleRange { from, to } = SampleRange::around(span, last);
             ((node, still), (from + (to - from) / 2).clamp(1, last - 1))
         };
         self.patience = self.rest;

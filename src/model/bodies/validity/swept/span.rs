@@ -33,21 +33,21 @@ impl Span {
 
 /// A stretch of samples, both ends included.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Samples {
+pub(super) struct SampleRange {
     pub from: u64,
     pub to: u64,
 }
 
-impl Samples {
+impl SampleRange {
     /// Number of steps in it.
     pub fn length(self) -> u64 {
         self.to - self.from
     }
 
     /// The least stretch of the samples 0 to `last` that holds a span of time.
-    pub fn around(span: Span, last: u64) -> Samples {
+    pub fn around(span: Span, last: u64) -> SampleRange {
         let [from, to] = span.within(last);
         // By way of signed integers, which the samples fit: that conversion is a single instruction.
-        Samples { from: from.max(0.0) as i64 as u64, to: (to as i64 as u64 + 1).min(last) }
+        SampleRange { from: from.max(0.0) as i64 as u64, to: (to as i64 as u64 + 1).min(last) }
     }
 }

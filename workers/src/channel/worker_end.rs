@@ -23,7 +23,7 @@ const NAP: Duration = Duration::from_secs(1);
 const SHORT_NAP: Duration = Duration::from_millis(2);
 
 /// A worker's end of the channel. It belongs to one thread.
-pub struct Link {
+pub struct WorkerEnd {
     // dropped in this order: what was sent, the port, its node, the right to be there last
     /// the message whose reply is awaited
     sent: Option<Sent>,
@@ -50,7 +50,7 @@ struct Sent {
 /// A chunk of the hub, copied out of shared memory only once it is put into its place.
 type Answer = Response<PrivateMemory, [u8], Words>;
 
-impl Link {
+impl WorkerEnd {
     /// How many workers the hub was made for.
     pub fn workers_max(&self) -> usize {
         service::workers_max(&self.service)
@@ -62,13 +62,13 @@ impl Link {
     ///
     /// [`ChannelError::HubGone`] if the run has ended, and whatever files and shared memory may
     /// refuse, for example because more workers are there than the hub was made for.
-    pub fn open(directory: &Path, worker: WorkerId) -> Result<Link, ChannelError> {
+    pub fn open(directory: &Path, worker: WorkerId) -> Result<WorkerEnd, ChannelError> {
         let membership = join(directory)?;
         let bell = Bell::bind(&worker_socket(directory, worker))?;
         let node = service::open_node(directory, 0)?;
         let (service, port) = service::open_service(&node, worker)?;
         service::reserve_port_memory(directory, &port)?;
-        Ok(Link {
+        Ok(WorkerEnd {
             sent: None,
             port,
             service,
@@ -86,7 +86,7 @@ impl Link {
     ///
     /// # Errors
     ///
-    /// Those of [`send`](Link::send) and [`receive`](Link::receive).
+    /// Those of [`send`](WorkerEnd::send) and [`receive`](WorkerEnd::receive).
     pub fn call(
         &mut self,
         message: &[u8],
@@ -97,7 +97,7 @@ impl Link {
     }
 
     /// Sends `message`, whose reply is to be received before the next is sent. The hub finds it when it next
-    /// looks: when anybody rings, this end by [`nudge`](Link::nudge) or [`receive`](Link::receive).
+    /// looks: when anybody rings, this end by [`nudge`](WorkerEnd::nudge) or [`receive`](WorkerEnd::receive).
     /// Sleeps only between the chunks of a long message, and wakes about once a second to ask `keep_waiting`.
     ///
     /// # Errors
@@ -154,7 +154,7 @@ impl Link {
     ///
     /// # Errors
     ///
-    /// As [`send`](Link::send); [`ChannelError::Spoiled`] also if nothing was sent.
+    /// As [`send`](WorkerEnd::send); [`ChannelError::Spoiled`] also if nothing was sent.
     pub fn receive(
         &mut self,
         keep_waiting: &mut dyn FnMut() -> bool,
@@ -173,7 +173,7 @@ impl Link {
     ///
     /// # Errors
     ///
-    /// As [`receive`](Link::receive).
+    /// As [`receive`](WorkerEnd::receive).
     pub fn try_receive(
         &mut self,
         keep_waiting: &mut dyn FnMut() -> bool,

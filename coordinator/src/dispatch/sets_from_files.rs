@@ -9,7 +9,7 @@ use std::time::Duration;
 
 /// An executor that reads sets from files, as far as there are files of them, and leaves all other jobs to the
 /// executor behind it.
-pub struct Imported<E> {
+pub struct SetsFromFiles<E> {
     inner: E,
     files: SetFiles,
     /// Jobs whose sets are still to be read from the files.
@@ -17,10 +17,10 @@ pub struct Imported<E> {
     failure: Option<Failure>,
 }
 
-impl<E: Executor> Imported<E> {
+impl<E: Executor> SetsFromFiles<E> {
     /// Sets come from `files` where these have them, everything else from `inner`.
-    pub fn new(inner: E, files: SetFiles) -> Imported<E> {
-        Imported { inner, files, waiting: BTreeSet::new(), failure: None }
+    pub fn new(inner: E, files: SetFiles) -> SetsFromFiles<E> {
+        SetsFromFiles { inner, files, waiting: BTreeSet::new(), failure: None }
     }
 
     /// The executor behind the files.
@@ -42,7 +42,7 @@ fn set_of(job: Job) -> Option<SetName> {
     }
 }
 
-impl<E: Executor> Executor for Imported<E> {
+impl<E: Executor> Executor for SetsFromFiles<E> {
     fn publish(&mut self, increment: &Arc<Increment>) {
         self.inner.publish(increment);
     }
