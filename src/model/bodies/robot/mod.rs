@@ -5,10 +5,13 @@
 //! those of the joints in the order of their links.
 
 mod joint;
+mod pairs;
 mod rates;
 mod space;
 
 pub use joint::{Joint, JointKind, Limits, TURN_MAX};
+#[cfg(test)]
+pub(crate) use rates::Steady;
 pub(crate) use rates::{Hops, Rates};
 pub use space::Speeds;
 
@@ -56,31 +59,6 @@ impl Robot {
     /// All bodies, link after link.
     pub fn bodies(&self) -> impl Iterator<Item = &Body> {
         self.links.iter().flat_map(|link| &link.bodies)
-    }
-
-    /// The pairs of links, the lower index first, that must not touch: all but neighbours, links fixed
-    /// to one another, and those that may. Links on either side of a link without bodies are neighbours.
-    pub fn self_pairs(&self) -> impl Iterator<Item = (usize, usize)> {
-        // Per link the group of links it is fixed to, and the group that this group hangs on.
-        let mut groups: Vec<(usize, usize)> = Vec::new();
-        for (index, link) in self.links.iter().enumerate() {
-            groups.push(match &link.joint {
-                None => (0, 0),
-                Some(joint) => {
-                    let parent = groups[joint.parent as usize];
-                    let belongs = !joint.kind.moves() || link.bodies.is_empty();
-                    if belongs { parent } else { (index, parent.0) }
-                }
-            });
-        }
-        let mut may_touch = self.may_touch.clone();
-        may_touch.sort_unstable();
-        let pairs = (0..groups.len()).flat_map(|high| (0..high).map(move |low| (low, high)));
-        pairs.filter(move |(low, high)| {
-            let ((a, above_a), (b, above_b)) = (groups[*low], groups[*high]);
-            let neighbors = a == b || above_a == b || above_b == a;
-            !neighbors && may_touch.binary_search(&(*low as u32, *high as u32)).is_err()
-        })
     }
 
     fn base_pose(&self, q: &[f64]) -> Pose {

@@ -68,16 +68,15 @@ fn the_space_has_the_bases_values_and_then_the_joints() {
     assert_eq!(robot.reach(), 5.5);
 }
 
+fn ball() -> Body {
+    Body { shape: Shape::Sphere { radius: 0.1 }, pose: Pose::IDENTITY, solid: true }
+}
+
 #[test]
 fn neighbours_fixed_links_and_links_across_an_empty_one_may_touch() {
     let mut robot = robot(BaseJoint::Fixed);
-    let body = crate::scene::Body {
-        shape: crate::scene::Shape::Sphere { radius: 0.1 },
-        pose: Pose::IDENTITY,
-        solid: true,
-    };
     for link in &mut robot.links {
-        link.bodies = vec![body.clone()];
+        link.bodies = vec![ball()];
     }
     assert_eq!(robot.self_pairs().collect::<Vec<_>>(), [(0, 2), (0, 3), (1, 4), (2, 4), (3, 4)]);
     robot.links[1].bodies.clear();
@@ -85,6 +84,49 @@ fn neighbours_fixed_links_and_links_across_an_empty_one_may_touch() {
     assert_eq!(robot.self_pairs().collect::<Vec<_>>(), [(2, 4), (3, 4)]);
     robot.may_touch = vec![(2, 4)];
     assert_eq!(robot.self_pairs().collect::<Vec<_>>(), [(3, 4)]);
+}
+
+/// A chain of links, each turning about z at the one before it, or fixed to it; those named have a ball.
+fn chain_of(kinds: &[(bool, bool)]) -> Robot {
+    let mut robot = Robot::rigid(BaseJoint::Fixed, vec![ball()]);
+    let turning = JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits: None };
+    for (parent, (moves, has_ball)) in kinds.iter().enumerate() {
+        let kind = if *moves { turning } else { JointKind::Fixed };
+        robot.links.push(Link {
+            name: format!("link {parent}"),
+            bodies: if *has_ball { vec![ball()] } else { Vec::new() },
+            joint: joint(parent as u32, kind, [0.0; 3]),
+        });
+    }
+    robot
+}
+
+/// Links across more than one link without bodies are tested, unless the joints between these do not move.
+#[test]
+fn one_empty_link_at_most_makes_neighbours() {
+    let pairs = |kinds: &[(bool, bool)]| chain_of(kinds).self_pairs().collect::<Vec<_>>();
+    let (empty, solid) = ((true, false), (true, true));
+    let (fixed_empty, fixed_solid) = ((false, false), (false, true));
+    assert_eq!(pairs(&[empty, solid]), []);
+    assert_eq!(pairs(&[empty, empty, solid]), [(0, 3)]);
+    assert_eq!(pairs(&[empty, empty, empty, solid, solid]), [(0, 4), (0, 5)]);
+    // Links that are fixed to one another count as one.
+    assert_eq!(pairs(&[empty, fixed_empty, solid]), []);
+    assert_eq!(pairs(&[fixed_empty, empty, solid]), []);
+    assert_eq!(pairs(&[empty, fixed_empty, empty, solid]), [(0, 4)]);
+    // A body fixed to a link without one is that link's: what it carries is not the base's neighbour.
+    assert_eq!(pairs(&[empty, fixed_solid]), []);
+    assert_eq!(pairs(&[empty, fixed_solid, solid]), [(0, 3)]);
+}
+
+/// Two links that hang on the same link without bodies are no neighbours.
+#[test]
+fn links_on_the_same_empty_link_must_not_touch() {
+    let mut robot = chain_of(&[(true, false), (true, true)]);
+    let turning = JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits: None };
+    let name = "other".to_owned();
+    robot.links.push(Link { name, bodies: vec![ball()], joint: joint(1, turning, [0.0; 3]) });
+    assert_eq!(robot.self_pairs().collect::<Vec<_>>(), [(2, 3)]);
 }
 
 /// A tree of links of which most have a ball somewhere.
