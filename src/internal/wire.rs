@@ -14,6 +14,13 @@ use std::cell::Cell;
 #[error("undecodable bytes: {0}")]
 pub struct WireError(String);
 
+impl WireError {
+    /// An error about bytes that stand for a value that cannot be.
+    pub(crate) fn unsound(why: impl Into<String>) -> WireError {
+        WireError(why.into())
+    }
+}
+
 fn format() -> Configuration<LittleEndian, Fixint, NoLimit> {
     bincode::config::standard().with_little_endian().with_fixed_int_encoding().with_no_limit()
 }

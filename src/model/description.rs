@@ -27,6 +27,14 @@ pub trait Description {
         false
     }
 
+    /// Whether the description is one that a problem file could give: every number finite and in its range, every index
+    /// that of something there. Descriptions that were read from a file are; bytes from elsewhere must show it
+    /// before anything else is asked, since the other methods rely on it.
+    ///
+    /// # Errors
+    /// The first thing that is wrong: where, what was found and what is expected.
+    fn sound(&self) -> Result<(), String>;
+
     /// Makes the model ready for work.
     fn prepare(&self) -> Box<dyn Model>;
 

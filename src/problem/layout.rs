@@ -183,12 +183,13 @@ impl Problem {
         }
     }
 
-    /// The problem that bytes stand for.
+    /// The problem that bytes stand for. What it is planned for has been checked as that of a problem file is; see
+    /// [`Problem::schedule_is_sound`] for the rest.
     ///
     /// # Errors
-    /// When they are those of no problem.
+    /// When they are those of no problem, or of one that no file could give.
     pub fn from_bytes(layout: Layout, bytes: &[u8]) -> Result<Problem, WireError> {
-        Ok(match layout {
+        let problem = match layout {
             Layout::First => {
                 let FirstProblem { name, seed, bodies, rest } = wire::decode(bytes)?;
                 rest.with(name, seed, ModelKind::Bodies(bodies))
@@ -197,7 +198,17 @@ impl Problem {
                 let SecondProblem { name, seed, model, rest } = wire::decode(bytes)?;
                 rest.with(name, seed, model)
             }
-        })
+        };
+        problem.model.description().sound().map_err(WireError::unsound)?;
+        let dofs = problem.space().len();
+        let fits = |q: &[f64]| q.len() == dofs && q.iter().all(|value| value.is_finite());
+        match &problem.query {
+            Some(Ends { start, goal }) if !(fits(start) && fits(goal)) => {
+                let expected = format!("two configurations of {dofs} finite numbers expected");
+                Err(WireError::unsound(format!("query: {start:?} and {goal:?} found; {expected}")))
+            }
+            _ => Ok(problem),
+        }
     }
 }
 

@@ -150,4 +150,6 @@ impl Problem {
 }
 
 #[cfg(test)]
+mod soundness_tests;
+#[cfg(test)]
 mod tests;

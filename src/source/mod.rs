@@ -67,15 +67,7 @@ impl<'a> Source<'a> {
 
     /// An error at the deepest step of `place` that the file has.
     pub fn error(&self, place: &[Step], message: String) -> ProblemError {
-        let mut key = String::new();
-        for step in place {
-            match step {
-                Step::Key(name) if key.is_empty() => key.push_str(name),
-                Step::Key(name) => key = format!("{key}.{name}"),
-                Step::Index(index) => key = format!("{key}[{index}]"),
-            }
-        }
-        let message = format!("{key}: {message}");
+        let message = format!("{}: {message}", place_of(place));
         match self.find(place) {
             Some(offset) => ProblemError::line(self.path, line_of(self.text, offset), message),
             None => ProblemError::file(self.path, message),
@@ -99,6 +91,19 @@ impl<'a> Source<'a> {
         }
         Some(offset)
     }
+}
+
+/// A place in a file for people to read, such as `obstacles[3].shape`.
+pub(crate) fn place_of(place: &[Step]) -> String {
+    let mut key = String::new();
+    for step in place {
+        match step {
+            Step::Key(name) if key.is_empty() => key.push_str(name),
+            Step::Key(name) => key = format!("{key}.{name}"),
+            Step::Index(index) => key = format!("{key}[{index}]"),
+        }
+    }
+    key
 }
 
 fn line_of(text: &str, offset: usize) -> usize {

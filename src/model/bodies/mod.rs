@@ -11,6 +11,7 @@ mod linkage;
 mod read;
 pub mod robot;
 mod shapes;
+mod sound;
 mod tables;
 pub mod validity;
 mod write;
@@ -63,6 +64,10 @@ impl Description for Bodies {
     fn space(&self) -> Space {
         let Bounds { min, max, .. } = self.bounds;
         self.robot.space(min, max, self.rotation_length)
+    }
+
+    fn sound(&self) -> Result<(), String> {
+        sound::sound(self)
     }
 
     fn prepare(&self) -> Box<dyn Model> {

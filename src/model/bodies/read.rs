@@ -12,7 +12,7 @@ use crate::source::{ProblemError, Source};
 use crate::space::BaseJoint;
 
 /// The finest resolution, as a fraction of the diagonal of the bounds.
-const FINEST: f64 = 1e-7;
+pub(super) const FINEST: f64 = 1e-7;
 /// The farthest robot point, as a multiple of the same: with it a motion has at most 10¹⁵ steps.
 const RADIUS_MAX: f64 = 1e6;
 

@@ -151,21 +151,29 @@ pub(super) fn check_bodies(
     robot: &Robot,
     obstacles: &[Body],
 ) -> Result<(), ProblemError> {
+    bodies_complaint(robot, obstacles)
+        .map_or(Ok(()), |(place, message)| Err(source.error(&place, message.to_owned())))
+}
+
+/// What is wrong with the robot and the obstacles taken together, if anything: where, what was found and what is
+/// expected.
+pub(super) fn bodies_complaint(
+    robot: &Robot,
+    obstacles: &[Body],
+) -> Option<(Vec<Step<'static>>, &'static str)> {
     if robot.bodies().next().is_none() {
-        let message = "no bodies found; at least one expected".to_owned();
-        return Err(source.error(&[Key("robot"), Key("bodies")], message));
+        let message = "no bodies found; at least one expected";
+        return Some((vec![Key("robot"), Key("bodies")], message));
     }
     if let Some(index) = obstacles.iter().position(|body| body.shape == Shape::Point) {
         let message = "a point cannot be an obstacle; a shape with an extent expected";
-        let place = [Key("obstacles"), Index(index), Key("shape")];
-        return Err(source.error(&place, message.to_owned()));
+        return Some((vec![Key("obstacles"), Index(index), Key("shape")], message));
     }
     let pointlike = robot.bodies().any(|body| body.shape == Shape::Point);
     if pointlike && let Some(index) = obstacles.iter().position(|body| !body.solid) {
         let message = "a point robot never touches a surface without inside at the configurations \
                        that are checked; a solid obstacle or a robot with an extent expected";
-        let place = [Key("obstacles"), Index(index)];
-        return Err(source.error(&place, message.to_owned()));
+        return Some((vec![Key("obstacles"), Index(index)], message));
     }
-    Ok(())
+    None
 }

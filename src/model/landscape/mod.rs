@@ -5,6 +5,7 @@
 
 mod bound;
 mod energy;
+mod sound;
 mod tables;
 
 pub use energy::{Energy, Term};
@@ -63,6 +64,10 @@ impl Description for Landscape {
 
     fn has_directed_costs(&self) -> bool {
         true
+    }
+
+    fn sound(&self) -> Result<(), String> {
+        self.complaint().map_or(Ok(()), |(key, message)| Err(format!("landscape.{key}: {message}")))
     }
 
     fn prepare(&self) -> Box<dyn Model> {
