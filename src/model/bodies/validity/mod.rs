@@ -13,6 +13,7 @@ mod nearest;
 mod obb;
 mod piece;
 mod scratch;
+mod shells;
 mod swept;
 mod tree;
 mod triangles;

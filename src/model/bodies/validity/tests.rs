@@ -308,3 +308,35 @@ proptest! {
         }
     }
 }
+
+/// Two blocks that overlap, in one mesh, as an obstacle and as a robot: what lies in both is not free.
+#[test]
+fn blocks_that_overlap_in_one_mesh_are_solid_all_through() {
+    let block = |at: f64| match cuboid_mesh([2.0; 3], [0.0; 3], true).shape {
+        Shape::Mesh(mesh) => {
+            let vertices = mesh.vertices.iter().map(|vertex| vertex.map(|x| x + at)).collect();
+            Mesh { vertices, ..mesh }
+        }
+        _ => unreachable!("it is a mesh"),
+    };
+    let (first, mut second) = (block(1.0), block(2.0));
+    second.triangles.iter_mut().flatten().for_each(|corner| *corner += 8);
+    let blocks = Mesh {
+        vertices: [first.vertices, second.vertices].concat(),
+        triangles: [first.triangles, second.triangles].concat(),
+    };
+    assert!(blocks.is_closed());
+    let blocks = solid(Shape::Mesh(blocks), [0.0; 3]);
+    for small in [cuboid([0.1; 3], [0.0; 3]), cuboid_mesh([0.1; 3], [0.0; 3], false)] {
+        for (robot, obstacle, sign) in [(&small, &blocks, 1.0), (&blocks, &small, -1.0)] {
+            let (robot, obstacle) = (std::slice::from_ref(robot), std::slice::from_ref(obstacle));
+            let (_, validity) =
+                validity(BaseJoint::Translation3d, BoundsMeaning::Reference, robot, obstacle);
+            for (at, expected) in
+                [(0.5, false), (1.5, false), (2.5, false), (3.5, true), (-0.5, true)]
+            {
+                assert_eq!(valid(&validity, &[at * sign; 3]), expected, "{at}");
+            }
+        }
+    }
+}
