@@ -1,5 +1,6 @@
 //! Discrete collision detection: whether the bodies of two groups meet at one configuration.
 
+use super::convex::{Convex, meet};
 use super::directions::triangles_meet;
 use super::element::{Element, elements};
 use super::frame::{Frame, Stance};
@@ -10,8 +11,6 @@ use crate::lanes::{Lanes, with_lanes};
 use crate::scene::Body;
 use fearless_simd::{Simd, f32x4};
 use parry3d_f64::math::{Pose, Vector};
-use parry3d_f64::query::{DefaultQueryDispatcher, QueryDispatcher};
-use parry3d_f64::shape::{Shape, SupportMap, Triangle};
 
 /// Bodies that move as one rigid body (those of a link, or all obstacles), in the frame of that link or of the world.
 pub(super) struct Group {
@@ -112,13 +111,9 @@ impl Meeting<'_> {
             (true, false) => other.holds(&other_at, one.place(&at).translation),
             (false, true) => one.holds(&at, other.place(&other_at).translation),
             (false, false) => {
-                let (one_triangle, other_triangle) = (first.triangle(), second.triangle());
-                let (one, at) = part(one, &one_triangle, &at);
-                let (other, other_at) = part(other, &other_triangle, &other_at);
-                DefaultQueryDispatcher
-                    .intersection_test(&other_at.inv_mul(&at), other, one)
-                    .expect("parry tests every pair of our shapes")
-                    .intersecting
+                let (one, at) = part(one, first, &at);
+                let (other, other_at) = part(other, second, &other_at);
+                meet((&other, &other_at), (&one, &at))
             }
         }
     }
@@ -151,33 +146,24 @@ impl Group {
         &self.pieces[element.piece as usize]
     }
 
-    /// An element as one of parry's convex shapes, its pose in the world, and how far the element reaches beyond it.
-    pub fn support<'a>(
-        &'a self,
-        element: &Element,
-        triangle: &'a Triangle,
-        at: &Pose,
-    ) -> (&'a dyn SupportMap, Pose, f64) {
+    /// An element as a convex shape, its pose in the world, and how far the element reaches beyond it.
+    pub fn support(&self, element: &Element, at: &Pose) -> (Convex, Pose, f64) {
         let piece = self.piece(element);
-        match piece.primitive().and_then(|shape| shape.as_support_map()) {
-            Some(shape) if element.flat => (shape, piece.place(at), 0.0),
-            _ => (triangle, *at, element.radius),
+        match piece.primitive() {
+            Some(shape) if element.flat => (*shape, piece.place(at), 0.0),
+            _ => {
+                let (hull, at) = Convex::triangle(element.corners, at);
+                (hull, at, element.radius)
+            }
         }
     }
 }
 
-impl Element {
-    /// The convex hull of the corners.
-    pub fn triangle(&self) -> Triangle {
-        let [a, b, c] = self.corners;
-        Triangle::new(a, b, c)
-    }
-}
-
-/// What parry is to test: the body as a whole, if it is a primitive, else one triangle of it; and its pose.
-fn part<'a>(piece: &'a Piece, triangle: &'a Triangle, at: &Pose) -> (&'a dyn Shape, Pose) {
+/// What is tested: the body as a whole, if it is a primitive, else the triangle of it that the element is; and its pose
+/// in the world.
+fn part(piece: &Piece, element: &Element, at: &Pose) -> (Convex, Pose) {
     match piece.primitive() {
-        Some(shape) => (shape, piece.place(at)),
-        None => (triangle, *at),
+        Some(shape) => (*shape, piece.place(at)),
+        None => Convex::triangle(element.corners, at),
     }
 }

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod clearance;
+mod convex;
 mod directions;
 mod element;
 mod frame;

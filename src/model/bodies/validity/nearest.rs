@@ -1,12 +1,11 @@
 //! The distance between two elements, and their nearest points.
 
+use super::convex;
 use super::element::Element;
 use super::frame::Stance;
 use super::meet::Meeting;
 use super::triangles::nearest_points;
 use parry3d_f64::math::Vector;
-use parry3d_f64::query::ClosestPoints;
-use parry3d_f64::query::details::closest_points_support_map_support_map;
 
 /// The shortest segment between two elements, in the frame of the standing one.
 pub(super) struct ShortestWay {
@@ -60,15 +59,11 @@ impl Meeting<'_> {
         round: ShortestWay,
     ) -> ShortestWay {
         let (at, other_at) = (stance.pose(Some(self.mover_link)), stance.pose(self.still_link));
-        let (hull, other_hull) = (element.triangle(), other.triangle());
-        let (one, one_at, thick) = self.mover.support(element, &hull, &at);
-        let (two, two_at, other_thick) = self.still.support(other, &other_hull, &other_at);
-        let between = one_at.inv_mul(&two_at);
-        let found = closest_points_support_map_support_map(&between, one, two, f64::MAX);
-        let ClosestPoints::WithinMargin(p, q) = found else {
+        let (one, one_at, thick) = self.mover.support(element, &at);
+        let (two, two_at, other_thick) = self.still.support(other, &other_at);
+        let Some((p, q)) = convex::nearest((&one, &one_at), (&two, &two_at)) else {
             return ShortestWay { distance: 0.0, axis: Vector::ZERO, ..round };
         };
-        let (p, q) = (one_at.transform_point(p), two_at.transform_point(q));
         let nearest = (other_at.inverse_transform_point(p), other_at.inverse_transform_point(q));
         let way = ShortestWay::between(nearest, thick, other_thick);
         // A cylinder is at least as far away as the capsule around it.

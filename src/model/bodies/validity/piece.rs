@@ -1,15 +1,15 @@
 //! Bodies prepared for collision tests.
 
+use super::convex::Convex;
 use super::inside::Inside;
 use crate::scene::{Body, Shape};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::{Pose, Vector};
-use parry3d_f64::shape::{Shape as ParryShape, SharedShape};
 
 /// A body prepared for collision tests.
 pub(super) struct Piece {
     /// The shape as parry's, of a primitive other than a point.
-    primitive: Option<SharedShape>,
+    primitive: Option<Convex>,
     /// The pose of parry's shape in the link's frame or the world's.
     pose: Pose,
     /// The pose of the body in the link's frame or the world's. It differs from that of parry's shape for
@@ -27,7 +27,7 @@ pub(super) struct Piece {
 impl Piece {
     pub fn new(body: &Body) -> Piece {
         let frame = body.pose.to_parry();
-        let (primitive, pose) = match body.shape.to_parry() {
+        let (primitive, pose) = match Convex::of(&body.shape) {
             Some((shape, local)) => (Some(shape), frame * local),
             None => (None, frame),
         };
@@ -42,7 +42,7 @@ impl Piece {
                 own.transform_by(&frame)
             }
             _ => match &primitive {
-                Some(shape) => shape.compute_aabb(&pose),
+                Some(shape) => shape.aabb(&pose),
                 None => Aabb::new(frame.translation, frame.translation),
             },
         };
@@ -56,8 +56,8 @@ impl Piece {
     }
 
     /// The convex shape, unless the piece is a point or a mesh.
-    pub fn primitive(&self) -> Option<&dyn ParryShape> {
-        self.primitive.as_deref()
+    pub fn primitive(&self) -> Option<&Convex> {
+        self.primitive.as_ref()
     }
 
     /// The pose of [`Piece::primitive`] in the world, the link being at the pose `link`.
@@ -68,7 +68,7 @@ impl Piece {
     /// Whether a primitive holds a point of the world's frame; a mesh never does, but see
     /// [`Piece::encloses`].
     pub fn holds(&self, link: &Pose, point: Vector) -> bool {
-        self.primitive.as_ref().is_some_and(|shape| shape.contains_point(&self.place(link), point))
+        self.primitive.as_ref().is_some_and(|shape| shape.holds(&self.place(link), point))
     }
 
     /// Whether the body is a solid mesh: its inside is material, but only its surface is in the tree.
