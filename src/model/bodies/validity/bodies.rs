@@ -2,7 +2,6 @@
 
 use super::BodyScratch;
 use super::frame::Stance;
-use super::light::grain;
 use super::meet::{Group, Meeting};
 use super::piece::Piece;
 use super::swept::Walls;
@@ -75,8 +74,6 @@ pub struct BodyValidity {
     pub(super) solid: bool,
     /// A length greater than what rounding in double precision can add up to.
     pub(super) slack: f64,
-    /// A length greater than what rounding in single precision can add up to.
-    pub(super) grain: f32,
     /// The instructions by which boxes are tested.
     pub(super) lanes: Lanes,
 }
@@ -94,6 +91,20 @@ pub(super) struct SelfPair {
     second: u32,
 }
 
+/// A box in which all robot points are, as long as its reference point is within the bounds.
+fn places_of(robot: &Robot, bounds: &Bounds, reach: f64) -> [Vector; 2] {
+    let stands = robot.base.translation;
+    let [low, high] = match robot.motion.translations() {
+        0 => [stands; 2],
+        2 => [bounds.min, bounds.max].map(|[x, y, _]| [x, y, 0.0]),
+        _ => [bounds.min, bounds.max],
+    };
+    [
+        Vector::from_array(low) - Vector::splat(reach),
+        Vector::from_array(high) + Vector::splat(reach),
+    ]
+}
+
 impl BodyValidity {
     /// Prepares the bodies. `resolution` is a length; see [`Model::motion`](crate::model::Model::motion).
     pub fn new(
@@ -108,7 +119,7 @@ impl BodyValidity {
             Some(Moving { link, group })
         });
         let links: Vec<Moving> = links.collect();
-        // Where each link of the robot stands among those with bodies.
+        // Where each link that has a surface stands among these.
         let mut places = vec![None; robot.links.len()];
         for (place, moving) in links.iter().enumerate() {
             places[moving.link] = Some(place as u32);
@@ -117,9 +128,9 @@ impl BodyValidity {
             Some(SelfPair { first: places[low]?, second: places[high]? })
         });
         let self_pairs = pairs.collect();
-        let obstacles = Group::new(obstacles.iter());
-        let boxes = obstacles.iter().flat_map(|group| &group.pieces);
         let reach = robot.reach();
+        let obstacles = Group::of_obstacles(obstacles, places_of(robot, &bounds, reach));
+        let boxes = obstacles.iter().flat_map(|group| &group.pieces);
         let far = |point: &[f64; 3]| Vector::from_array(*point).abs().max_element();
         let scale = [reach, far(&bounds.min), far(&bounds.max), far(&robot.base.translation)];
         let scale = obstacles
@@ -145,18 +156,17 @@ impl BodyValidity {
             self_pairs,
             solid,
             slack: 1e-12 * scale,
-            grain: grain(scale),
             lanes: Lanes::widest(),
         }
     }
 
     /// Everything that could collide: every link with the obstacles, then the pairs of links that must not touch.
     pub(super) fn meetings(&self) -> impl Iterator<Item = Meeting<'_>> {
-        let (slack, grain, lanes) = (self.slack, self.grain, self.lanes);
+        let (slack, lanes) = (self.slack, self.lanes);
         let among = self.links.iter().filter_map(move |Moving { link, group }| {
             let still = self.obstacles.as_ref()?;
             let (mover, mover_link) = (group, *link);
-            Some(Meeting { mover, mover_link, still, still_link: None, slack, grain, lanes })
+            Some(Meeting { mover, mover_link, still, still_link: None, slack, lanes })
         });
         let own = self.self_pairs.iter().map(move |pair| {
             let [still, mover] = self.links_of(pair);
@@ -166,7 +176,6 @@ impl BodyValidity {
                 still: &still.group,
                 still_link: Some(still.link),
                 slack,
-                grain,
                 lanes,
             }
         });

@@ -4,7 +4,8 @@ use super::convex::{Convex, meet};
 use super::directions::triangles_meet;
 use super::element::{Element, elements};
 use super::frame::{Frame, Stance};
-use super::light::{Four, Frames, Stands, above};
+use super::light::{Four, Frames, Stands, above, grain};
+use super::origin;
 use super::piece::Piece;
 use super::tree::{Node, Tree};
 use crate::lanes::{Lanes, with_lanes};
@@ -28,13 +29,27 @@ pub(super) struct Meeting<'a> {
     pub still_link: Option<usize>,
     /// A length greater than what rounding in double precision can add up to.
     pub slack: f64,
-    /// A length greater than what rounding in single precision can add up to, see [`light`](super::light).
-    pub grain: f32,
     /// The instructions by which boxes are tested.
     pub lanes: Lanes,
 }
 
 impl Meeting<'_> {
+    /// The frame of the moving tree's origin as seen from the standing tree's origin, given the frame of the moving group
+    /// as seen from the standing one.
+    #[inline]
+    pub fn between_origins(&self, frame: &Frame) -> Frame {
+        let shift = frame.point(self.mover.tree.origin) - self.still.tree.origin;
+        Frame { turn: frame.turn, shift }
+    }
+
+    /// A length greater than what rounding in single precision can add up to where the moving tree's origin is one of
+    /// these points as seen from the standing tree's, see [`light`](super::light).
+    #[inline]
+    pub fn grain(&self, origins: [Vector; 2]) -> f32 {
+        let [first, last] = origins.map(|origin| origin.abs().max_element());
+        grain(self.mover.tree.reach + first.max(last))
+    }
+
     /// Whether a surface of one group meets a surface of the other, touching included. A primitive is solid and meets
     /// what lies inside it, too; whether a solid mesh encloses the other group is not tested here.
     pub fn surfaces_meet(&self, stance: &Stance, stack: &mut Vec<(u32, u32)>) -> bool {
@@ -60,8 +75,9 @@ impl Meeting<'_> {
         stack: &mut Vec<(u32, u32)>,
     ) -> bool {
         let (own, other) = (&self.mover.tree, &self.still.tree);
-        let frames: Frames<f32x4<S>> = Frames::new(simd, [frame, frame]);
-        let room = above(self.slack) + self.grain;
+        let local = &self.between_origins(frame);
+        let frames: Frames<f32x4<S>> = Frames::new(simd, [local, local]);
+        let room = above(self.slack) + self.grain([local.shift; 2]);
         let place = |four: &Four<S>| Stands::new(&frames, four);
         let same = |tree: &'_ Tree, node: u32| Four::same(simd, &tree.boxes[node as usize]);
         let gathered = |tree: &'_ Tree, nodes: &[u32]| Four::new(simd, tree.gathered(nodes));
@@ -120,15 +136,28 @@ impl Meeting<'_> {
 }
 
 impl Group {
-    /// Makes a group of bodies; `None` if there are none.
+    /// Makes a group of the bodies of a link; `None` if there are none.
     pub fn new<'a>(bodies: impl Iterator<Item = &'a Body>) -> Option<Group> {
+        Group::about(bodies, |_| None)
+    }
+
+    /// Makes a group of obstacles, given a box in which the robot is; `None` if there are none.
+    pub fn of_obstacles(bodies: &[Body], robot: [Vector; 2]) -> Option<Group> {
+        Group::about(bodies.iter(), |elements| Some(origin::among(elements, robot)))
+    }
+
+    fn about<'a>(
+        bodies: impl Iterator<Item = &'a Body>,
+        origin: impl FnOnce(&[Element]) -> Option<Vector>,
+    ) -> Option<Group> {
         let mut surface = Vec::new();
         let mut pieces = Vec::new();
         for body in bodies {
             surface.extend(elements(body, pieces.len() as u32));
             pieces.push(Piece::new(body));
         }
-        Tree::new(surface).map(|tree| Group { tree, pieces })
+        let origin = origin(&surface);
+        Tree::new(surface, origin).map(|tree| Group { tree, pieces })
     }
 
     /// Whether a solid mesh is among them.

@@ -12,6 +12,7 @@ mod meet;
 mod motion;
 mod nearest;
 mod obb;
+mod origin;
 mod piece;
 mod scratch;
 mod shells;
@@ -25,6 +26,8 @@ pub use motion::TOLERANCE;
 pub use scratch::BodyScratch;
 pub use work::Work;
 
+#[cfg(test)]
+mod invariance_tests;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

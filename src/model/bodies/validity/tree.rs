@@ -31,8 +31,12 @@ impl Node {
 #[derive(Debug)]
 pub(super) struct Tree {
     pub nodes: Vec<Node>,
-    /// The boxes of the nodes, in single precision.
+    /// The boxes of the nodes, in single precision, as seen from the origin.
     pub boxes: Vec<LightBox>,
+    /// The origin, in the frame of the elements.
+    pub origin: Vector,
+    /// How far the boxes reach from the origin.
+    pub reach: f64,
     /// For each node, up to four nodes below it that together hold all of its elements, and how many they are: the
     /// tree as one of four children to a node, since boxes are tested four at once.
     below: Vec<([u32; 4], u32)>,
@@ -52,8 +56,9 @@ const DEPTH: u32 = 40;
 const LONG: usize = 2000;
 
 impl Tree {
-    /// Builds the tree over elements of which those of one body stand together; `None` if there are none.
-    pub fn new(elements: Vec<Element>) -> Option<Tree> {
+    /// Builds the tree over elements of which those of one body stand together; `None` if there are none. Without an
+    /// origin it is the middle of all elements.
+    pub fn new(elements: Vec<Element>, origin: Option<Vector>) -> Option<Tree> {
         let mut units: Vec<Unit> = Vec::new();
         for (index, element) in elements.iter().enumerate() {
             match units.last_mut() {
@@ -67,11 +72,22 @@ impl Tree {
             return None;
         }
         let nodes = Vec::with_capacity(2 * elements.len());
-        let mut tree = Tree { nodes, boxes: Vec::new(), below: Vec::new(), elements };
+        let mut tree = Tree {
+            nodes,
+            boxes: Vec::new(),
+            origin: Vector::ZERO,
+            reach: 0.0,
+            below: Vec::new(),
+            elements,
+        };
         let root = tree.node(&units);
+        let origin = origin.unwrap_or(root.space.centre);
         tree.nodes.push(root);
         tree.grow(0, &mut units, 0);
-        tree.boxes = tree.nodes.iter().map(|node| LightBox::new(&node.space)).collect();
+        tree.boxes = tree.nodes.iter().map(|node| LightBox::new(&node.space, origin)).collect();
+        let reach = |node: &Node| (node.space.centre - origin).length() + node.space.radius;
+        tree.reach = tree.nodes.iter().map(reach).fold(0.0, f64::max);
+        tree.origin = origin;
         tree.below = (0..tree.nodes.len() as u32).map(|at| tree.four_below(at)).collect();
         Some(tree)
     }

@@ -2,7 +2,6 @@
 
 use super::directions::triangles_meet;
 use super::frame::{Frame, Stance};
-use super::light::grain;
 use super::meet::{Group, Meeting};
 use super::tests::{cuboid, cuboid_mesh, solid};
 use super::{BodyValidity, Bounds, BoundsMeaning, MotionChecking};
@@ -46,7 +45,7 @@ proptest! {
         let mover = [soup(&mut stream, 1), soup(&mut stream, 12)];
         let [still, mover] = [&still, &mover].map(|bodies| Group::new(bodies.iter()).unwrap());
         let meeting =
-            Meeting { mover: &mover, mover_link: 0, still: &still, still_link: None, slack: 1e-11, grain: grain(10.0), lanes: Lanes::widest() };
+            Meeting { mover: &mover, mover_link: 0, still: &still, still_link: None, slack: 1e-11, lanes: Lanes::widest() };
         for _ in 0..10 {
             let mut stance = Stance { poses: vec![drawn_pose(&mut stream, 6.0)], ..Stance::default() };
             stance.update_frames();
@@ -119,7 +118,7 @@ proptest! {
         let still = Group::new(obstacles.iter()).unwrap();
         let mover = Group::new(robot.bodies()).unwrap();
         let meeting =
-            Meeting { mover: &mover, mover_link: 0, still: &still, still_link: None, slack: 0.0, grain: 0.0, lanes: Lanes::widest() };
+            Meeting { mover: &mover, mover_link: 0, still: &still, still_link: None, slack: 0.0, lanes: Lanes::widest() };
         let mut q = vec![0.0; 7];
         for _ in 0..5 {
             space.sample_uniform(&mut stream, &mut q);

@@ -1,13 +1,27 @@
 //! Oriented bounding boxes in single precision, tested four at once. The tests only say what double precision has to
 //! look at closer.
 //!
-//! Rounding never makes two boxes seem apart that are not: [`grain`] is added to the extent of every box. Let S be the
-//! largest coordinate of the input, so that no centre and no shift is longer than 2 √3 S in the standing frame, and
-//! ε = 2⁻²⁴. Placing a box puts its centre off by at most 48 ε S and its axes by 9 ε. With the rounding of the other
-//! centre and of the difference, the vector between the two centres is off by 66 ε S, and its product with an axis by
-//! 100 ε S more. A box extends at most 3 S along an axis, and the computed extent is off by 54 ε S. In all that is less
-//! than 256 ε S, the grain. Products and sums may be fused (fused multiply-add), as they are with AVX2: a fused
-//! operation rounds once instead of twice, so that the bounds hold all the more.
+//! Coordinates are taken from an origin of each tree's own (`origin.rs`), the differences being formed in double
+//! precision, so that they are as small as the scene at hand, wherever it stands.
+//!
+//! Rounding never makes two boxes seem apart that are not. Let the centre of a standing box be at c from its tree's origin,
+//! its sides 2hₖ along its axes aₖ and its half diagonal h; let the boxes of the moving tree, their half diagonals
+//! included, be within M of its origin, and this origin within T of the other along each axis, as seen from the
+//! standing tree. With ε = 2⁻²⁴:
+//!
+//! - Placing a moving box puts its centre off by at most 12 ε M + 4 √3 ε T and its axes by 10 ε; the vector between the two
+//!   centres is then off by at most 2 ε |c| + ε (14 M + 11 T).
+//! - Along an axis aₖ of the standing box coordinates count with the axis' own components only, so that the gap is off by at
+//!   most 8 ε Σᵢ|cᵢ aₖᵢ| + 4 ε hₖ + ε (56 M + 35 T).
+//! - Along an axis of the moving box, or along one that is computed from both boxes, it is off by at most 17 ε |c| + 32 ε h +
+//!   ε (34 M + 52 T), for an axis of unit length.
+//!
+//! What depends on M and T is in [`grain`], 128 ε (M + T), which is added once for a pair of frames. What depends on the
+//! standing box is in its sides, which are larger by 16 ε (Σᵢ|cᵢ aₖᵢ| + hₖ) + 32 ε max(0, |c| − h), and for the axes of
+//! the third kind in [`WIDE`] · h. So the margin of a pair depends on that pair alone, and a plate that is a million times larger
+//! than the robot, but level with the axes, is told apart from it as well as a small one. Products and sums may be fused
+//! (fused multiply-add), as they are with AVX2: a fused operation rounds once instead of twice, so that the bounds hold
+//! all the more.
 
 mod stand;
 
@@ -21,10 +35,18 @@ pub(super) use stand::{Gaps, Stands};
 
 /// Coordinates are clamped to this, so that nothing overflows; boxes beyond count as meeting.
 const FAR: f64 = 1e29;
+/// A length beyond all others, of which some may still be added up.
+const ENDLESS: f32 = 1e37;
+/// A share of the half diagonal of a standing box, by which it is enlarged along axes that are not its own.
+const WIDE: f32 = 1.0 / (1 << 18) as f32;
+/// The rounding of a number in single precision, relative to the number.
+const ROUNDING: f64 = 1.0 / (1u32 << 24) as f64;
 
-/// A length greater than what rounding in these tests can add up to, coordinates being at most `scale`.
+/// A length greater than what rounding in these tests can add up to, but for what the standing boxes are enlarged by.
+/// `scale` bounds the sum of two lengths: how far the moving boxes reach from their origin, and how far this origin is,
+/// along any axis, from that of the standing tree.
 pub(super) fn grain(scale: f64) -> f32 {
-    if scale < FAR { (scale / f64::from(1 << 16)).max(1e-36) as f32 } else { 1e38 }
+    if scale < FAR { (128.0 * ROUNDING * scale).max(1e-36) as f32 } else { ENDLESS }
 }
 
 /// A length, rounded upwards.
@@ -32,7 +54,7 @@ pub(super) fn above(length: f64) -> f32 {
     (length * (1.0 + 1e-6)) as f32
 }
 
-/// A box in the frame of its tree.
+/// A box in the frame of its tree, with its centre as seen from the tree's origin.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct LightBox {
@@ -43,11 +65,26 @@ pub(super) struct LightBox {
 }
 
 impl LightBox {
-    pub fn new(space: &Obb) -> LightBox {
-        let half = space.half.to_array().map(|half| above(half.min(FAR)));
-        let axes = [0, 1, 2].map(|i| with(space.axes[i], half[i]));
-        let centre = within(space.centre);
-        LightBox { axes, centre: with(centre, above(space.radius.min(2.0 * FAR))) }
+    /// A box with coordinates from an origin.
+    pub fn new(space: &Obb, origin: Vector) -> LightBox {
+        let centre = space.centre - origin;
+        let away = centre.length();
+        let beyond = 32.0 * (away - space.radius).max(0.0);
+        let half = space.half.to_array();
+        let axes = [0, 1, 2].map(|i| {
+            let along = (centre * space.axes[i]).abs().element_sum();
+            let room = ROUNDING * (16.0 * (along + half[i]) + beyond);
+            let fits = away + space.radius < FAR;
+            with(space.axes[i], if fits { above(half[i] + room) } else { ENDLESS })
+        });
+        LightBox { axes, centre: with(within(centre), above(space.radius.min(2.0 * FAR))) }
+    }
+
+    /// Its centre as seen from its origin, and half its diagonal.
+    #[cfg(test)]
+    pub fn ball(&self) -> (Vector, f64) {
+        let [x, y, z, radius] = self.centre.map(f64::from);
+        (Vector::new(x, y, z), radius)
     }
 
     /// Half its diagonal.

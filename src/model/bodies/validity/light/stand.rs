@@ -1,6 +1,6 @@
 //! Four moving boxes, placed in the standing frame, and their gaps to standing boxes along separating axes.
 
-use super::{Four, Frames, Many, Three, all_times, dot, three};
+use super::{Four, Frames, Many, Three, WIDE, all_times, dot, three};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x8};
 
@@ -67,6 +67,7 @@ impl<S: Simd, V: Many<S>> Stands<S, V> {
     #[inline(always)]
     pub fn along_own(&self, still: &Four<S>, across: &Across<V>, room: f32x4<S>) -> Three<Gaps<V>> {
         let sides = all_times(&still.half);
+        let room = still.widened(room);
         three(
             #[inline(always)]
             |i| {
@@ -76,7 +77,8 @@ impl<S: Simd, V: Many<S>> Stands<S, V> {
         )
     }
 
-    /// The overlaps along any axis, of any length; overlaps are multiplied by that length.
+    /// The overlaps along any axis, of any length; overlaps are multiplied by that length, and so is `room` already, which
+    /// is to be that of [`Four::widened`].
     #[inline(always)]
     pub fn along(
         &self,
@@ -92,6 +94,14 @@ impl<S: Simd, V: Many<S>> Stands<S, V> {
         let [a, b, c] = &self.axes;
         let turns = [dot(a, &axis).abs(), dot(b, &axis).abs(), dot(c, &axis).abs()];
         Gaps::new(reach(&turns, &all_times(&self.half), room), dot(&across.between, &axis))
+    }
+}
+
+impl<S: Simd> Four<S> {
+    /// The length by which boxes are enlarged along axes that are not those of the standing boxes, given that along these.
+    #[inline(always)]
+    pub fn widened(&self, room: f32x4<S>) -> f32x4<S> {
+        self.radius * WIDE + room
     }
 }
 

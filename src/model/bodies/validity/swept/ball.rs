@@ -15,7 +15,7 @@ use parry3d_f64::math::Vector;
 
 /// The bounding sphere of a box during a whole motion, its centre going straight.
 struct SweptBall<S: Simd> {
-    /// Its centre at the beginning and at the end.
+    /// Its centre at the beginning and at the end, as seen from the standing tree's origin.
     ends: Three<f32x8<S>>,
     /// Its radius, with the margin, and with what its centre may leave the straight line by.
     room: f32x4<S>,
@@ -65,12 +65,13 @@ impl<S: Simd> Sweep<'_, '_, S> {
     #[inline(always)]
     fn near_the_ball_at(&mut self, frames: [Frame; 2]) -> Option<Span> {
         let (simd, course) = (self.simd, &self.course);
-        let Meeting { mover, still, slack, grain, .. } = self.meeting;
+        let Meeting { mover, still, slack, .. } = self.meeting;
         let space = &mover.tree.nodes[0].space;
         let from_origin = course.rates.distance(space.centre);
         let margin = course.spare * course.rates.speed_at(space.radius + from_origin);
         let room = space.radius + course.rates.bend_at(from_origin) / 8.0 + margin + slack;
-        let ends = frames.map(|frame| frame.point(space.centre));
+        let ends = frames.map(|frame| frame.point(space.centre) - still.tree.origin);
+        let grain = self.meeting.grain(ends);
         let ball = SweptBall::new(simd, ends, room, grain);
         let radius = mover.tree.boxes[0].radius();
         let tree = &still.tree;

@@ -4,9 +4,11 @@ use super::clip::{Clip, Met, Turned, apart, least, turned};
 use super::span::{Samples, Span};
 use crate::model::bodies::robot::Rates;
 use crate::model::bodies::validity::frame::Frame;
-use crate::model::bodies::validity::light::{Four, Frames, Stands, Three, above, dot};
+use crate::model::bodies::validity::light::{Four, Frames, Stands, Three, above, dot, grain};
+use crate::model::bodies::validity::meet::Meeting;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x8};
+use parry3d_f64::math::Vector;
 
 /// A bound `c + s · d` on how far something moves, `d` being the distance of its farthest point from the axis or the
 /// point about which the motion turns it.
@@ -31,9 +33,32 @@ pub(super) struct Course {
     /// The tolerance as a time: elements are to be farther apart than points move in it. Half a step, or zero.
     pub spare: f64,
     /// A length greater than what rounding in double precision can add up to.
-    pub slack: f64,
-    /// A length greater than what rounding in single precision can add up to.
-    pub grain: f32,
+    slack: f64,
+    /// A length greater than what rounding can add up to in the distances of boxes from where the motion turns them.
+    grain: f32,
+    /// Lengths are measured in this unit where they are squared, so that squares neither overflow nor underflow.
+    unit: f32,
+    /// The origin of the moving boxes in that unit; of a rigid body, its vector product with the axis of the turn.
+    origin: [f32; 3],
+}
+
+impl Course {
+    pub fn new(rates: Rates, spare: f64, meeting: &Meeting) -> Course {
+        Course::of(
+            rates,
+            spare,
+            meeting.slack,
+            (meeting.mover.tree.origin, meeting.mover.tree.reach),
+        )
+    }
+
+    /// From the origin of the moving boxes, and how far they reach from it.
+    fn of(rates: Rates, spare: f64, slack: f64, (origin, reach): (Vector, f64)) -> Course {
+        let away = rates.steady.map_or(origin, |steady| steady.axis.cross(origin));
+        let unit = grain(reach.max(away.length()));
+        let origin = (away / f64::from(unit)).to_array().map(|x| x as f32);
+        Course { rates, spare, slack, grain: grain(reach), unit, origin }
+    }
 }
 
 /// The motion between two samples, every point being thought to go straight.
@@ -51,17 +76,19 @@ pub(super) struct Chord<S: Simd> {
 }
 
 impl<S: Simd> Chord<S> {
+    /// `frames` are those of the moving boxes' origin as seen from the standing boxes' origin, with a length greater
+    /// than what rounding can add up to.
     #[inline(always)]
     pub fn new(
         simd: S,
         course: &Course,
         (samples, step): (Samples, f64),
-        frames: [&Frame; 2],
+        (frames, grain): ([&Frame; 2], f32),
     ) -> Chord<S> {
-        let Course { rates, spare, slack, grain } = course;
+        let Course { rates, spare, slack, .. } = course;
         let time = samples.length() as f64 * step;
         let (eighth, turn_bend) = (time * time / 8.0, rates.turn_bend());
-        let slack = slack + f64::from(*grain);
+        let slack = slack + f64::from(grain);
         let bend = (rates.bend * eighth, turn_bend * eighth);
         // The tolerance: within half a step of a sample a point moves no farther than this.
         let margin = (spare * rates.speed, spare * rates.spin);
@@ -144,7 +171,7 @@ impl<S: Simd> SweptBoxes<S> {
         }
         let axis = self.crossing(still);
         let square = dot(&axis, &axis);
-        let room = self.still_room * square.sqrt();
+        let room = still.widened(self.still_room) * square.sqrt();
         let crossing = Turned::new(self.stands.along(&axis, still, &across, room));
         let apart = apart(overlap.min(crossing.both()));
         if apart == 15 {
@@ -178,19 +205,20 @@ fn halves_sum<S: Simd>(both: &f32x8<S>) -> f32x4<S> {
 /// A bound on the distance of the points of boxes from the axis or the point about which the motion turns them.
 #[inline(always)]
 fn reach<S: Simd>(simd: S, course: &Course, own: &Four<S>) -> f32x4<S> {
-    // Coordinates are measured in this unit so that their squares neither overflow nor underflow.
-    let unit = course.grain;
+    let unit = course.unit;
     let [x, y, z] = own.centre;
     let (x, y, z) = (x * unit.recip(), y * unit.recip(), z * unit.recip());
-    let away = match &course.rates.steady {
+    let [x, y, z] = match &course.rates.steady {
         None => [x, y, z],
         Some(steady) => {
             let (a, b, c) = (steady.axis.x as f32, steady.axis.y as f32, steady.axis.z as f32);
             [z * b - y * c, x * c - z * a, y * a - x * b]
         }
     };
+    let [a, b, c] = course.origin;
+    let away = [x + a, y + b, z + c];
     let distance = dot(&away, &away).sqrt() * unit;
-    let reach = (own.radius + distance) * (1.0 + 2e-6) + unit;
+    let reach = (own.radius + distance) * (1.0 + 2e-6) + course.grain;
     // No scene is that large; the limit keeps later products finite.
     reach.min(f32x4::splat(simd, 1e35))
 }
@@ -199,9 +227,8 @@ fn reach<S: Simd>(simd: S, course: &Course, own: &Four<S>) -> f32x4<S> {
 mod tests {
     use super::*;
     use crate::lanes::{Lanes, with_lanes};
-    use crate::model::bodies::validity::light::grain;
-    use crate::model::bodies::validity::light::tests::touching;
-    use parry3d_f64::math::Vector;
+    use crate::model::bodies::robot::Steady;
+    use crate::model::bodies::validity::light::tests::{Touching, touching};
     use proptest::prelude::*;
 
     proptest! {
@@ -209,28 +236,56 @@ mod tests {
         #[test]
         fn boxes_that_touch_at_both_ends_meet(
             ordinal in any::<u64>(), power in -38i32..38, spin in 0.0f64..60.0, speed in 0.0f64..4.0,
+            larger in prop::sample::select(vec![1.0, 1e3, 1e6]),
         ) {
-            let (own, other, frame, size) = touching(ordinal, power);
-            let still = Rates::default();
+            let touching = touching(ordinal, power, larger);
+            let grain = touching.grain();
+            let Touching { mover, still, frame, reach, size } = touching;
+            let stands = Rates::default();
             let moves = Rates { speed: speed * size, bend: spin * size, spin, twist: spin, steady: None };
             let met = |rates: Rates, frame: &Frame, lanes: Lanes| {
-                let grain = grain(4.0 * size);
-                let course = Course { rates, spare: 1e-7, slack: 1e-12 * size, grain };
+                let course = Course::of(rates, 1e-7, 1e-12 * size, (Vector::ZERO, reach));
                 with_lanes!(lanes, simd => {
                     let samples = Samples { from: 0, to: 1 << 20 };
                     let step = 1.0 / f64::from(1 << 20);
-                    let chord = Chord::new(simd, &course, (samples, step), [frame, frame]);
-                    let swept = SweptBoxes::new(simd, &course, &chord, &Four::same(simd, &own));
-                    let met = swept.meets(simd, &Four::new(simd, [&other; 4]), Span::ALL, &[Span::ALL; 4]);
+                    let chord = Chord::new(simd, &course, (samples, step), ([frame, frame], grain));
+                    let swept = SweptBoxes::new(simd, &course, &chord, &Four::same(simd, &mover));
+                    let met = swept.meets(simd, &Four::new(simd, [&still; 4]), Span::ALL, &[Span::ALL; 4]);
                     met.spans(4).filter(|(_, span)| span.from <= 0.0 && span.to >= 1.0).count()
                 })
             };
             let apart = Frame { shift: frame.shift + Vector::X * (20.0 * size), ..frame };
             for lanes in Lanes::all() {
-                prop_assert_eq!(met(still, &frame, lanes), 4);
+                prop_assert_eq!(met(stands, &frame, lanes), 4);
                 prop_assert_eq!(met(moves, &frame, lanes), 4);
                 // Where single precision ends nothing is told apart.
-                prop_assert!(met(still, &apart, lanes) == 0 || !(-30..27).contains(&power));
+                let told = met(stands, &apart, lanes) == 0;
+                prop_assert!(told || larger > 1.0 || !(-30..27).contains(&power));
+            }
+        }
+
+        /// The reach of a box holds the distances of its points from where the motion turns them, however far away
+        /// the origin of its coordinates is.
+        #[test]
+        fn reaches_hold_the_points_of_boxes(
+            ordinal in any::<u64>(), power in -30i32..26, far in prop::sample::select(vec![0.0, 1.0, 1e6]),
+        ) {
+            let Touching { mover, reach: local, size, frame, .. } = touching(ordinal, power, 1.0);
+            let axis = frame.turn.x_axis;
+            let steady = Steady { axis, velocity: Vector::ZERO, turning: Vector::ZERO };
+            let origin = frame.turn.y_axis * (far * size);
+            for steady in [None, Some(steady)] {
+                let rates = Rates { steady, ..Rates::default() };
+                let course = Course::of(rates, 0.0, 0.0, (origin, local));
+                let (centre, radius) = mover.ball();
+                let expected = rates.distance(centre + origin) + radius;
+                for lanes in Lanes::all() {
+                    let found = with_lanes!(lanes, simd => {
+                        f64::from(super::reach(simd, &course, &Four::same(simd, &mover))[0])
+                    });
+                    prop_assert!(found >= expected * (1.0 - 1e-7) - 1e-6 * local, "{} {}", found, expected);
+                    prop_assert!(found <= 1.00001 * expected + 1e-4 * local, "{} {}", found, expected);
+                }
             }
         }
     }

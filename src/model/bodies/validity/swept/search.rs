@@ -53,8 +53,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let spare = if asks == Asks::Samples { 0.0 } else { half_step };
         let whole = stacks.blocked.count_ones() >= OFTEN.0;
         let patience = if whole { OFTEN.1 } else { PATIENCE };
-        let Meeting { slack, grain, .. } = meeting;
-        let course = Course { rates, spare, slack, grain };
+        let course = Course::new(rates, spare, &meeting);
         let samples = clock.samples;
         let asked = match asks {
             Asks::AllTimes => Samples { from: 0, to: samples },
@@ -96,17 +95,24 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         self.clock.at(sample).seen(mover_link, still_link)
     }
 
+    /// The frame of the moving tree's origin as seen from the standing tree's origin, at a sample.
+    fn between_origins(&mut self, sample: u64) -> Frame {
+        let frame = self.frame(sample);
+        self.meeting.between_origins(&frame)
+    }
+
     /// Whether anything in the box of the moving `node` comes near anything below the open nodes of the other
     /// tree, at a sample within the chord and within the time span of that open node.
     fn blocked(&mut self, node: u32, samples: Samples) -> bool {
         let simd = self.simd;
-        let frames = [self.frame(samples.from), self.frame(samples.to)];
+        let frames = [self.between_origins(samples.from), self.between_origins(samples.to)];
+        let grain = self.meeting.grain(frames.map(|frame| frame.shift));
         let step = self.step();
         simd.vectorize(
             #[inline(always)]
             || {
-                let chord =
-                    Chord::new(simd, &self.course, (samples, step), [&frames[0], &frames[1]]);
+                let frames = ([&frames[0], &frames[1]], grain);
+                let chord = Chord::new(simd, &self.course, (samples, step), frames);
                 self.stacks.work.count(|work| work.placed += 1);
                 let own = Four::same(simd, &self.meeting.mover.tree.boxes[node as usize]);
                 let swept = SweptBoxes::new(simd, &self.course, &chord, &own);
