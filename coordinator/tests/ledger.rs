@@ -6,8 +6,13 @@ mod support;
 
 use by_hand::{Fields, Frame, durable, frames, hash, ledger_of};
 use proptest::prelude::*;
+use roadmill::internal::wire;
+use roadmill::model::ModelKind;
+use roadmill::model::landscape::{Energy, Landscape};
+use roadmill::problem::Problem;
+use roadmill::scene::Shape;
 use roadmill_coordinator::exit::Code;
-use roadmill_coordinator::run::ledger::{DURABLE, LEDGER};
+use roadmill_coordinator::run::ledger::{Chapter, DURABLE, LEDGER, Record};
 use roadmill_coordinator::run::{Ledger, LedgerWriter, RunLock, Scan};
 use std::collections::BTreeMap;
 use std::fs;
@@ -242,6 +247,56 @@ fn another_format_is_refused_by_name() {
         let error = Ledger::read(folder.path()).expect_err("unknown");
         assert!(error.message.contains(&format!("a ledger of format {version}")), "{error:?}");
         assert!(error.message.contains(words), "{error:?}");
+    }
+}
+
+/// A ledger whole in itself, with hashes and a digest as they should be, of a problem that no file could give.
+#[test]
+fn a_problem_that_no_file_could_give_is_refused_with_the_reason() {
+    let (ledger, _) = small();
+    let problem = match wire::decode(&frames(ledger)[0].payload) {
+        Ok(Record::Chapter(chapter)) => chapter.decode().expect("it is sound"),
+        other => panic!("{other:?}"),
+    };
+    type Change = fn(&mut Problem);
+    let landscape = |tolerance: f64| Landscape {
+        min: [0.0; 2],
+        max: [9.0; 2],
+        energy: Energy::MullerBrown,
+        highest: None,
+        tolerance,
+    };
+    let folder = in_memory();
+    let refused = |problem: &Problem, expected: &str| {
+        let record = Chapter::new(0, problem).into_record();
+        fs::write(folder.path().join(LEDGER), ledger_of([wire::encode(&record)])).expect("written");
+        let error = Ledger::read(folder.path()).expect_err(expected);
+        assert_eq!(error.code, Code::BrokenRun, "{error:?}");
+        assert!(error.message.contains(expected), "{error:?}");
+    };
+    for (tolerance, expected) in [(f64::NAN, "tolerance: NaN found"), (0.0, "tolerance: 0 found")] {
+        let model = ModelKind::Landscape(landscape(tolerance));
+        refused(&Problem { model, query: None, ..problem.clone() }, expected);
+    }
+    let changes: [(Change, &str); 2] = [
+        (
+            |problem| problem.model.bodies_mut().unwrap().resolution = f64::NAN,
+            "resolution: NaN found",
+        ),
+        (
+            |problem| {
+                let bodies = problem.model.bodies_mut().unwrap();
+                if let Shape::Mesh(mesh) = &mut bodies.obstacles[0].shape {
+                    mesh.triangles[0][0] = 1_000_000;
+                }
+            },
+            "a triangle of [1000000,",
+        ),
+    ];
+    for (change, expected) in changes {
+        let mut problem = problem.clone();
+        change(&mut problem);
+        refused(&problem, expected);
     }
 }
 
