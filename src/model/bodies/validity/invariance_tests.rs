@@ -324,7 +324,7 @@ fn a_robot_far_from_its_reference_point_has_the_same_verdicts_for_the_same_work(
     }
 }
 
-/// A ground plate, level or tilted a little, that reaches as far as the walls or to the horizon, and bounds that do.
+/// A ground plate that reaches as far as the walls or to the horizon, and bounds that do.
 #[test]
 fn a_huge_plate_costs_what_a_small_one_costs() {
     for motion in [BaseJoint::Rigid2d, BaseJoint::Rigid3d] {
