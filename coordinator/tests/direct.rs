@@ -65,7 +65,7 @@ fn a_build_ends_after_its_first_round_and_its_path_is_the_straight_one() {
     assert_eq!(path.lines().skip(1).collect::<Vec<_>>(), ["1,1,3", "9,9,-3"]);
     let short = query(&scratch, &["--shorten"]);
     assert_eq!(configs(&short), ["1,1,3", "9,9,-3"]);
-    short.assert_stderr(&["length 11.314736"]);
+    short.assert_stderr(&["length 11.314878"]);
     scratch.run(&["export", "run", "--format", "svg", "--out", "room.svg"]).assert_code(0);
     let verified = scratch.run(&["verify", "run", "--all", "--threads", "1"]);
     verified.assert_code(0);
