@@ -138,13 +138,13 @@ impl Columns<'_> {
         let (weights, mut rest) = block.split_at(BLOCK * size_of::<f64>());
         let mut directed = None;
         if is_directed {
-            let (back, after) = open.split_at(BLOCK * size_of::<f64>());
+            let (back, after) = rest.split_at(BLOCK * size_of::<f64>());
             let (peaks, after) = after.split_at(BLOCK * size_of::<f64>());
             directed = Some([back, peaks].map(cast_slice));
             rest = after;
         }
-        let (low, rest) = open.split_at(BLOCK * size_of::<u32>());
-        let (high, planners) = open.split_at(BLOCK * size_of::<u32>());
+        let (low, rest) = rest.split_at(BLOCK * size_of::<u32>());
+        let (high, planners) = rest.split_at(BLOCK * size_of::<u32>());
         let ids = [low, high].map(cast_slice);
         Columns { weights: cast_slice(weights), directed, ids, planners }
     }
@@ -178,6 +178,6 @@ impl Columns<'_> {
             cast_slice_mut::<u8, u32>(column).copy_from_slice(&ids[range.clone()]);
             rest = after;
         }
-        open.copy_from_slice(&self.planners[range]);
+        rest.copy_from_slice(&self.planners[range]);
     }
 }
