@@ -52,7 +52,11 @@ fn seed_of(run: &Path) -> u64 {
     let frames = frames(&whole_part(&ledger));
     let mut fields = Fields(&frames[0].payload);
     // Kind and round, the program's version, its bits and the problem's name come before.
-    (fields.u32(), fields.u64(), fields.text(), fields.u32(), fields.text());
+    fields.u32();
+    fields.u64();
+    fields.text();
+    fields.u32();
+    fields.text();
     fields.u64()
 }
 

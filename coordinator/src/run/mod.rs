@@ -14,10 +14,12 @@ mod folder;
 pub mod ledger;
 mod lock;
 mod sets;
+mod soundness;
 mod summary;
 
-pub use folder::RunFolder;
+pub use folder::{RunFolder, tidy};
 pub use ledger::{Ledger, LedgerWriter, Ledgers, Replay, Scan, Stopped, Told};
+pub(crate) use lock::started;
 pub use lock::{Holder, RunLock};
 pub use sets::{SetFiles, SetsWriter};
 pub use summary::{CoordinatorCpu, EvaluatorValue, Summary, Times};

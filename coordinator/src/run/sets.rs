@@ -3,7 +3,9 @@
 
 use super::ledger::frame::{self, Fault, Frames, Mark};
 use super::ledger::sync_folder;
+use super::soundness::SetCheck;
 use crate::exit::{Code, Failure};
+use crate::files::{beside, cannot_write, folder_of, open_regular};
 use bincode::{Decode, Encode};
 use roadmill::BITS_VERSION;
 use roadmill::img::Outcome;
@@ -11,6 +13,7 @@ use roadmill::internal::wire;
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Full, Increment};
 use roadmill::sampler::GaveUp;
+use rustix::fs::OFlags;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
@@ -86,12 +89,7 @@ impl SetsWriter {
         if !force && path.symlink_metadata().is_ok() {
             return Err(exists(path));
         }
-        let mut beside = path.file_name().unwrap_or_default().to_owned();
-        beside.push(".");
-        let file = tempfile::Builder::new().prefix(&beside).tempfile_in(folder_of(path));
-        let file = file.map_err(|error| {
-            Failure::usage(format!("{}: cannot be made: {error}", path.display()))
-        })?;
+        let file = beside(path).map_err(|error| cannot_write(path, &error))?;
         let mut writer = SetsWriter {
             path: path.to_owned(),
             force,
@@ -154,21 +152,9 @@ impl SetsWriter {
     }
 }
 
-fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        // A path of one name has an empty parent.
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    }
-}
-
 fn exists(path: &Path) -> Failure {
     let path = path.display();
     Failure::usage(format!("{path}: exists already; a new file expected, or --force to replace it"))
-}
-
-fn cannot_write(path: &Path, error: &io::Error) -> Failure {
-    Failure::system(format!("{}: cannot write: {error}", path.display()))
 }
 
 /// Where a set is.
@@ -198,9 +184,10 @@ impl SetFiles {
     /// 4: one that is damaged.
     pub fn open(names: &[String], problem: &Problem) -> Result<SetFiles, Failure> {
         let mut files = SetFiles::default();
+        let sound = SetCheck::new(problem);
         for name in names {
             for path in expand(name)? {
-                files.look_through(path, problem)?;
+                files.look_through(path, problem, &sound)?;
             }
         }
         Ok(files)
@@ -224,7 +211,7 @@ impl SetFiles {
         let Some(place) = self.places.get(&(strategy, ordinal)) else { return Ok(None) };
         let path = &self.paths[place.file];
         let read = || -> io::Result<Vec<u8>> {
-            let file = File::open(path)?;
+            let file = open_regular(path, OFlags::RDONLY)?;
             let mut payload = vec![0; place.length as usize];
             file.read_exact_at(&mut payload, place.offset)?;
             Ok(payload)
@@ -249,10 +236,14 @@ impl SetFiles {
         }
     }
 
-    fn look_through(&mut self, path: PathBuf, problem: &Problem) -> Result<(), Failure> {
+    fn look_through(
+        &mut self,
+        path: PathBuf,
+        problem: &Problem,
+        sound: &SetCheck,
+    ) -> Result<(), Failure> {
         let refuse = |why: &str| Err(Failure::usage(format!("{}: {why}", path.display())));
-        let opened = File::open(&path);
-        let file = match opened {
+        let file = match open_regular(&path, OFlags::RDONLY) {
             Ok(file) => file,
             Err(error) => return refuse(&format!("cannot be read: {error}")),
         };
@@ -287,11 +278,25 @@ impl SetFiles {
             return refuse(&format!("sets of `{label}` found, a strategy of the problem expected"));
         };
         let file = self.paths.len();
+        if problem.strategies[strategy].generator.grows() {
+            return refuse(&format!("the sets of `{label}` grow and cannot be made apart"));
+        }
         for expected in first..end {
-            match next(&mut frames, &path)? {
-                Record::Set(Set { ordinal, .. }) | Record::FullSet(FullSet { ordinal, .. })
-                    if ordinal == expected => {}
-                _ => return Err(damaged(&frames, &path, &format!("set {expected} expected"))),
+            let (ordinal, made) = match next(&mut frames, &path)? {
+                Record::Set(set) => (set.ordinal, set.made),
+                Record::FullSet(set) => (set.ordinal, Ok(set.made.0)),
+                Record::Beginning(_) | Record::End(_) => {
+                    return Err(damaged(&frames, &path, &format!("set {expected} expected")));
+                }
+            };
+            if ordinal != expected {
+                let why = format!("set {ordinal} found, {expected} expected");
+                return Err(damaged(&frames, &path, &why));
+            }
+            let increment = made.as_ref().ok();
+            let complaint = increment.and_then(|made| sound.complaint(strategy as u32, made, 0));
+            if let Some(complaint) = complaint {
+                return Err(damaged(&frames, &path, &format!("set {expected}: {complaint}")));
             }
             let payload = frames.payload();
             let length = payload.len() as u64;

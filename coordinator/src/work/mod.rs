@@ -28,6 +28,7 @@ mod ended;
 mod growth;
 mod interrupt;
 mod recorded;
+mod stops;
 mod verification;
 mod watch;
 mod workers;

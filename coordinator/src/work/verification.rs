@@ -1,5 +1,6 @@
 use super::difference;
 use super::interrupt::Interrupt;
+use super::stops::Standing;
 use super::workers::{Kind, Workers, start};
 use crate::exit::{Code, Failure};
 use crate::run::ledger::{Chapter, Judged, job_name};
@@ -109,7 +110,12 @@ impl Verification {
             counts: (0, 0),
         };
         let (sets, judgements) = match &workers.kind {
-            Kind::Threads => check.run(&mut Threads::new(setup.clone(), workers.count))?,
+            Kind::Threads => {
+                let threads = Threads::start(setup.clone(), workers.count).map_err(|error| {
+                    Failure::system(format!("cannot start the threads: {error}"))
+                })?;
+                check.run(&mut { threads })?
+            }
             Kind::Processes(program) => {
                 let mut dispatcher =
                     start(&setup, workers.count, program.as_ref()).map_err(Failure::system)?;
@@ -217,13 +223,16 @@ struct Check<'a> {
 impl Check<'_> {
     fn run(mut self, executor: &mut impl Executor) -> Result<(u64, u64), Failure> {
         let mut replay = Replay::new(self.scan, &self.setup.problem)?;
+        // The problem of the chapter in which the build was judged last, and what was said.
         let mut judge: Option<(usize, Setup)> = None;
+        let mut verdicts = Vec::new();
         let space = &self.setup.cx.space;
         // For the judgements; sets are recomputed by those who have a roadmap of their own.
         let mut roadmap = self.choice.has_judgements().then(|| Roadmap::new(space));
         while let Some(told) = replay.read()? {
             match told {
                 Told::Round(round, digest) => {
+                    verdicts.clear();
                     let chapter = replay.chapter();
                     for set in &round.sets {
                         executor.publish(&set.increment);
@@ -239,17 +248,28 @@ impl Check<'_> {
                         roadmap.fold_round(space, round.parts());
                     }
                 }
-                Told::Judged(judged) if self.choice.has_judgement(judged.round) => {
-                    let chapter = replay.chapter();
-                    if judge.as_ref().is_none_or(|(known, _)| *known != chapter) {
-                        let problem = self.scan.problem_of(chapter)?;
-                        judge = Some((chapter, Setup::new(problem)));
+                Told::Judged(judged) => {
+                    if self.choice.has_judgement(judged.round) {
+                        let chapter = self.chapter(replay.chapter(), &mut judge)?;
+                        if let Some(roadmap) = &roadmap {
+                            self.judge(&judged, chapter, replay.chapter(), roadmap)?;
+                        }
                     }
-                    if let (Some((_, judge)), Some(roadmap)) = (&judge, &roadmap) {
-                        self.judge(&judged, judge, chapter, roadmap)?;
+                    verdicts = judged.verdicts;
+                }
+                Told::Stopped(stopped) => {
+                    if let (Choice::All, Some(roadmap)) = (&self.choice, &roadmap) {
+                        needs_bits("the stop", &self.scan.chapters[replay.chapter()])?;
+                        let setup = self.chapter(replay.chapter(), &mut judge)?;
+                        let (plan, last_round) = (replay.plan(), replay.last_round());
+                        let standing =
+                            Standing { setup, plan, last_round, verdicts: &verdicts, roadmap };
+                        if let Some(what) = standing.difference(&stopped) {
+                            let places = last_round.map_or(0, |end| end.sets);
+                            self.note((places, 1), what);
+                        }
                     }
                 }
-                Told::Judged(_) => {}
             }
             if self.difference.is_some() {
                 break;
@@ -268,6 +288,24 @@ impl Check<'_> {
             }
             (None, _) => Ok(self.counts),
         }
+    }
+
+    /// The problem of a chapter, made ready for work if that was not done.
+    fn chapter<'b>(
+        &self,
+        chapter: usize,
+        known: &'b mut Option<(usize, Setup)>,
+    ) -> Result<&'b Setup, Failure> {
+        if let Some((index, _)) = known
+            && *index != chapter
+        {
+            *known = None;
+        }
+        let (_, setup) = match known {
+            Some(known) => known,
+            None => known.insert((chapter, Setup::new(self.scan.problem_of(chapter)?))),
+        };
+        Ok(setup)
     }
 
     /// Has a set recomputed if it is chosen.

@@ -1,10 +1,14 @@
 use super::reader::LedgerReader;
-use super::record::{FullSet, Judged, Record, Set, read_by};
+use super::record::{FullSet, Judged, Record, RoundEnd, Set, read_by};
 use super::scan::Scan;
+use super::stopped::Stopped;
 use crate::exit::Failure;
+use crate::output::Plain;
+use crate::run::soundness::{SetCheck, verdicts_complaint};
 use roadmill::img::{Plan, Round, RoundSet};
 use roadmill::problem::Problem;
-use roadmill::roadmap::{Digest, SetForm, Tally};
+use roadmill::roadmap::{Digest, Tally};
+use roadmill::space::Space;
 use std::sync::Arc;
 
 /// What a ledger tells of a build, in order.
@@ -13,6 +17,8 @@ pub enum Told {
     Round(Round, Digest),
     /// The last round was judged.
     Judged(Judged),
+    /// The build stopped.
+    Stopped(Stopped),
 }
 
 /// Reads the rounds of a scanned ledger again, with their sets.
@@ -25,11 +31,14 @@ pub struct Replay<'a> {
     place: u64,
     nodes: u64,
     round: u64,
-    form: SetForm,
+    space: Space,
+    sound: SetCheck,
     chapters: usize,
     /// Digest and nodes of the roadmap at the start of the round.
     roadmap: Digest,
     folded: u64,
+    /// The end of the last round, as it is recorded.
+    end: Option<RoundEnd>,
 }
 
 impl<'a> Replay<'a> {
@@ -40,7 +49,8 @@ impl<'a> Replay<'a> {
     pub fn new(scan: &'a Scan, problem: &'a Problem) -> Result<Replay<'a>, Failure> {
         let reader = LedgerReader::open(scan.folder())?;
         let plan = Plan::new(problem);
-        let roadmap = Tally::new(&problem.space()).digest();
+        let space = problem.space();
+        let roadmap = Tally::new(&space).digest();
         Ok(Replay {
             reader,
             scan,
@@ -49,14 +59,16 @@ impl<'a> Replay<'a> {
             place: 0,
             nodes: 0,
             round: 0,
-            form: SetForm::of(problem.model.description()),
+            space,
+            sound: SetCheck::new(problem),
             chapters: 0,
             roadmap,
             folded: 0,
+            end: None,
         })
     }
 
-    /// The next round or judgement, up to the scan's end.
+    /// The next round, judgement or stop, up to the scan's end.
     ///
     /// # Errors
     /// Exit code 4: a record is damaged, or a set that cannot be.
@@ -77,14 +89,21 @@ impl<'a> Replay<'a> {
                     }
                     let index = self.round;
                     self.round += 1;
-                    (self.roadmap, self.folded) = (end.roadmap, end.nodes);
+                    let roadmap = end.roadmap;
+                    (self.roadmap, self.folded) = (roadmap, end.nodes);
+                    self.end = Some(end);
                     let round = Round { index, sets };
                     self.plan.observe(&round);
-                    return Ok(Some(Told::Round(round, end.roadmap)));
+                    return Ok(Some(Told::Round(round, roadmap)));
                 }
-                Some(Record::Judged(judged)) => return Ok(Some(Told::Judged(judged))),
+                Some(Record::Judged(judged)) => {
+                    if let Some(complaint) = verdicts_complaint(&self.space, &judged.verdicts) {
+                        return Err(self.reader.wrong(complaint));
+                    }
+                    return Ok(Some(Told::Judged(judged)));
+                }
                 Some(Record::Chapter(_) | Record::SecondChapter(_)) => self.chapters += 1,
-                Some(Record::Stopped(_)) => {}
+                Some(Record::Stopped(stopped)) => return Ok(Some(Told::Stopped(stopped))),
                 None => break,
             }
         }
@@ -96,15 +115,36 @@ impl<'a> Replay<'a> {
         self.chapters.saturating_sub(1)
     }
 
-    /// Checks that the last round has given the roadmap that comes to this.
+    /// The end of the last round that was told, as it is recorded; `None` before the first.
+    pub fn last_round(&self) -> Option<&RoundEnd> {
+        self.end.as_ref()
+    }
+
+    /// How the build stands by the rounds told so far: which set stands at which place from here on.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Checks that the last round has given the roadmap that comes to this, in its digest and its counts.
     ///
     /// # Errors
     /// Exit code 4: it has not.
     pub fn check(&self, tally: &Tally, told: Digest) -> Result<(), Failure> {
-        if tally.digest() == told {
-            Ok(())
-        } else {
-            Err(self.reader.wrong("the roadmap's digest differs"))
+        if tally.digest() != told {
+            return Err(self.reader.wrong("the roadmap's digest differs"));
+        }
+        let Some(end) = &self.end else { return Ok(()) };
+        let counts = [
+            ("sets", end.sets, tally.sets()),
+            ("nodes", end.nodes, tally.nodes() as u64),
+            ("edges", end.edges, tally.edges() as u64),
+            ("components", end.components, tally.components() as u64),
+        ];
+        match counts.iter().find(|(_, recorded, counted)| recorded != counted) {
+            None => Ok(()),
+            Some((what, recorded, counted)) => {
+                Err(self.reader.wrong(&format!("{recorded} {what} recorded, {counted} counted")))
+            }
         }
     }
 
@@ -116,25 +156,25 @@ impl<'a> Replay<'a> {
         let strategy_of = &self.problem.strategies[strategy as usize];
         let label = &strategy_of.label;
         if (set.place, &set.label, set.ordinal) != (self.place, label, ordinal) {
-            let found = format!("set {}:{} at place {}", set.label, set.ordinal, set.place);
-            let expected = format!("{label}:{ordinal} at place {}", self.place);
+            let found_label = Plain(&set.label);
+            let found = format!("set {found_label}:{} at place {}", set.ordinal, set.place);
+            let expected = format!("{}:{ordinal} at place {}", Plain(label), self.place);
             return Err(self.reader.wrong(&format!("{found} found, {expected} expected")));
         }
         let grows = strategy_of.generator.grows();
         if read != read_by(&strategy_of.generator, self.roadmap) {
             return Err(self.reader.wrong("not the roadmap that the set was made from"));
         }
-        self.nodes += set.increment.configs.len() as u64;
-        let joins = &set.joined.edges;
-        let sound = self.nodes < u64::from(u32::MAX)
-            && set.increment.is_sound(self.form, if grows { self.folded } else { 0 })
-            && joins.iter().all(|edge| {
-                edge.low < edge.high
-                    && u64::from(edge.high) < self.nodes
-                    && self.form.has_cost(edge)
-            });
-        if !sound {
-            return Err(self.reader.wrong("a set that cannot be"));
+        let (before, own) = (self.nodes, set.increment.configs.len() as u64);
+        let roots = if grows { self.folded } else { 0 };
+        let complaint = self.sound.complaint(strategy, &set.increment, roots);
+        let complaint = complaint.or_else(|| self.sound.joins_complaint(&set.joined, before, own));
+        self.nodes += own;
+        if let Some(complaint) = complaint {
+            return Err(self.reader.wrong(&format!("a set that cannot be: {complaint}")));
+        }
+        if self.nodes >= u64::from(u32::MAX) {
+            return Err(self.reader.wrong("more nodes than there are ids"));
         }
         self.place += 1;
         let Set { place, increment, joined, .. } = set;

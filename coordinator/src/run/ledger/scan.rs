@@ -3,6 +3,8 @@ use super::reader::LedgerReader;
 use super::record::{Chapter, Judged, Record, RoundEnd, SecondChapter, is_set};
 use super::stopped::Stopped;
 use crate::exit::{Code, Failure};
+use crate::output::Plain;
+use crate::run::soundness::{problem_complaint, verdicts_complaint};
 use roadmill::BITS_VERSION;
 use roadmill::evaluate::Verdict;
 use roadmill::internal::wire;
@@ -100,7 +102,8 @@ impl Scan {
                 self.verdicts = None;
             }
             Record::RoundEnd(end) if end.round == self.rounds() && sets > 0 => {
-                if end.sets != self.last_round.as_ref().map_or(0, |last| last.sets) + sets {
+                let before = self.last_round.as_ref().map_or(0, |last| last.sets);
+                if Some(end.sets) != before.checked_add(sets) {
                     return Err(format!("{} sets found, {sets} in this round", end.sets));
                 }
                 self.last_round = Some(end);
@@ -143,7 +146,15 @@ impl Scan {
     /// # Errors
     /// Exit code 4: another version of the program wrote it, in another layout.
     pub fn problem(&self) -> Result<Problem, Failure> {
-        self.problem_of(self.chapters.len() - 1)
+        let problem = self.problem_of(self.chapters.len() - 1)?;
+        match verdicts_complaint(&problem.space(), &self.last_verdicts) {
+            None => Ok(problem),
+            Some(complaint) => {
+                let run = self.folder.display();
+                let message = format!("{run}: the last judgement has {complaint}");
+                Err(Failure::new(Code::BrokenRun, message))
+            }
+        }
     }
 
     /// The problem as it was in a chapter.
@@ -154,7 +165,7 @@ impl Scan {
         let chapter = &self.chapters[chapter];
         let unreadable = |why: &str| {
             let (run, known, wrote) =
-                (self.folder.display(), env!("CARGO_PKG_VERSION"), &chapter.program);
+                (self.folder.display(), env!("CARGO_PKG_VERSION"), Plain(&chapter.program));
             Failure::new(
                 Code::BrokenRun,
                 format!(
@@ -163,8 +174,8 @@ impl Scan {
             )
         };
         let problem = chapter.decode().map_err(|error| unreadable(&error.to_string()))?;
-        if !problem.schedule_is_sound() {
-            return Err(unreadable("a schedule that cannot be"));
+        if let Some(complaint) = problem_complaint(chapter, &problem) {
+            return Err(unreadable(&complaint));
         }
         // Of other bits the digest may be another.
         if chapter.bits_version == BITS_VERSION && problem.digest() != chapter.problem_digest {
