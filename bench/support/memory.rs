@@ -30,12 +30,13 @@ fn command(pid: u32) -> Vec<u8> {
     fs::read(format!("/proc/{pid}/cmdline")).unwrap_or_default()
 }
 
-/// The files of a coordinator's shared memory.
+/// The files of a coordinator's shared memory, which are in a folder of its own.
 fn shared_files(pid: u32) -> Vec<Metadata> {
     let entries = fs::read_dir("/dev/shm").into_iter().flatten().flatten();
     let prefix = format!("roadmill-{pid}-");
     let own = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(&prefix));
-    own.filter_map(|entry| entry.metadata().ok()).collect()
+    let files = own.flat_map(|folder| fs::read_dir(folder.path()).into_iter().flatten().flatten());
+    files.filter_map(|file| file.metadata().ok()).filter(Metadata::is_file).collect()
 }
 
 /// The proportional set size of a process without those files; 0 where it has ended. Files that have lost
