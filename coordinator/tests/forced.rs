@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 use std::thread;
 use std::time::Duration;
-use support::{ENDLESS, Random, Scratch, children, wait_until};
+use support::{ENDLESS, Random, Scratch, children, trials, wait_until};
 
 /// The same with another seed.
 fn other() -> String {
@@ -97,7 +97,7 @@ fn a_run_replaces_another_and_leaves_nothing_beside_it() {
 #[test]
 fn builds_that_replace_a_run_at_once_are_kept_apart() {
     let scratch = scratch();
-    for round in 0..10 {
+    for round in 0..trials(8) {
         let running: Vec<_> =
             (0..3).map(|_| scratch.start(&[&FORCE[..], &["1"]].concat())).collect();
         let codes: Vec<_> =
@@ -134,7 +134,7 @@ fn a_kill_at_any_moment_leaves_a_whole_run_at_the_path() {
     let scratch = scratch();
     let mut random = Random::new(0xf0);
     let mut replaced = 0;
-    for _ in 0..20 {
+    for _ in 0..trials(15) {
         let before = seed_of(&scratch.path("runs/run"));
         let seed = before + 1;
         let text = seed.to_string();
@@ -160,7 +160,7 @@ fn a_kill_at_any_moment_leaves_a_whole_run_at_the_path() {
         assert!([0, 2].contains(&next.status.code().unwrap_or(-1)), "{}", next.stderr);
         assert_eq!(beside(&scratch), [""; 0], "the next command tidies up");
     }
-    eprintln!("{replaced} of 20 replaced");
+    eprintln!("{replaced} of {} replaced", trials(15));
     settle(&scratch);
 }
 
@@ -170,8 +170,8 @@ fn a_build_killed_while_it_starts_goes_on_at_once() {
     let scratch = Scratch::new();
     scratch.write("old.toml", ENDLESS);
     let mut random = Random::new(0x57);
-    let mut resumed = 0;
-    for number in 0..10 {
+    let mut resumed = 0usize;
+    for number in 0..trials(8) {
         let run = format!("run{number}");
         let running = scratch.start(&["build", "old.toml", "--out", &run, "--workers", "4"]);
         let wanted = 1 + random.below(4);
@@ -186,6 +186,6 @@ fn a_build_killed_while_it_starts_goes_on_at_once() {
         scratch.run(&resume).assert_code(0);
         resumed += 1;
     }
-    assert_eq!(resumed, 10);
+    assert_eq!(resumed, trials(8));
     settle(&scratch);
 }

@@ -9,7 +9,7 @@ use by_hand::{Fields, SETS, file_of, frames, frames_behind, ledger_of, seal, set
 use rustix::fs::{CWD, Mode, mkfifoat};
 use std::fs;
 use std::sync::OnceLock;
-use support::{Random, Scratch};
+use support::{Random, Scratch, trials};
 
 /// Bodies that turn, two strategies, a judgement after each round.
 const SMALL: &str = r#"
@@ -235,7 +235,7 @@ fn a_forged_problem_of_other_bits_ends_as_problem_files_do() {
     let end = genuine[0].len();
     let mut random = Random::new(0x6f72);
     let mut codes = std::collections::BTreeMap::new();
-    for number in 0..60 {
+    for number in 0..trials(40) {
         let mut payloads = genuine.clone();
         put(&mut payloads[0], bits, &1u32.to_le_bytes());
         for _ in 0..1 + random.below(3) {
@@ -268,7 +268,7 @@ fn records_of_any_bytes_end_with_a_code() {
     let scratch = Scratch::new();
     let genuine = small();
     let mut random = Random::new(0x616e79);
-    for number in 0..60 {
+    for number in 0..trials(40) {
         let mut payloads = genuine.clone();
         for _ in 0..1 + random.below(3) {
             let record = random.below(payloads.len());

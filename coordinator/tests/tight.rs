@@ -3,7 +3,7 @@
 mod support;
 
 use std::process::Command;
-use support::{Done, ENDLESS, Random, Scratch};
+use support::{Done, ENDLESS, Random, Scratch, trials};
 
 /// Becomes root of a user namespace with mounts of its own.
 const UNSHARE: [&str; 4] = ["unshare", "--user", "--map-root-user", "--mount"];
@@ -75,7 +75,7 @@ fn a_small_shared_memory_suffices_or_is_refused() {
         run(&scratch, &script)
     };
     // As much as containers get by default; and hardly more than the program says that it needs.
-    for (size, run_folder, workers) in [("64m", "docker", 8), ("3600k", "just", 2)] {
+    for (size, run_folder, workers) in [("64m", "docker", 8), ("5400k", "just", 2)] {
         build(size, run_folder, workers).assert_code(0);
         assert_eq!(scratch.summary(run_folder).digest, digest, "{size}");
     }
@@ -96,7 +96,7 @@ fn shared_memory_that_fills_up_at_any_moment_ends_nothing_without_a_word() {
     let digest = scratch.undisturbed_digest(200);
     let mut random = Random::new(0xf111);
     let mut clean = 0;
-    for number in 0..8 {
+    for number in 0..trials(5) {
         let (run_folder, pause) = (format!("run{number}"), random.below(400));
         let workers = 1 + random.below(4);
         let script = format!(
@@ -134,7 +134,7 @@ fn shared_memory_that_fills_up_at_any_moment_ends_nothing_without_a_word() {
             assert_eq!(scratch.summary(&run_folder).digest, digest);
         }
     }
-    eprintln!("{clean} of 8 came to their end in one go");
+    eprintln!("{clean} of {} came to their end in one go", trials(5));
 }
 
 #[test]

@@ -68,6 +68,12 @@ pub fn wait_until(what: &str, mut is_true: impl FnMut() -> bool) {
     }
 }
 
+/// How often a test tries what depends on chance: `ROADMILL_TRIALS` says so for a longer run.
+pub fn trials(usual: usize) -> usize {
+    let asked = std::env::var("ROADMILL_TRIALS").ok();
+    asked.map_or(usual, |number| number.parse().expect("a number of trials"))
+}
+
 /// A fixed pseudo-random sequence (xorshift), so that every run of a test does the same.
 pub struct Random(u64);
 

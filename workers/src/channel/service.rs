@@ -50,6 +50,11 @@ fn clients_max(workers_max: usize) -> usize {
     2 * workers_max + 8
 }
 
+/// Chunks of the hub's: an answer for each worker, and two at hand.
+fn response_chunks(workers_max: usize) -> usize {
+    clients_max(workers_max) + 2
+}
+
 /// How many workers a service was made for.
 pub(super) fn workers_max(service: &RunService) -> usize {
     service.static_config().max_clients().saturating_sub(8) / 2
@@ -109,7 +114,7 @@ pub(super) fn create_service(
         .initial_max_slice_len(CHUNK_BYTES)
         .allocation_strategy(AllocationStrategy::Static)
         // a worker has one answer at most, and gives it back before it asks again
-        .override_response_preallocation(move |_| clients_max + 2)
+        .override_response_preallocation(move |_| response_chunks(workers_max))
         .max_loaned_responses_per_request(2)
         .backpressure_strategy(BackpressureStrategy::DiscardData)
         .create()
@@ -228,11 +233,16 @@ pub(super) fn check_free_space(workers_max: usize) -> Result<(), ChannelError> {
     Ok(())
 }
 
-/// Shared memory that the channel may come to need.
-pub(super) fn needed_bytes(workers_max: usize) -> u64 {
-    let chunks_per_worker = REQUEST_CHUNKS as u64 + 1;
-    let per_worker = chunks_per_worker * CHUNK_BYTES as u64 + OVERHEAD_BYTES_PER_WORKER;
-    OVERHEAD_BYTES + workers_max as u64 * per_worker
+/// Shared memory that the channel takes.
+fn needed_bytes(workers_max: usize) -> u64 {
+    let hub = response_chunks(workers_max) as u64 * CHUNK_BYTES as u64;
+    OVERHEAD_BYTES + hub + workers_bytes(workers_max)
+}
+
+/// Of it, what is taken only as workers come: everybody else has to leave it free.
+pub(super) fn workers_bytes(workers_max: usize) -> u64 {
+    let per_worker = REQUEST_CHUNKS as u64 * CHUNK_BYTES as u64 + OVERHEAD_BYTES_PER_WORKER;
+    workers_max as u64 * per_worker
 }
 
 /// Shared memory that nobody has taken.

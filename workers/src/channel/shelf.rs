@@ -10,7 +10,7 @@ use roadmill::internal::shelf::{Block, BlockName, Claim, Shelf};
 use rustix::fs::{AtFlags, CWD, FallocateFlags, FlockOperation, Mode, OFlags};
 
 use super::run_folder::memory_folder;
-use super::service::{free_bytes, needed_bytes};
+use super::service::{free_bytes, workers_bytes};
 use super::shared_files::open_private;
 
 /// Locked by the worker that makes what is dear to make.
@@ -31,7 +31,7 @@ impl SharedShelf {
     /// That of the run in `folder`, whose channel was made for so many workers.
     pub fn open(folder: &Path, workers_max: usize) -> SharedShelf {
         let folder = memory_folder(folder);
-        SharedShelf { folder, spare_bytes: 2 * needed_bytes(workers_max) }
+        SharedShelf { folder, spare_bytes: 2 * workers_bytes(workers_max) }
     }
 
     fn path(&self, name: impl std::fmt::Display) -> Option<PathBuf> {

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use rustix::fs::OFlags;
 
 use super::run_folder::memory_folder;
-use super::service::{free_bytes, needed_bytes};
+use super::service::{free_bytes, workers_bytes};
 use super::shared_files::open_private;
 
 const NAME: &str = "store";
@@ -37,7 +37,7 @@ impl Store {
     pub(super) fn create(folder: &Path, workers_max: usize) -> Store {
         let flags = OFlags::RDWR | OFlags::CREATE | OFlags::EXCL;
         let file = path(folder).and_then(|path| open_private(&path, flags).ok());
-        let spare_bytes = needed_bytes(workers_max);
+        let spare_bytes = workers_bytes(workers_max);
         Store { file, bytes: Arc::default(), spare_bytes, granted_bytes: 0 }
     }
 
