@@ -290,7 +290,7 @@ impl SetFiles {
                 }
             };
             if ordinal != expected {
-                let why = format!("set {ordinal} found, {expected} expected");
+                let why = format!("set {expected} expected, {ordinal} found");
                 return Err(damaged(&frames, &path, &why));
             }
             let increment = made.as_ref().ok();

@@ -101,8 +101,8 @@ pub fn problem_complaint(chapter: &Chapter, problem: &Problem) -> Option<String>
         return Some(format!("the {what} of its chapter is not that of the problem in it"));
     }
     let rounds = problem.earlier.iter().try_fold(0u64, |sum, e| sum.checked_add(e.rounds));
-    if rounds != Some(chapter.first_round) {
-        return Some("the rounds before its chapter are not those of its schedules".to_owned());
+    if rounds.is_none_or(|rounds| rounds > chapter.first_round) {
+        return Some("earlier schedules for more rounds than come before its chapter".to_owned());
     }
     if !problem.schedule_is_sound()
         || problem.sets_per_round > SETS_PER_ROUND_MAX

@@ -3,7 +3,7 @@
 use crate::run::Stopped;
 use crate::run::ledger::RoundEnd;
 use roadmill::evaluate::Verdict;
-use roadmill::img::{Plan, Setup, Stop};
+use roadmill::img::{Setup, Stop};
 use roadmill::model::Scratch;
 use roadmill::problem::Problem;
 use roadmill::roadmap::Roadmap;
@@ -23,8 +23,6 @@ const CAUSED_FROM_OUTSIDE: [&str; 7] = [
 pub(super) struct Standing<'a> {
     /// The problem as it then was, made ready for work.
     pub setup: &'a Setup,
-    /// Which set stands at which place.
-    pub plan: &'a Plan,
     /// The last round, if there was any.
     pub last_round: Option<&'a RoundEnd>,
     /// The verdicts on it, as recorded.
@@ -67,19 +65,17 @@ impl Standing<'_> {
     /// Generates the set again of which it is recorded that its generator gave up.
     fn gave_up(&self, stopped: &Stopped) -> Option<String> {
         let Setup { problem, cx, .. } = self.setup;
-        let round = self.last_round.map_or(0, |end| end.round + 1);
-        let named = self.plan.places_of(round).find_map(|place| {
-            let (strategy, ordinal) = self.plan.set_at(place)?;
-            let label = &problem.strategies[strategy as usize].label;
-            let name = format!("set {label}:{ordinal}: ");
-            stopped.reason.starts_with(&name).then_some((strategy, ordinal, name))
+        let named = problem.strategies.iter().find_map(|strategy| {
+            let start = format!("set {}:", strategy.label);
+            let (ordinal, _) = stopped.reason.strip_prefix(&start)?.split_once(": ")?;
+            let name = format!("{start}{ordinal}: ");
+            Some((strategy, ordinal.parse::<u64>().ok()?, name))
         });
         let Some((strategy, ordinal, name)) = named else {
-            return Some(differ(&stopped.reason, "no set of the next round"));
+            return Some(differ(&stopped.reason, "no set of the problem"));
         };
-        let method = &problem.strategies[strategy as usize];
-        let roadmap = method.generator.grows().then_some(self.roadmap);
-        match method.generate(cx, ordinal, roadmap, &mut Scratch::new()) {
+        let roadmap = strategy.generator.grows().then_some(self.roadmap);
+        match strategy.generate(cx, ordinal, roadmap, &mut Scratch::new()) {
             Err(gave_up) if stopped.reason == format!("{name}{gave_up}") => None,
             Err(gave_up) => Some(differ(&stopped.reason, &format!("{name}{gave_up}"))),
             Ok(_) => Some(differ(&stopped.reason, &format!("{name}it can be made"))),

@@ -261,9 +261,8 @@ impl Check<'_> {
                     if let (Choice::All, Some(roadmap)) = (&self.choice, &roadmap) {
                         needs_bits("the stop", &self.scan.chapters[replay.chapter()])?;
                         let setup = self.chapter(replay.chapter(), &mut judge)?;
-                        let (plan, last_round) = (replay.plan(), replay.last_round());
-                        let standing =
-                            Standing { setup, plan, last_round, verdicts: &verdicts, roadmap };
+                        let last_round = replay.last_round();
+                        let standing = Standing { setup, last_round, verdicts: &verdicts, roadmap };
                         if let Some(what) = standing.difference(&stopped) {
                             let places = last_round.map_or(0, |end| end.sets);
                             self.note((places, 1), what);

@@ -120,11 +120,6 @@ impl<'a> Replay<'a> {
         self.end.as_ref()
     }
 
-    /// How the build stands by the rounds told so far: which set stands at which place from here on.
-    pub fn plan(&self) -> &Plan {
-        &self.plan
-    }
-
     /// Checks that the last round has given the roadmap that comes to this, in its digest and its counts.
     ///
     /// # Errors
