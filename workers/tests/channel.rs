@@ -171,7 +171,13 @@ fn shared_memory_of(directory: &Path) -> Vec<PathBuf> {
     let run = run.to_str().expect("the name is text");
     let entries = fs::read_dir("/dev/shm").expect("there is shared memory");
     let paths = entries.flatten().map(|entry| entry.path());
-    paths.filter(|path| path.to_string_lossy().contains(run)).collect()
+    let folders = paths.filter(|path| path.to_string_lossy().contains(run));
+    let with_files = |folder: PathBuf| {
+        let files = fs::read_dir(&folder).into_iter().flatten().flatten();
+        let files: Vec<PathBuf> = files.map(|file| file.path()).collect();
+        files.into_iter().chain([folder])
+    };
+    folders.flat_map(with_files).collect()
 }
 
 fn assert_nothing_left(directory: &Path) {
