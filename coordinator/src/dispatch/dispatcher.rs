@@ -14,6 +14,12 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
 use std::time::{Duration, Instant};
 
+/// So many workers may be lost one after the other before their first message. Others are then started only now and
+/// then: where memory or processes have run short, those that are there go on alone.
+const STILLBORN_MAX: usize = 3;
+/// Between two times that a worker is started where others did not come to their first message.
+const HIRE_PAUSE: Duration = Duration::from_secs(5);
+
 /// How far the conversation with a worker has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum WorkerPhase {
@@ -53,6 +59,10 @@ pub struct Dispatcher<C> {
     fruitless_losses: usize,
     /// Whether any worker ever sent its first message.
     was_greeted: bool,
+    /// Workers lost before their first message since one was last sent.
+    stillborn: usize,
+    /// When a missing worker may be started.
+    next_hire: Instant,
     roster: Roster,
     /// Workers whose last message has not been answered.
     asking: BTreeSet<WorkerId>,
@@ -83,6 +93,8 @@ impl<C: Crew> Dispatcher<C> {
             workers: BTreeMap::new(),
             fruitless_losses: 0,
             was_greeted: false,
+            stillborn: 0,
+            next_hire: Instant::now(),
             roster: Roster::default(),
             asking: BTreeSet::new(),
             events: VecDeque::new(),
@@ -137,9 +149,8 @@ impl<C: Crew> Dispatcher<C> {
     /// Takes leave of a worker that is lost or must be ended, and starts another in its place. `loss` says
     /// whether the jobs that the worker held may be to blame.
     fn replace(&mut self, id: WorkerId, loss: Loss, why: &str) {
-        if self.workers.remove(&id).is_none() {
-            return;
-        }
+        let Some(lost) = self.workers.remove(&id) else { return };
+        self.stillborn += usize::from(lost.phase == WorkerPhase::Starting);
         let status = self.crew.dismiss(id);
         self.asking.remove(&id);
         let lost = self.roster.dismiss(id, loss);
@@ -160,12 +171,24 @@ impl<C: Crew> Dispatcher<C> {
                  {why}{status}{doubt}",
                 self.fruitless_losses
             ));
-        } else if let Err(error) = self.hire()
+        } else if (self.workers.is_empty() || self.stillborn <= STILLBORN_MAX)
+            && let Err(error) = self.hire()
             && self.workers.is_empty()
         {
             self.fail(format!(
                 "no worker is left and none can be started: {error}; the last: {why}"
             ));
+        }
+        self.next_hire = Instant::now() + HIRE_PAUSE;
+    }
+
+    /// Starts a worker if one is missing and it is time to try again.
+    fn hire_missing(&mut self) {
+        let is_missing = !self.workers.is_empty() && self.workers.len() < self.crew.size();
+        if is_missing && !self.failed && Instant::now() >= self.next_hire {
+            self.next_hire = Instant::now() + HIRE_PAUSE;
+            // If not now, then perhaps later: others are at work.
+            let _ = self.hire();
         }
     }
 
@@ -238,6 +261,7 @@ impl<C: Crew> Dispatcher<C> {
         match (worker.phase, decoded) {
             (WorkerPhase::Starting, FromWorker::Hello { protocol, build }) => {
                 self.was_greeted = true;
+                self.stillborn = 0;
                 if protocol != PROTOCOL {
                     let why = format!(
                         "speaks version {protocol} of the messages and this program version {PROTOCOL}"
@@ -315,6 +339,7 @@ impl<C: Crew> Dispatcher<C> {
 
     fn wait(&mut self, wait: Duration) -> Option<Event> {
         let until = Instant::now() + wait;
+        self.hire_missing();
         loop {
             self.feed(true);
             if let Some(event) = self.events.pop_front() {
