@@ -189,3 +189,30 @@ fn a_build_killed_while_it_starts_goes_on_at_once() {
     assert_eq!(resumed, trials(8));
     settle(&scratch);
 }
+
+/// An import replaces a problem file in one step, too, and tidies up after others that were killed.
+#[test]
+fn an_import_replaces_a_problem_and_what_dead_ones_have_left() {
+    let scratch = Scratch::new();
+    scratch.write("old.toml", ENDLESS);
+    scratch.write("new.toml", &other());
+    let import = |from: &str| {
+        scratch.run(&["import", from, "--out", "out/copy.toml", "--force"]).assert_code(0);
+        let check = scratch.run(&["check", "out/copy.toml"]);
+        let original = scratch.run(&["check", from]);
+        let digest = |done: &support::Done| {
+            let line = done.stdout.lines().find(|line| line.contains("digest"));
+            line.expect("there is a digest").to_owned()
+        };
+        assert_eq!(digest(&check), digest(&original));
+    };
+    fs::create_dir(scratch.path("out")).expect("a folder can be made");
+    import("old.toml");
+    let mut child = std::process::Command::new("true").spawn().expect("it starts");
+    child.wait().expect("it ends");
+    let left = scratch.path(&format!("out/.copy.toml.import-{}", child.id()));
+    fs::create_dir(&left).expect("a folder can be made");
+    fs::write(left.join("copy.toml"), "half").expect("it can be written");
+    import("new.toml");
+    assert_eq!(children(&scratch.path("out")), [scratch.path("out/copy.toml")]);
+}

@@ -58,3 +58,22 @@ fn a_signal_before_the_first_round_ends_a_build() {
     build.finish().assert_code(6);
     assert_eq!(scratch.summary("run").stop, "interrupted");
 }
+
+/// A set of a million nodes takes far longer than anybody waits.
+#[test]
+fn a_signal_ends_generate_within_a_set_and_leaves_nothing() {
+    let scratch = Scratch::new();
+    let large = ENDLESS.replace("nodes = 12", "nodes = 1000000");
+    assert_ne!(large, ENDLESS);
+    scratch.write("large.toml", &large);
+    std::fs::create_dir(scratch.path("parts")).expect("a folder can be made");
+    let generate = ["generate", "large.toml", "--sets", "a:0..4", "--out", "parts/a.sets"];
+    let running = scratch.start(&[&generate[..], &["--threads", "2"]].concat());
+    wait_until("the file", || !support::children(&scratch.path("parts")).is_empty());
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    running.signal(Signal::INT);
+    let done = running.finish();
+    done.assert_code(6);
+    done.assert_stderr(&["a signal came; nothing is written"]);
+    assert!(support::children(&scratch.path("parts")).is_empty());
+}
