@@ -82,7 +82,7 @@ impl SetCheck {
 pub fn verdicts_complaint(space: &Space, verdicts: &[Verdict]) -> Option<&'static str> {
     verdicts.iter().find_map(|verdict| {
         let path = verdict.answer.as_ref().and_then(|answer| answer.path.as_ref());
-        if path.is_some_and(|path| !are_in(space, &path.configs) || path.configs.is_empty()) {
+        if path.is_some_and(|path| !is_path_in(space, &path.configs)) {
             return Some("a path that is not in the space");
         }
         counts_complaint(verdict.asked).or_else(|| verdicts_complaint(space, &verdict.parts))
@@ -167,6 +167,25 @@ fn can_be(edge: &Edge) -> bool {
 
 fn are_in(space: &Space, configs: &Configs) -> bool {
     configs.is_sound(space.len()) && configs.iter().all(|q| is_in(space, q))
+}
+
+/// Whether the configurations of a path are in the space. Between nodes they need not have the form of those.
+fn is_path_in(space: &Space, configs: &Configs) -> bool {
+    let is_in = |q: &[f64]| {
+        space.factors().iter().all(|factor| match factor.kind {
+            FactorKind::Real { min, max } => {
+                let slack = SLACK * (1.0 + min.abs() + max.abs());
+                (min - slack..=max + slack).contains(&q[factor.at])
+            }
+            FactorKind::Angle => q[factor.at].abs() <= 2.0 * PI,
+            FactorKind::Rotation => {
+                let quaternion = &q[factor.at..factor.at + 4];
+                let square: f64 = quaternion.iter().map(|value| value * value).sum();
+                (square - 1.0).abs() <= 1e-6
+            }
+        })
+    };
+    !configs.is_empty() && configs.is_sound(space.len()) && configs.iter().all(is_in)
 }
 
 /// Whether a configuration has finite values within the bounds and the form in which configurations are stored.
