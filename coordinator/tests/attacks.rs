@@ -42,7 +42,8 @@ fn attack() {
     while Instant::now() < end && getppid() == parent {
         for path in children(Path::new("/dev/shm")) {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            if !name.starts_with("roadmill-") {
+            // Its own files have names with a dash below.
+            if !name.starts_with("roadmill-") || name.contains('_') {
                 continue;
             }
             let mut touched = children(&path);
@@ -61,9 +62,7 @@ fn attack() {
                     if plant(&inside) {
                         println!("made {}", inside.display());
                     }
-                    if !name.contains('_') {
-                        plant(&beside);
-                    }
+                    plant(&beside);
                 }
             }
         }
