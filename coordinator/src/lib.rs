@@ -44,7 +44,9 @@ pub fn main() -> ExitCode {
             Code::Usage
         }
     };
-    let code = output::lost().map_or(code, say_failure);
+    let lost = output::lost().map(say_failure);
+    // What is no success already, as a signal that came with the end of the terminal, keeps its code.
+    let code = if code == Code::Done { lost.unwrap_or(code) } else { code };
     ExitCode::from(code as u8)
 }
 

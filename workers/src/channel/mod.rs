@@ -63,7 +63,8 @@ pub use shelf::SharedShelf;
 pub use store::{Store, StoreReader};
 
 /// Bytes of a message that travel at once. Throughput hardly changes from 128 KiB on, and with this
-/// the channel of 64 workers, all of whose memory is taken at once, still fits into 64 MB, the `/dev/shm` that containers often get.
+/// the channel of 64 workers, whose memory is taken at the start, still fits into 64 MB, the `/dev/shm` that
+/// containers often get.
 pub const CHUNK_BYTES: usize = 128 << 10;
 
 /// Makes every file that this process creates from now on accessible to its own user only.
