@@ -260,8 +260,8 @@ fn a_problem_that_no_file_could_give_is_refused_with_the_reason() {
     };
     type Change = fn(&mut Problem);
     let landscape = |tolerance: f64| Landscape {
-        min: [0.0; 2],
-        max: [9.0; 2],
+        min: [-1.5, -0.5],
+        max: [1.2, 2.0],
         energy: Energy::MullerBrown,
         highest: None,
         tolerance,
