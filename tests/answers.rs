@@ -93,11 +93,11 @@ fn few_problems_have_ends_that_see_each_other() {
                 continue;
             }
             let problem = Problem::load(&path).unwrap_or_else(|error| panic!("{error}"));
-            let Some(ends) = &problem.query else { continue };
+            let Some(ends) = problem.query() else { continue };
             let (cx, none) = (problem.context(), Roadmap::new(&problem.space()));
             let ends = (&ends.start[..], &ends.goal[..]);
             let answer = query::solve(&cx, &none, ends, &problem.attachment(), &mut Scratch::new());
-            seeing.extend(answer.path.map(|_| problem.name));
+            seeing.extend(answer.path.map(|_| problem.name().to_owned()));
         }
     }
     seeing.sort();

@@ -258,7 +258,7 @@ fn a_problem_that_no_file_could_give_is_refused_with_the_reason() {
         Ok(Record::Chapter(chapter)) => chapter.decode().expect("it is sound"),
         other => panic!("{other:?}"),
     };
-    let text = "[landscape]\nmin = [-1, -1]\nmax = [1, 1]\nenergy = { muller-brown = {} }\n\
+    let text = "[landscape]\nmin = [-1.5, -0.5]\nmax = [1.2, 2.0]\nenergy = { muller-brown = {} }\n\
         tolerance = 0.123\n";
     let landscape = Problem::parse(Path::new("landscape.toml"), text).expect("it is sound");
     let folder = in_memory();

@@ -1,7 +1,7 @@
 //! A worker as a process of the coordinator's machine: its line is the channel in shared memory, and it ends
 //! with its coordinator.
 
-use crate::channel::{Link, SharedShelf, StoreReader};
+use crate::channel::{SharedShelf, StoreReader, WorkerEnd};
 use crate::error::WorkerError;
 use crate::faults::Faults;
 use crate::id::WorkerId;
@@ -40,7 +40,7 @@ pub fn run(arguments: &WorkerArguments) -> Result<Infallible, WorkerError> {
     tie_to_parent(arguments.coordinator)?;
     beat()?;
     let faults = Faults::read()?;
-    let link = Link::open(&arguments.directory, arguments.worker)?;
+    let link = WorkerEnd::open(&arguments.directory, arguments.worker)?;
     let shared = SharedMemory {
         store: StoreReader::open(&arguments.directory),
         shelf: Arc::new(SharedShelf::open(&arguments.directory, link.workers_max())),
@@ -52,7 +52,7 @@ pub fn run(arguments: &WorkerArguments) -> Result<Infallible, WorkerError> {
 
 /// The line of a worker process.
 struct ProcessLine<'a> {
-    link: Link,
+    link: WorkerEnd,
     coordinator: u32,
     faults: &'a Faults,
 }
@@ -60,7 +60,7 @@ struct ProcessLine<'a> {
 impl ProcessLine<'_> {
     /// The link, and what it asks about once a second while it waits: whether the coordinator still lives. The
     /// kernel should have ended a worker whose coordinator does not; one that it missed ends itself.
-    fn parts(&mut self) -> (&mut Link, impl FnMut() -> bool) {
+    fn parts(&mut self) -> (&mut WorkerEnd, impl FnMut() -> bool) {
         let (coordinator, faults) = (self.coordinator, self.faults);
         let keep_waiting = move || {
             faults.at_wait();

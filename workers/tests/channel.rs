@@ -10,7 +10,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use roadmill_workers::channel::{
-    CHUNK_BYTES, ChannelError, Delivery, Hub, Link, MESSAGE_BYTES_MAX, Received, WorkerId,
+    CHUNK_BYTES, ChannelError, Delivery, Hub, MESSAGE_BYTES_MAX, Received, WorkerEnd, WorkerId,
 };
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
@@ -55,7 +55,7 @@ fn be_a_hub() {
 fn be_a_worker(role: &str) {
     let worker = std::env::var(WORKER).expect("the test names the worker");
     let worker = WorkerId(worker.parse().expect("the name is a number"));
-    let mut link = Link::open(&env_path(DIRECTORY), worker).expect("the link opens");
+    let mut link = WorkerEnd::open(&env_path(DIRECTORY), worker).expect("the link opens");
     let mut echo = |len: usize| {
         let message = pattern(len, worker.0);
         let reply = link.call(&message, &mut || true).expect("the hub answers");
@@ -73,7 +73,7 @@ fn be_a_worker(role: &str) {
 
 /// Sends, works for a while, and only then looks for the reply: a ring that was lost between the looking and
 /// the sleeping would cost a second each time.
-fn work_ahead(link: &mut Link, worker: WorkerId) {
+fn work_ahead(link: &mut WorkerEnd, worker: WorkerId) {
     for i in 0..1000u32 {
         let message =
             pattern(if i % 50 == 0 { CHUNK_BYTES + 1 } else { 9 }, worker.0 + u64::from(i));
@@ -329,7 +329,7 @@ fn two_hubs_side_by_side_do_not_see_each_other() {
 #[test]
 fn files_are_private() {
     let hub = Hub::create(2).expect("the hub opens");
-    let link = Link::open(hub.directory(), WorkerId(1)).expect("the link opens");
+    let link = WorkerEnd::open(hub.directory(), WorkerId(1)).expect("the link opens");
     let mut paths = shared_memory_of(hub.directory());
     assert!(paths.len() > 2);
     paths.push(hub.directory().to_path_buf());
@@ -348,7 +348,7 @@ fn files_are_private() {
 /// Runs `work` with a link of worker 7 on this thread while `serve` has the hub on another.
 fn with_link<T>(
     serve: impl FnOnce(&mut Hub) + Send + 'static,
-    work: impl FnOnce(&mut Link) -> T,
+    work: impl FnOnce(&mut WorkerEnd) -> T,
 ) -> T {
     let (send_directory, directory) = mpsc::channel();
     let (end, ended) = mpsc::channel::<()>();
@@ -360,7 +360,7 @@ fn with_link<T>(
         close(hub);
     });
     let directory = directory.recv().expect("the hub opens");
-    let mut link = Link::open(&directory, WorkerId(7)).expect("the link opens");
+    let mut link = WorkerEnd::open(&directory, WorkerId(7)).expect("the link opens");
     let result = work(&mut link);
     drop(link);
     drop(end);
@@ -424,6 +424,6 @@ fn a_run_that_has_ended_cannot_be_joined() {
     let hub = Hub::create(1).expect("the hub opens");
     let directory = hub.directory().to_path_buf();
     close(hub);
-    let result = Link::open(&directory, WorkerId(1)).map(|_| ());
+    let result = WorkerEnd::open(&directory, WorkerId(1)).map(|_| ());
     assert!(matches!(result, Err(ChannelError::HubGone)), "{result:?}");
 }

@@ -213,12 +213,13 @@ pub(super) mod tests {
         mesh
     }
 
-    /// A block about the origin, somewhere, with the triangles of an octahedron or of a tetrahedron.
+    /// A block about the origin, somewhere, with the triangles of an octahedron or of a tetrahedron, counter-clockwise
+    /// from outside.
     fn drawn_shell(stream: &mut Stream) -> Mesh {
         let mut mesh = octahedron([0.0; 3], 1.0);
         if stream.unit() < 0.5 {
             mesh.vertices.truncate(4);
-            mesh.triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+            mesh.triangles = vec![[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]];
             mesh.vertices[1..].copy_from_slice(&[
                 [-0.7, 0.9, 0.0],
                 [-0.7, -0.9, 0.8],

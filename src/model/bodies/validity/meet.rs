@@ -38,8 +38,10 @@ impl Meeting<'_> {
     /// as seen from the standing one.
     #[inline]
     pub fn between_origins(&self, frame: &Frame) -> Frame {
-        let shift = frame.point(self.mover.tree.origin) - self.still.tree.origin;
-        Frame { turn: frame.turn, shift }
+        let (own, other) = (self.mover.tree.origin, self.still.tree.origin);
+        // Most links have the origin of their frame, which need not be turned.
+        let at = if own == Vector::ZERO { frame.shift } else { frame.point(own) };
+        Frame { turn: frame.turn, shift: at - other }
     }
 
     /// A length greater than what rounding in single precision can add up to where the moving tree's origin is one of

@@ -52,12 +52,14 @@ struct Unit {
 
 /// From this depth on nodes are split into halves of equal length, so that no tree gets much deeper.
 const DEPTH: u32 = 40;
+/// Elements whose middle is as many of their radii from the frame's origin have an origin of their own.
+const FAR_AWAY: f64 = 4.0;
 /// Nodes of more units are split along the axes of their own box only, to save time.
 const LONG: usize = 2000;
 
 impl Tree {
     /// Builds the tree over elements of which those of one body stand together; `None` if there are none. Without an
-    /// origin it is the middle of all elements.
+    /// origin it is that of the frame, as bodies mostly stand about it, or the middle of the elements where these are far away.
     pub fn new(elements: Vec<Element>, origin: Option<Vector>) -> Option<Tree> {
         let mut units: Vec<Unit> = Vec::new();
         for (index, element) in elements.iter().enumerate() {
@@ -81,7 +83,10 @@ impl Tree {
             elements,
         };
         let root = tree.node(&units);
-        let origin = origin.unwrap_or(root.space.centre);
+        let origin = origin.unwrap_or(match root.space {
+            Obb { centre, radius, .. } if centre.length() > FAR_AWAY * radius => centre,
+            _ => Vector::ZERO,
+        });
         tree.nodes.push(root);
         tree.grow(0, &mut units, 0);
         tree.boxes = tree.nodes.iter().map(|node| LightBox::new(&node.space, origin)).collect();

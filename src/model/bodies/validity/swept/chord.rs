@@ -54,6 +54,10 @@ impl Course {
 
     /// From the origin of the moving boxes, and how far they reach from it.
     fn of(rates: Rates, spare: f64, slack: f64, (origin, reach): (Vector, f64)) -> Course {
+        if origin == Vector::ZERO {
+            let grain = grain(reach);
+            return Course { rates, spare, slack, grain, unit: grain, origin: [0.0; 3] };
+        }
         let away = rates.steady.map_or(origin, |steady| steady.axis.cross(origin));
         let unit = grain(reach.max(away.length()));
         let origin = (away / f64::from(unit)).to_array().map(|x| x as f32);
