@@ -13,18 +13,18 @@ use std::sync::Arc;
 /// The digests that each problem of `problems/` has always had. Whoever changes one bumps
 /// `BITS_VERSION`.
 const GOLDEN: [(&str, &str); 12] = [
-    ("adaptive", "bdc3f3d39470e06d7044cd31f2e028c8270dfd849188e2ad160c4e167864ed57"),
+    ("adaptive", "47c69b7eedb39ad8f97cbe55c0771c9143d54d38b914f198d73f2dd5806e7698"),
     ("settled", "e237813a24ad6d78c4dcb301cff52da2071c63d2af6896d9d6e0d33f7ddd62fd"),
-    ("judged", "fc618620ce842cfd14f9926dee68f3c1843f38ad90540cf4700bf7e3fd771de7"),
-    ("arm", "7fcda57408ddceb9c5244707aa39ae6532cb29349ccaae3cdc668ea76019348b"),
-    ("ball", "fdcba62150da799a2386ae77855f8dcb2667de5bfd79aeb81a75f8e26180836e"),
-    ("planar", "e99f59b51e5663e7f3c2be21d92cf23056d5efd9715aebfdf5486ef168b2f4d9"),
+    ("judged", "faedef6a7a14a1df3b42c366b26c17d7eeab044718077417821f9b2f9ecc676c"),
+    ("arm", "2efa2e5af0331a8849bebf9ac9e22b2f5669749ebae1905f666310e6a92bd3f8"),
+    ("ball", "cd3f3287d1d9e3681c81990f7456991685f900279701b4208ed19e4bd8d72e85"),
+    ("planar", "efa4f6d4dbf205a12ac50e660b9c7184a3afc1b7af909dd6826567837e168027"),
     ("meshes", "4f45115a3f95d0d341669f610369659336aad26cbd1858cb67e790d3f10efdeb"),
-    ("slide", "59298bc3e1054a2863cab638c9f60e2d99d1f6d4daddba67d1d059339a8e7e21"),
-    ("sampled", "f331e07eb14dc32f4cb2fc56405afdbeee8b188f62fdb5bdb738f2af9be399cb"),
-    ("axis", "ab7ef1b5f01f4e947daedc713c2dd6bfbd6365f059433d7f78506e2358004d8a"),
-    ("landscape", "3703d6db792be2946d68a7fe050c7d9ef9fbb69270eaa4522b78e6ff18c41347"),
-    ("expansion", "27ce4153d744ee4d71ef4b149b30ab0fa7685de0451d917f6b82ad471dd72887"),
+    ("slide", "1236a756e89276e19101db64a6ee70e99cbe678e5ab6598b58dcc3ab35d5735f"),
+    ("sampled", "cafaae13b7019499f54da8674e8419136745526686c6fd1b1cce9386d94293ed"),
+    ("axis", "9373e425458fd8636d91045c6b1b6ee5a138de3e8c2df540f7ca6271ab5b9729"),
+    ("landscape", "9c3bec9789090a1b24857f03b7ca2a072255d02e4b63f0c0a9cecb256c239085"),
+    ("expansion", "4d0e0bb681474cbc341bb3f195f6996a18a51c2ab5449756370fc6c3a8cd2151"),
 ];
 
 fn problem(name: &str) -> Problem {
