@@ -75,7 +75,7 @@ fn changed(problem: &Problem, with: bool, seed: u64) -> Problem {
     let growing = uniform
         .clone()
         .label("expansion")
-        .generator(kind(&format!("expansion = {{ step = {step:?} }}")));
+        .generator(kind(&format!("expansion-step = {{ step = {step:?} }}")));
     let strategies = if with { vec![uniform, growing] } else { vec![uniform] };
     let builder = problem.to_builder().seed(seed).most_nodes(1_000_000).sets_per_round(4);
     let problem = builder.strategies(strategies).default_schedule().build();

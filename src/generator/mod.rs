@@ -19,7 +19,7 @@
 //! # Ok::<(), roadmill::problem::ProblemError>(())
 //! ```
 
-mod expansion;
+mod expansion_step;
 mod parent;
 mod reuse;
 mod sample;
@@ -28,12 +28,12 @@ methods! {
     /// The generators, as a problem file names them.
     pub enum GeneratorKind: dyn Generator {
         Sample(sample::Sample),
-        Expansion(expansion::ExpansionStep),
+        ExpansionStep(expansion_step::ExpansionStep),
         Reuse(reuse::Reuse), // new ones at the end, since ledgers know methods by number
     }
 }
 
-pub use expansion::ExpansionStep;
+pub use expansion_step::ExpansionStep;
 pub use parent::{NoRuns, Parent, ParentRoadmap, ParentRun, Runs};
 pub use reuse::Reuse;
 pub use sample::Sample;

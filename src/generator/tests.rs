@@ -59,8 +59,8 @@ fn make(problem: &Problem, ordinal: u64, frozen: &Roadmap) -> Increment {
 
 const GENERATORS: [&str; 4] = [
     "{ sample = { sampler = { uniform = {} } } }",
-    "{ expansion = { step = 0.2 } }",
-    "{ expansion = { step = 0.2, bounces = 1, steps = 3, halvings = 0 } }",
+    "{ expansion-step = { step = 0.2 } }",
+    "{ expansion-step = { step = 0.2, bounces = 1, steps = 3, halvings = 0 } }",
     "{ reuse = { parent = { run = \"parent\" }, spread = 2.0 } }",
 ];
 
@@ -126,7 +126,7 @@ fn expansion_chooses_nodes_by_one_over_one_and_their_degree() {
         degrees[edge.high.index()] += 1;
     }
     assert!(degrees.iter().max() > degrees.iter().min(), "{degrees:?}");
-    let problem = with(&scene(4.0), "{ expansion = { step = 0.2, bounces = 1 } }", &frozen);
+    let problem = with(&scene(4.0), "{ expansion-step = { step = 0.2, bounces = 1 } }", &frozen);
     let mut chosen = vec![0; degrees.len()];
     for ordinal in 0..200 {
         make(&problem, ordinal, &frozen)

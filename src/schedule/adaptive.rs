@@ -2,15 +2,15 @@ use crate::numbers::StrategyIndex;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
-/// Sets go to the strategies that united most components of the roadmap for what they cost:
+/// Sets go to the strategies that united most components of the roadmap for their effort:
 /// TR05-007 §3.1, *"adding independent roadmap components at run-time can allow map generation
 /// strategies to adapt as areas of C-space are characterized"*.
 ///
-/// A strategy's worth is (1 + united) / cost over the last `rounds` rounds. *United* counts the joining
+/// A strategy's worth is (1 + united) / effort over the last `rounds` rounds. *United* counts the joining
 /// edges of its sets that connected two components which both had nodes before the round, in
-/// the order of the fold; *cost* is the configurations and motions whose validity its sets asked for,
+/// the order of the fold; *effort* is the configurations and motions whose validity its sets asked for,
 /// to be made and to be joined. The sets of the next round are given out one after the other to the strategy of
-/// the largest worth, each counted at once with what a set of the strategy cost on average, so that equals
+/// the largest worth, each counted at once with a set of the strategy's average effort, so that equals
 /// take turns and a strategy that unites nothing still comes now and then. One that has no set in the
 /// last `rounds` rounds comes first. Ties go to the one listed first.
 ///
@@ -41,7 +41,7 @@ pub struct Yield {
     /// How often they united components that were there before their round.
     pub united: u64,
     /// Configurations and motions asked for.
-    pub cost: u64,
+    pub effort: u64,
 }
 
 impl Adaptive {
@@ -72,36 +72,36 @@ impl Adaptive {
                 }
             }
             let Some((strategy, worth)) = best else { break };
-            worth.cost += worth.per_set.unwrap_or(dearest);
+            worth.effort += worth.per_set.unwrap_or(dearest);
             schedule.push(*strategy);
         }
         schedule
     }
 }
 
-/// The worth of a strategy as a fraction; without cost it exceeds all others.
+/// The worth of a strategy as a fraction; without effort it exceeds all others.
 #[derive(Clone, Copy, Debug)]
 struct Worth {
     united: u128,
-    cost: u128,
+    effort: u128,
     per_set: Option<u128>,
 }
 
 impl Worth {
     fn of<'a>(yields: impl Iterator<Item = &'a Yield>) -> Worth {
-        let (mut sets, mut united, mut cost) = (0u128, 0u128, 0u128);
+        let (mut sets, mut united, mut effort) = (0u128, 0u128, 0u128);
         for each in yields {
             sets += u128::from(each.sets);
             united += u128::from(each.united);
-            cost += u128::from(each.cost);
+            effort += u128::from(each.effort);
         }
-        let per_set = (sets > 0).then(|| (cost / sets.max(1)).max(1));
-        // A strategy with sets is known, however little they cost.
-        Worth { united, cost: cost.max(u128::from(sets > 0)), per_set }
+        let per_set = (sets > 0).then(|| (effort / sets.max(1)).max(1));
+        // A strategy with sets is known, however little effort they took.
+        Worth { united, effort: effort.max(u128::from(sets > 0)), per_set }
     }
 
     fn exceeds(&self, other: &Worth) -> bool {
-        (1 + self.united) * other.cost > (1 + other.united) * self.cost
+        (1 + self.united) * other.effort > (1 + other.united) * self.effort
     }
 }
 
@@ -109,10 +109,10 @@ impl Worth {
 mod tests {
     use super::*;
 
-    /// One per strategy, given as sets, united and cost.
+    /// One per strategy, given as sets, united and effort.
     fn yields(of: &[[u64; 3]]) -> Vec<Yield> {
         of.iter()
-            .map(|[sets, united, cost]| Yield { sets: *sets, united: *united, cost: *cost })
+            .map(|[sets, united, effort]| Yield { sets: *sets, united: *united, effort: *effort })
             .collect()
     }
 
@@ -141,7 +141,7 @@ mod tests {
         let past = [yields(&[[1, 9, 100], [1, 0, 100]])];
         let schedule = round(adaptive, &past, &[0, 1], 11);
         assert_eq!(schedule.iter().filter(|strategy| **strategy == 1).count(), 1);
-        // As much for half of the cost is worth twice as much.
+        // As much for half of the effort is worth twice as much.
         let past = [yields(&[[1, 1, 200], [1, 1, 100]])];
         assert_eq!(round(adaptive, &past, &[0, 1], 6), [1, 0, 1, 1, 0, 1]);
     }

@@ -33,7 +33,7 @@ impl History {
             let total = &mut yields[set.strategy.index()];
             total.sets += 1;
             for asked in [set.increment.asked, set.joined.asked] {
-                total.cost += asked.configurations + asked.motions;
+                total.effort += asked.configurations + asked.motions;
             }
             for edge in &set.joined.edges {
                 let [low, high] = self.forest.unite(edge.low, edge.high);

@@ -257,7 +257,7 @@ pub fn expansion() -> ProblemBuilder {
         .schedule(["uniform", "expansion"])
         .strategy(StrategySpec::sampled("uniform", uniform()).nodes(8))
         .strategy(
-            StrategySpec::generated("expansion", GeneratorKind::Expansion(step))
+            StrategySpec::generated("expansion", GeneratorKind::ExpansionStep(step))
                 .nodes(6)
                 .among(AmongKind::NearestNodes(nodes)),
         )
