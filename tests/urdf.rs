@@ -230,12 +230,13 @@ fn what_is_not_read_may_lack_what_the_format_requires() {
 #[test]
 fn a_limit_without_ends_locks_the_joint_and_a_note_says_so() {
     let folder = folder();
-    let text = ARM.replace("lower=\"-1\" upper=\"2\"", "effort=\"1\" velocity=\"1\"");
+    let text = "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/><joint name=\"j\" type=\"revolute\">\
+                <parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0 1\"/><limit effort=\"1\" velocity=\"1\"/></joint></robot>";
     let (links, notes) = read(folder.path(), text.as_bytes()).unwrap_or_else(|e| panic!("{e}"));
     let limits = Some(Limits { min: 0.0, max: 0.0 });
-    let shoulder = JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits };
-    assert_eq!(links[1].joint.as_ref().unwrap().kind, shoulder);
-    assert!(notes.iter().any(|note| note.starts_with("joint `shoulder` stays at 0")), "{notes:?}");
+    let locked = JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits };
+    assert_eq!(links[1].joint.as_ref().unwrap().kind, locked);
+    assert!(notes.iter().any(|note| note.starts_with("joint `j` stays at 0")), "{notes:?}");
 }
 
 /// A mesh whose corners differ by rounding, named by a URI.

@@ -160,7 +160,7 @@ fn polygons_that_cross_themselves_or_are_bent_are_refused() {
     let little = bent.map(|[x, y, z]| [x, y, z / 10.0]);
     assert!(cut(&[0, 1, 2, 3, 4, 5, 6, 7], &little, &mut Vec::new()).is_ok());
     let comb: Vec<Point> = (0..10_000).map(|i| [f64::from(i), f64::from(i % 2)]).collect();
-    let error = cut_flat(&[&comb[..], &[[5e3, 9e9]]].concat()).unwrap_err();
+    let error = cut_flat(&[&comb[..], &[[5e3, 5e3]]].concat()).unwrap_err();
     assert!(error.starts_with("a face with 10001 corners that is not convex"), "{error}");
 }
 

@@ -61,7 +61,7 @@ fn the_space_has_the_bases_values_and_then_the_joints() {
     let robot = robot(BaseJoint::Rigid3d);
     let space = robot.space([-1.0; 3], [1.0; 3], 0.5);
     let names: Vec<_> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
-    assert_eq!(names, ["x", "y", "z", "qw", "qx", "qy", "qz", "on 0", "on 1", "on 0"]);
+    assert_eq!(names, ["x", "y", "z", "qw", "qx", "qy", "qz", "on 0", "on 1", "on 0-2"]);
     let parts: Vec<_> = space.factors()[4..].iter().map(|part| (part.kind, part.weight)).collect();
     let limited = FactorKind::Real { min: -1.0, max: 2.0 };
     // Beyond the arm's joint: 2 to the hand's, up to 2 along it, 0.5 to the tool.
