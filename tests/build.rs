@@ -6,7 +6,7 @@ use roadmill::{Build, Cancel};
 use std::path::Path;
 
 /// The digest of `judged`, which `same_bits.rs` keeps too.
-const JUDGED: &str = "fc618620ce842cfd14f9926dee68f3c1843f38ad90540cf4700bf7e3fd771de7";
+const JUDGED: &str = "faedef6a7a14a1df3b42c366b26c17d7eeab044718077417821f9b2f9ecc676c";
 
 fn load(name: &str) -> Problem {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);

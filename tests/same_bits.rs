@@ -50,15 +50,17 @@ fn the_digests_are_golden() {
     assert_eq!(found, GOLDEN, "bits of a given seed changed: bump BITS_VERSION");
 }
 
-/// Where motions are looked at step by step, one of these problems has another roadmap, for a motion
-/// that slips by between two steps.
+/// Where motions are looked at step by step, these problems have other roadmaps, for motions that slip by between two
+/// steps.
+const SAMPLED: [(&str, &str); 2] = [
+    ("adaptive", "ed78459ef3eecf38a507d483d52c6aae02b68b9af3129fdac5d801cc12b0563f"),
+    ("judged", "?"),
+];
+
 #[test]
 fn sampled_edges_have_golden_digests_too() {
+    let mut others = Vec::new();
     for (name, digest) in GOLDEN {
-        let expected = match name {
-            "judged" => "f3804ce9aa28c8aa346f10dbdfacc118baf774d06c8f93eae1eeb7c8633439ea",
-            _ => digest,
-        };
         let swept = problem(name);
         // A landscape has no edges to be looked at in steps.
         if swept.model().bodies().is_none() {
@@ -66,8 +68,12 @@ fn sampled_edges_have_golden_digests_too() {
         }
         let sampled = with_edges(&swept, MotionChecking::Sampled);
         let found = build(&Arc::new(Setup::new(sampled))).roadmap.digest().to_string();
-        assert_eq!(found, expected, "{name}");
+        if found != digest {
+            others.push((name, found));
+        }
     }
+    let others: Vec<_> = others.iter().map(|(name, found)| (*name, found.as_str())).collect();
+    assert_eq!(others, SAMPLED);
 }
 
 #[test]

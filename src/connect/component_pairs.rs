@@ -30,11 +30,11 @@ pub struct ComponentPairs {
     pub planners: Vec<Planner>,
 }
 
-fn default_components() -> u32 {
+pub(super) fn default_components() -> u32 {
     3
 }
 
-fn default_pairs() -> u32 {
+pub(super) fn default_pairs() -> u32 {
     10
 }
 

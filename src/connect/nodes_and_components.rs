@@ -1,5 +1,6 @@
 use super::candidates::{CandidatePair, CandidatePairs};
-use super::{Among, JoinInput, default_planners};
+use super::component_pairs::{default_components, default_pairs};
+use super::{Among, JoinInput, default_neighbors, default_planners};
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
@@ -45,20 +46,8 @@ pub struct NodesAndComponents {
     pub planners: Vec<Planner>,
 }
 
-fn default_neighbors() -> u32 {
-    10
-}
-
 fn default_cycles() -> u32 {
     1
-}
-
-fn default_components() -> u32 {
-    3
-}
-
-fn default_pairs() -> u32 {
-    10
 }
 
 impl Default for NodesAndComponents {

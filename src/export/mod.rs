@@ -7,7 +7,7 @@
 //! let problem = Problem::load("problems/maze.toml".as_ref())?;
 //! let built = Build::new(problem).run()?;
 //! let (problem, roadmap, path) = (built.problem(), built.roadmap(), built.path());
-//! let csv = path_csv(&built.context().space, path.expect("the maze has a way through"));
+//! let csv = path_csv(built.context().space(), path.expect("the maze has a way through"));
 //! assert!(csv.starts_with("x"));
 //! // A roadmap in every format that `roadmill export` has.
 //! for format in FORMATS {
