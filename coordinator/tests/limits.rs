@@ -123,4 +123,35 @@ fn a_run_of_an_earlier_default_is_gone_on_with() {
     let other = scratch.run(&[&build[..], &["--max-nodes", "99", "--or-resume"]].concat());
     other.assert_code(2);
     other.assert_stderr(&["the limits are not those of the run"]);
+    // A number that is given is meant, though an earlier version had it as its default.
+    let another = ["build", "open.toml", "--out", "another", "--threads", "1"];
+    scratch.run(&[&another[..], &NO_TIME].concat()).assert_code(0);
+    let given = scratch.run(&[&another[..], &["--max-nodes", "100000", "--or-resume"]].concat());
+    given.assert_code(2);
+    given.assert_stderr(&["the limits are not those of the run"]);
+}
+
+/// A limit of time is one of the call: the problem file's as it is now, not as it was when the run was begun.
+#[test]
+fn a_run_goes_on_under_the_time_that_its_file_has_now() {
+    let scratch = Scratch::new();
+    let build = [
+        "build",
+        "timed.toml",
+        "--out",
+        "run",
+        "--threads",
+        "1",
+        "--max-sets",
+        "30",
+        "--or-resume",
+    ];
+    for (seconds, stop) in [("0.000001", "time-limit"), ("1000", "set-limit")] {
+        scratch.write(
+            "timed.toml",
+            &ENDLESS.replace("[limits]", &format!("[limits]\nseconds = {seconds}")),
+        );
+        scratch.run(&build).assert_code(0);
+        assert_eq!(scratch.summary("run").stop, stop);
+    }
 }

@@ -46,18 +46,23 @@ impl Limits {
         Limits { nodes: if is_left_open { NODES_MAX } else { self.nodes }, ..self }
     }
 
-    /// The same limits for a build that reads no clock: where the time was to end it, the number of nodes does that has
-    /// to where nothing is given.
+    /// The same limits for a build that reads no clock. Where the time was to end the build and the number of nodes was
+    /// left open, the build ends at the number of nodes that is the limit of a problem without limits.
     pub(crate) fn without_clock(self, space: &Space) -> Limits {
         let is_left_to_time = self.seconds.is_some() && self.nodes == NODES_MAX;
         let nodes = if is_left_to_time { Limits::nodes_left_open(space) } else { self.nodes };
         Limits { nodes, ..self }
     }
 
-    /// Whether the limit on nodes is one that a problem has which leaves it open: today with or without a limit of
-    /// time, or with an earlier version of the program.
+    /// Whether the limit on nodes is one that a problem has which leaves it open, with or without a limit of time.
     pub fn leaves_nodes_open(&self, space: &Space) -> bool {
-        [Limits::nodes_left_open(space), NODES_MAX, FORMER_NODES].contains(&self.nodes)
+        [Limits::nodes_left_open(space), NODES_MAX].contains(&self.nodes)
+    }
+
+    /// Whether the limit on nodes of a run may be that of a problem which left it open: today, or when an earlier
+    /// version of the program began the run.
+    pub fn may_have_left_nodes_open(&self, space: &Space) -> bool {
+        self.leaves_nodes_open(space) || self.nodes == FORMER_NODES
     }
 
     /// What is wrong with the limits: which one, what was found and what is expected.
@@ -96,8 +101,12 @@ mod tests {
         assert_eq!(open.with_time(&space).without_clock(&space).nodes, NODES_MAX);
         let chosen = Limits { nodes: 500, ..open };
         assert_eq!(chosen.with_time(&space), chosen);
-        for (nodes, is_open) in [(FORMER_NODES, true), (NODES_MAX, true), (500, false)] {
-            assert_eq!(Limits { nodes, ..open }.leaves_nodes_open(&space), is_open, "{nodes}");
+        for (nodes, is_open, was_open) in
+            [(FORMER_NODES, false, true), (NODES_MAX, true, true), (500, false, false)]
+        {
+            let limits = Limits { nodes, ..open };
+            assert_eq!(limits.leaves_nodes_open(&space), is_open, "{nodes}");
+            assert_eq!(limits.may_have_left_nodes_open(&space), was_open, "{nodes}");
         }
     }
 }

@@ -71,6 +71,10 @@ fn errors_in_added_tables_name_the_key() {
             "obstacles[12].shape: none.obj: cannot read the mesh",
         ),
         (
+            "[[obstacles]]\nshape = { sphere = { radius = 1e40 } }\n",
+            "obstacles[12].shape: radius = 1e40 found; at most 1e30 expected",
+        ),
+        (
             "[[obstacles]]\nshape = { sphere = { radius = 0.0 } }\n",
             "obstacles[12].shape: radius = 0 found; a positive length expected",
         ),

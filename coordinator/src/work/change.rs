@@ -37,10 +37,9 @@ impl Change {
                 // A limit of time is one of this process.
                 let mut limits = Limits { seconds: present.limits().seconds, ..problem.limits() };
                 // What a problem leaves open depends on the version of the program, and on a limit of time.
-                let space = present.space();
-                let both = [limits, present.limits()];
-                if both.iter().all(|limits| limits.leaves_nodes_open(&space)) {
-                    limits.nodes = present.limits().nodes;
+                let (space, of_run) = (present.space(), present.limits());
+                if limits.leaves_nodes_open(&space) && of_run.may_have_left_nodes_open(&space) {
+                    limits.nodes = of_run.nodes;
                 }
                 let problem = (**problem).clone().with_limits(limits);
                 let problem = problem.map_err(|error| error.to_string())?;

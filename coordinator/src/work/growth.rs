@@ -220,8 +220,15 @@ impl<'a> Growth<'a> {
         let cpu = cpu.unwrap_or_else(CpuClock::start);
         let mut watch = watch.unwrap_or_else(|| Box::new(()));
         workers.check()?;
+        // A limit of time belongs to this call: the one that is given, or the problem file's, or else the run's own.
+        let mut seconds = seconds;
         let prepared = match origin {
-            Origin::Anew(anew) => anew.prepare(seconds, &interrupt, &mut *watch)?,
+            Origin::Anew(anew) => {
+                let of_file = anew.problem.limits().seconds;
+                let prepared = anew.prepare(seconds, &interrupt, &mut *watch)?;
+                seconds = seconds.or(of_file);
+                prepared
+            }
             Origin::Again { run, chapter } => {
                 tidy(&run);
                 if !run.join(LEDGER).is_file() {

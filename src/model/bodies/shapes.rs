@@ -135,6 +135,8 @@ fn shape_of(
     let length = |key: &str, value: f64| {
         if value > 0.0 && value <= LENGTH_MAX {
             Ok(value)
+        } else if value > LENGTH_MAX {
+            Err(format!("{key} = {value:e} found; at most {LENGTH_MAX:e} expected"))
         } else {
             Err(format!("{key} = {value} found; a positive length expected"))
         }
