@@ -83,11 +83,6 @@ impl RawMesh {
     }
 }
 
-/// The triangles of a polygon, all of which have its first corner; none if it has fewer than 3 corners.
-pub(super) fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
-    (2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]])
-}
-
 /// The text of a file; `expected` names the format in the error.
 pub(super) fn text<'a>(
     path: &Path,

@@ -14,7 +14,6 @@ mod folder;
 pub mod ledger;
 mod lock;
 mod sets;
-mod soundness;
 mod summary;
 
 pub use folder::{RunFolder, tidy};

@@ -2,8 +2,8 @@
 //! `docs/ledger.md` describes their bytes, which are framed and chained as a ledger's.
 
 use super::ledger::frame::{self, Fault, Frames, Mark};
+use super::ledger::soundness::SetCheck;
 use super::ledger::sync_folder;
-use super::soundness::SetCheck;
 use crate::exit::{Code, Failure};
 use crate::files::{beside, cannot_write, folder_of, open_regular};
 use bincode::{Decode, Encode};

@@ -1,6 +1,6 @@
 //! What a build that goes on may change.
 
-use super::growth::limit;
+use super::limits::limit;
 use crate::run::{Scan, SetFiles};
 use roadmill::problem::{Limits, Problem};
 

@@ -1,5 +1,6 @@
 use super::change::{Change, Chapter, difference};
 use super::interrupt::Interrupt;
+use super::limits::limited;
 use super::watch::{Begun, Keeper, Status, Torn, Watch, Weighed, path_in};
 use super::workers::{Kind, start};
 use super::{Ended, Run, Workers};
@@ -11,7 +12,7 @@ use crate::run::ledger::LEDGER;
 use crate::run::{LedgerWriter, RunFolder, RunLock, Scan, SetFiles, tidy};
 use crate::signals::Signals;
 use roadmill::img::{Executor, Setup, Threads};
-use roadmill::problem::{Limits, Problem};
+use roadmill::problem::Problem;
 use roadmill::roadmap::Tally;
 use roadmill::{BITS_VERSION, Cancel};
 use roadmill_workers::channel::remove_leftovers;
@@ -420,30 +421,4 @@ fn go_on(
     };
     let folder = RunFolder::of(run);
     Ok(Ok(Prepared { problem, folder, ledger, past: Some(scan), imports }))
-}
-
-/// The problem with other limits, as far as something is said of them.
-pub(crate) fn limit(
-    problem: Problem,
-    max_nodes: Option<u64>,
-    max_sets: Option<u64>,
-) -> Result<Problem, Failure> {
-    let limits = problem.limits();
-    limited(problem, limits, max_nodes, max_sets)
-}
-
-/// The problem with these limits, or others as far as something is said of them.
-fn limited(
-    problem: Problem,
-    mut limits: Limits,
-    max_nodes: Option<u64>,
-    max_sets: Option<u64>,
-) -> Result<Problem, Failure> {
-    limits.nodes = max_nodes.unwrap_or(limits.nodes);
-    limits.sets = max_sets.unwrap_or(limits.sets);
-    match limits.complaint() {
-        // The problem's own limits have been checked.
-        Some((limit, message)) => Err(Failure::usage(format!("--max-{limit}: {message}"))),
-        None => problem.with_limits(limits).map_err(|error| Failure::usage(error.to_string())),
-    }
 }

@@ -27,6 +27,7 @@ pub(crate) mod difference;
 mod ended;
 mod growth;
 mod interrupt;
+mod limits;
 mod recorded;
 mod stops;
 mod verification;
@@ -35,7 +36,7 @@ mod workers;
 
 pub use ended::Ended;
 pub use growth::Growth;
-pub(crate) use growth::limit;
+pub(crate) use limits::limit;
 pub use recorded::Recorded;
 pub use verification::{Selection, Verification, Verified};
 pub use watch::{Begun, Status, Torn, Watch};

@@ -3,7 +3,8 @@
 use super::affine::Affine;
 use super::{Dae, child, children};
 use crate::scene::polygon;
-use crate::scene::raw::{MESH_ITEMS_MAX, MeshError, RawMesh, fan};
+use crate::scene::polygon::fan;
+use crate::scene::raw::{MESH_ITEMS_MAX, MeshError, RawMesh};
 use roxmltree::Node;
 use std::collections::BTreeMap;
 use std::rc::Rc;

@@ -9,7 +9,6 @@ mod ears;
 #[cfg(test)]
 mod tests;
 
-use super::raw::fan;
 use crate::math;
 use robust::{Coord, orient2d};
 
@@ -80,6 +79,11 @@ pub(super) fn cut(
     };
     triangles.extend(ears.into_iter().map(|ear| ear.map(|corner| ring[corner])));
     Ok(())
+}
+
+/// The triangles of a polygon, all of which have its first corner; none if it has fewer than 3 corners.
+pub(in crate::scene) fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
+    (2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]])
 }
 
 /// The axis along which the polygon is seen largest; `None` if it has no area from anywhere.

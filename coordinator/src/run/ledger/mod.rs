@@ -8,6 +8,7 @@ mod reader;
 mod record;
 mod replay;
 mod scan;
+pub(super) mod soundness;
 mod stopped;
 mod writer;
 

@@ -1,10 +1,10 @@
 use super::reader::LedgerReader;
 use super::record::{FullSet, Judged, Record, RoundEnd, Set, read_by};
 use super::scan::Scan;
+use super::soundness::{SetCheck, verdicts_complaint};
 use super::stopped::Stopped;
 use crate::exit::Failure;
 use crate::output::Plain;
-use crate::run::soundness::{SetCheck, verdicts_complaint};
 use roadmill::img::{Plan, Round, RoundSet};
 use roadmill::numbers::{RoundNumber, SetName, SetNumber};
 use roadmill::problem::Problem;

@@ -1,10 +1,10 @@
 use super::frame::Mark;
 use super::reader::LedgerReader;
 use super::record::{Chapter, Judged, Record, RoundEnd, SecondChapter, is_set};
+use super::soundness::{problem_complaint, verdicts_complaint};
 use super::stopped::Stopped;
 use crate::exit::{Code, Failure};
 use crate::output::Plain;
-use crate::run::soundness::{problem_complaint, verdicts_complaint};
 use roadmill::BITS_VERSION;
 use roadmill::evaluate::Verdict;
 use roadmill::internal::wire;

@@ -1,7 +1,7 @@
 //! Whether what a file says can be: sets, verdicts and problems of ledgers and files of sets are checked before
 //! they are used, as problem files are. A file whose hashes are right may still have been made by anybody.
 
-use super::ledger::Chapter;
+use super::record::Chapter;
 use roadmill::evaluate::Verdict;
 use roadmill::img::Joined;
 use roadmill::local::Planner;
