@@ -61,6 +61,7 @@ pub mod seed;
 mod source;
 pub mod space;
 mod strategy;
+pub mod structure;
 
 use internal::{shelf, wire};
 

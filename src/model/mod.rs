@@ -29,6 +29,7 @@ mod scratch;
 
 pub mod bodies;
 pub mod landscape;
+pub mod protein;
 
 pub use bodies::foreign::SceneOptions;
 pub use clearance::{Clearance, Clearances};

@@ -1,0 +1,3 @@
+//! Proteins: chains whose backbone torsions turn.
+
+pub mod linkage;

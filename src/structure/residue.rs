@@ -1,0 +1,79 @@
+use super::{AminoAcid, Point};
+use bincode::{Decode, Encode};
+use std::fmt;
+
+/// The number of a residue in its file, with the letter that tells inserted residues of one number apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Encode, Decode)]
+pub struct ResidueNumber {
+    /// The number, which may be negative.
+    pub number: i32,
+    /// The insertion code.
+    pub insertion: Option<char>,
+}
+
+/// `52`, or `52A` with an insertion code.
+impl fmt::Display for ResidueNumber {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.number)?;
+        self.insertion.map_or(Ok(()), |insertion| write!(f, "{insertion}"))
+    }
+}
+
+/// An atom.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Atom {
+    /// Its name in the residue: `CA`.
+    pub name: String,
+    /// Its element, as in the periodic table: `C`, `Ca`.
+    pub element: String,
+    /// Its position, in Å.
+    pub position: Point,
+}
+
+impl Atom {
+    /// Whether it is no hydrogen or deuterium.
+    pub fn is_heavy(&self) -> bool {
+        !matches!(self.element.as_str(), "H" | "D")
+    }
+}
+
+/// A residue of a chain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Residue {
+    /// Its number in the file.
+    pub number: ResidueNumber,
+    /// Its name in the file: `ALA`, `MSE`, `HOH`.
+    pub name: String,
+    /// The amino acid that it is, or was before it was modified; `None` for anything else.
+    pub amino_acid: Option<AminoAcid>,
+    /// Its atoms, each name once.
+    pub atoms: Vec<Atom>,
+}
+
+impl Residue {
+    /// The position of the atom of this name.
+    pub fn position(&self, name: &str) -> Option<Point> {
+        self.atoms.iter().find(|atom| atom.name == name).map(|atom| atom.position)
+    }
+
+    /// The atoms of the side chain: the heavy ones that are not N, CA, C, O or OXT.
+    pub fn side_chain(&self) -> impl Iterator<Item = &Atom> {
+        let is_backbone = |name: &str| matches!(name, "N" | "CA" | "C" | "O" | "OXT");
+        self.atoms.iter().filter(move |atom| atom.is_heavy() && !is_backbone(&atom.name))
+    }
+
+    /// The centroid of the side chain's atoms; `None` for glycine, and where none was seen.
+    pub fn side_chain_centroid(&self) -> Option<Point> {
+        let (sum, count) = self
+            .side_chain()
+            .fold((Point::zeros(), 0.0), |(sum, count), atom| (sum + atom.position, count + 1.0));
+        (count > 0.0).then(|| sum / count)
+    }
+}
+
+/// `ALA 52A`.
+impl fmt::Display for Residue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.name, self.number)
+    }
+}
