@@ -23,7 +23,7 @@ pub enum Purpose {
     Connecting = 2,
 }
 
-/// The seed of one node set or of one evaluator.
+/// The seed of one node set, of one evaluator, or of what is found before either.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Seed {
     own: [u8; 32],
@@ -55,6 +55,15 @@ impl Seed {
         let mut hasher = blake3::Hasher::new_derive_key("roadmill 1 evaluator");
         hasher.update(&base_seed.to_le_bytes());
         hasher.update(path.as_bytes());
+        let own = *hasher.finalize().as_bytes();
+        Seed { own, common: own, ordinal: Ordinal(0) }
+    }
+
+    /// Seed of what is found once about the strategy `label`, before any of its sets is made.
+    pub fn of_calibration(base_seed: u64, label: &str) -> Seed {
+        let mut hasher = blake3::Hasher::new_derive_key("roadmill 1 calibration");
+        hasher.update(&base_seed.to_le_bytes());
+        hasher.update(label.as_bytes());
         let own = *hasher.finalize().as_bytes();
         Seed { own, common: own, ordinal: Ordinal(0) }
     }

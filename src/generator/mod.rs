@@ -90,6 +90,10 @@ pub trait Generator {
         None
     }
 
+    /// Finds the settings that the problem leaves open and that depend on the model. `seed` is for this alone.
+    /// What it finds is part of the problem from then on.
+    fn calibrate(&mut self, _cx: &Context, _seed: &Seed) {}
+
     /// What is wrong with the settings.
     fn complaint(&self) -> Option<Complaint> {
         None

@@ -42,6 +42,10 @@ impl Generator for Sample {
         Ok(Increment { configs, edges, ..Increment::empty(cx.space.len()) })
     }
 
+    fn calibrate(&mut self, cx: &Context, seed: &Seed) {
+        self.sampler.method_mut().calibrate(cx, seed);
+    }
+
     fn complaint(&self) -> Option<Complaint> {
         self.sampler.method().complaint().or_else(|| self.within.method().complaint())
     }

@@ -125,7 +125,8 @@ macro_rules! models {
 
 models! {
     Bodies(bodies::Bodies, bodies::BodiesSpec),
-    Landscape(landscape::Landscape, landscape::LandscapeSpec), // new ones at the end, since ledgers know models by number
+    Landscape(landscape::Landscape, landscape::LandscapeSpec),
+    Protein(protein::Protein, protein::ProteinSpec), // new ones at the end, since ledgers know models by number
 }
 
 impl ModelKind {
@@ -202,6 +203,11 @@ pub trait Model: Any + Send + Sync {
 
     /// The energy at `q`; `None` where a configuration is valid or not and that is all there is to say.
     fn energy(&self, _q: &[f64], _scratch: &mut Scratch) -> Option<f64> {
+        None
+    }
+
+    /// A configuration that is known beforehand and valid, such as a molecule's native state, of a model that has one.
+    fn native(&self) -> Option<&[f64]> {
         None
     }
 

@@ -6,6 +6,7 @@ use super::{DEFAULT_SEED, Problem};
 use crate::context::Ends;
 use crate::generator::Runs;
 use crate::model::{ModelKind, ModelSpec};
+use crate::seed::Seed;
 use crate::source::Step::{Index, Key};
 use crate::source::{ProblemError, Source, fits, plain};
 use crate::space::Space;
@@ -100,7 +101,10 @@ fn accepted(source: &Source, file: &File, mut problem: Problem) -> Result<Proble
         problem.query = Some(Ends { start, goal });
         cx.query.clone_from(&problem.query);
     }
-    for (index, strategy) in problem.strategies.iter().enumerate() {
+    let seed = problem.seed;
+    for (index, strategy) in problem.strategies.iter_mut().enumerate() {
+        let calibrating = Seed::of_calibration(seed, &strategy.label);
+        strategy.generator.method_mut().calibrate(&cx, &calibrating);
         let given = file.strategies.get(index).is_some_and(|table| table.generator.is_some());
         let key = if given { "generator" } else { "sampler" };
         let place = [Key("strategies"), Index(index), Key(key)];

@@ -81,6 +81,12 @@ impl Sampler for Mix {
         Ok(())
     }
 
+    fn calibrate(&mut self, cx: &Context, seed: &Seed) {
+        for (index, share) in self.0.iter_mut().enumerate() {
+            share.sampler.method_mut().calibrate(cx, &seed.part(index as u64));
+        }
+    }
+
     fn is_within(&self, brackets: u32) -> bool {
         // { mix = [{ sampler = …
         brackets.checked_sub(3).is_some_and(|rest| self.methods().all(|each| each.is_within(rest)))

@@ -26,6 +26,7 @@ mod maprm;
 mod mix;
 mod obprm;
 mod shares;
+mod torsion_noise;
 mod uniform; // 1: the file
 mod uobprm;
 
@@ -42,6 +43,7 @@ methods! {
         Uobprm(uobprm::Uobprm),
         Maprm(maprm::Maprm),
         Energy(energy::Energy),
+        TorsionNoise(torsion_noise::TorsionNoise),
     }
 }
 
@@ -60,6 +62,7 @@ pub use halton::Halton;
 pub use maprm::Maprm;
 pub use mix::{Mix, Share};
 pub use obprm::{Obprm, Start};
+pub use torsion_noise::{About, CALIBRATED, TorsionNoise};
 pub use uniform::Uniform;
 pub use uobprm::Uobprm;
 
@@ -84,6 +87,10 @@ pub trait Sampler {
         scratch: &mut Scratch,
         out: &mut Configs,
     ) -> Result<(), GaveUp>;
+
+    /// Finds the settings that the problem leaves open and that depend on the model. `seed` is for this alone.
+    /// What it finds is part of the problem from then on.
+    fn calibrate(&mut self, _cx: &Context, _seed: &Seed) {}
 
     /// What is wrong with the settings.
     fn complaint(&self) -> Option<Complaint> {

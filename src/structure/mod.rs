@@ -3,9 +3,11 @@
 //! All lengths are in ångströms (Å), positions in the frame of the file.
 
 mod amino_acid;
+mod mmcif;
 mod residue;
 
 pub use amino_acid::AminoAcid;
+pub use mmcif::mmcif;
 pub use residue::{Atom, Residue, ResidueNumber};
 
 /// A position or a direction, in Å.

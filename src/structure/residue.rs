@@ -1,4 +1,7 @@
 use super::{AminoAcid, Point};
+use bincode::de::Decoder;
+use bincode::enc::Encoder;
+use bincode::error::{DecodeError, EncodeError};
 use bincode::{Decode, Encode};
 use std::fmt;
 
@@ -37,8 +40,24 @@ impl Atom {
     }
 }
 
+impl Encode for Atom {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        self.name.encode(encoder)?;
+        self.element.encode(encoder)?;
+        [self.position.x, self.position.y, self.position.z].encode(encoder)
+    }
+}
+
+impl<Context> Decode<Context> for Atom {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Self, DecodeError> {
+        let (name, element) = (String::decode(decoder)?, String::decode(decoder)?);
+        let position = <[f64; 3]>::decode(decoder)?;
+        Ok(Atom { name, element, position: position.into() })
+    }
+}
+
 /// A residue of a chain.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Residue {
     /// Its number in the file.
     pub number: ResidueNumber,

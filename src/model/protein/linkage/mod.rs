@@ -14,6 +14,10 @@ use crate::math;
 use crate::structure::{Point, Residue};
 use nalgebra::{Matrix3, Unit};
 
+/// The longest distance from a C to the next N, Å, that a peptide bond can have: the bond is 1.33 Å long, and without a
+/// bond two such atoms touch at about 3 Å.
+pub const PEPTIDE_BOND_MAX: f64 = 2.0;
+
 /// Which torsion of a residue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TorsionKind {
@@ -52,6 +56,8 @@ pub struct Carried {
 pub struct Linkage {
     /// The torsions, from the N terminus to the C terminus: the degrees of freedom.
     pub torsions: Vec<Torsion>,
+    /// The residues after which the chain is broken, counted from 0, ascending.
+    pub gaps: Vec<usize>,
 }
 
 /// A body's motion from the source: x ↦ rotation · x + translation.
@@ -96,8 +102,8 @@ pub fn torsion(a: &Point, b: &Point, c: &Point, d: &Point) -> f64 {
 }
 
 impl Linkage {
-    /// The linkage of a chain without gaps all of whose residues have N, CA and C. `None` where one has not, or where
-    /// atoms stand on one another.
+    /// The linkage of a chain all of whose residues have N, CA and C. `None` where one has not, or where atoms stand on one
+    /// another. What follows a gap moves as one with what is before it.
     pub fn of(residues: &[Residue]) -> Option<Linkage> {
         let backbone: Vec<[Point; 3]> = residues
             .iter()
@@ -106,6 +112,11 @@ impl Linkage {
                 Some([n?, ca?, c?])
             })
             .collect::<Option<_>>()?;
+        let is_broken = |residue: &usize| {
+            let bond = backbone[residue + 1][0] - backbone[*residue][2];
+            bond.norm() > PEPTIDE_BOND_MAX
+        };
+        let gaps: Vec<usize> = (0..backbone.len().saturating_sub(1)).filter(is_broken).collect();
         let mut torsions = Vec::new();
         for (residue, [n, ca, c]) in backbone.iter().enumerate() {
             let is_proline =
@@ -115,14 +126,16 @@ impl Linkage {
                 torsions.push(Torsion { residue, kind, axis, through: *from, source });
                 Some(())
             };
-            if residue > 0 && !is_proline {
+            if residue > 0 && !is_proline && !gaps.contains(&(residue - 1)) {
                 add(TorsionKind::Phi, n, ca, torsion(&backbone[residue - 1][2], n, ca, c))?;
             }
-            if let Some([next, ..]) = backbone.get(residue + 1) {
+            if let Some([next, ..]) = backbone.get(residue + 1)
+                && !gaps.contains(&residue)
+            {
                 add(TorsionKind::Psi, ca, c, torsion(n, ca, c, next))?;
             }
         }
-        Some(Linkage { torsions })
+        Some(Linkage { torsions, gaps })
     }
 
     /// The source's torsions.
