@@ -1,3 +1,8 @@
 //! Proteins: chains whose backbone torsions turn.
 
+pub mod atoms;
+pub mod energy;
+pub mod kinematics;
 pub mod linkage;
+pub mod placed;
+pub mod validity;
