@@ -29,6 +29,7 @@ mod npz;
 mod paint_order;
 mod parasol;
 mod path_csv;
+mod pdb;
 mod solid;
 mod svg;
 mod tessellate;
@@ -50,7 +51,7 @@ use crate::local::Planner;
 
 /// The formats of roadmaps.
 pub const FORMATS: &[&dyn RoadmapFormat] =
-    &[&graphml::Graphml, &csv::Csv, &npz::Npz, &parasol::Map, &svg::Svg, &vtk::Vtk];
+    &[&graphml::Graphml, &csv::Csv, &npz::Npz, &parasol::Map, &pdb::Pdb, &svg::Svg, &vtk::Vtk];
 
 /// The name of the local planner that a tag stands for.
 fn planner_name(tag: u8) -> String {

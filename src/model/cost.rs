@@ -7,14 +7,15 @@ pub enum Cost {
     Directed(Directed),
 }
 
-/// The cost of a motion in a model with energies. All three are in the model's unit of energy.
+/// The cost of a motion in a model with energies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Directed {
-    /// What the motion costs from its first end to its second: a finite number, not negative.
+    /// What the motion costs from its first end to its second, in the model's unit of costs: a finite number, not
+    /// negative.
     pub forward: f64,
     /// What it costs from its second end to its first: the same.
     pub backward: f64,
-    /// The highest energy on the way, or a bound above it.
+    /// The highest energy on the way, in the model's unit of energy, or a bound above it.
     pub peak: f64,
 }
 

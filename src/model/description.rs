@@ -1,5 +1,5 @@
 use super::bodies::foreign::SceneOptions;
-use super::{Figure, Model, ModelKind, NodeValue};
+use super::{Figure, Model, ModelKind, Molecule, NodeValue};
 use crate::digest::SourceFile;
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
@@ -45,9 +45,17 @@ pub trait Description {
     /// What `check` says of it before the query: lines of a word of 16 characters and a text.
     fn describe(&self, out: &mut String);
 
+    /// What `check` says of one end of the query, called `name`, beside its values; nothing of most models.
+    fn describe_end(&self, _name: &str, _q: &[f64], _out: &mut String) {}
+
     /// Writes its tables as they stand in a problem file, so that what is read from them is equal to the
     /// last bit.
     fn write(&self, documents: &mut Documents);
+
+    /// The atoms of its configurations, of a molecule.
+    fn molecule(&self) -> Option<&dyn Molecule> {
+        None
+    }
 
     /// How it is drawn, if it can be.
     fn figure(&self) -> Option<&dyn Figure> {

@@ -25,6 +25,7 @@ mod clearance;
 mod cost;
 mod description;
 mod figure;
+mod molecule;
 mod scratch;
 
 pub mod bodies;
@@ -36,6 +37,7 @@ pub use clearance::{Clearance, Clearances};
 pub use cost::{Cost, Directed};
 pub use description::{Description, Documents, ForeignProblem};
 pub use figure::{Figure, Placement};
+pub use molecule::Molecule;
 pub use scratch::{Asked, ModelScratch, Scratch};
 
 pub(crate) use description::{Resolve, import};

@@ -4,6 +4,9 @@ use crate::schedule::Adaptive;
 use crate::strategy::Strategy;
 use std::fmt::Write;
 
+/// The most values of a configuration that are shown.
+const VALUES_SHOWN: usize = 24;
+
 pub(super) fn describe(problem: &Problem) -> String {
     let mut text = String::new();
     write_all(problem, &mut text).expect("writing to memory cannot fail");
@@ -16,8 +19,14 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     writeln!(out, "configuration    {}", space.form())?;
     problem.model.description().describe(out);
     if let Some(query) = &problem.query {
-        writeln!(out, "start            {:?}", query.start)?;
-        writeln!(out, "goal             {:?}", query.goal)?;
+        for (name, q) in [("start", &query.start), ("goal", &query.goal)] {
+            let values = &q[..q.len().min(VALUES_SHOWN)];
+            match q.len() - values.len() {
+                0 => writeln!(out, "{name:<16} {values:?}")?,
+                more => writeln!(out, "{name:<16} {values:?} and {more} more values")?,
+            }
+            problem.model.description().describe_end(name, q, out);
+        }
     }
     for strategy in &problem.strategies {
         let Strategy { label, nodes, generator, among } = strategy;

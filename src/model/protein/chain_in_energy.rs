@@ -1,14 +1,17 @@
 //! The model: a chain made ready for work.
 
-use super::atoms::ResidueAtoms;
 use super::energy::{Constraints, Hydrophobic, Mixture, carried_over, constraints_of};
 use super::kinematics::Conformer;
-use super::motion::{MotionLimits, Motions, MotionScratch};
+use super::motion::{MotionScratch, MotionValidity, Profile, profile};
 use super::placed::Placed;
-use super::validity::{Limits, Obstacles};
+use super::validity::{Counts, Limits, Obstacles, Violation};
 use super::{ENERGY, Protein};
 use crate::model::{Cost, Directed, Model, ModelScratch, NodeValue, Scratch, Validity};
 use crate::space::Space;
+use crate::structure::Point;
+
+/// kT at 298 K, kJ/mol: the unit of costs.
+pub(super) const KT: f64 = 2.479;
 
 /// A protein whose torsions turn, in its energy.
 pub(super) struct ChainInEnergy {
@@ -17,7 +20,7 @@ pub(super) struct ChainInEnergy {
     conformer: Conformer,
     limits: Limits,
     obstacles: Obstacles,
-    motions: Motions,
+    motions: MotionValidity,
     energy: Mixture,
     highest: Option<f64>,
     step: f64,
@@ -26,6 +29,180 @@ pub(super) struct ChainInEnergy {
 /// A conformation, and what motions are looked at with.
 #[derive(Default)]
 pub(super) struct ProteinScratch {
-    placed: Placed,
+    placed: Option<Placed>,
     motion: MotionScratch,
+    between: Vec<f64>,
+}
+
+impl ModelScratch for ProteinScratch {
+    fn poison(&mut self, rubbish: u64) {
+        let value = f64::from_bits(rubbish);
+        if let Some(placed) = &mut self.placed {
+            let Placed { n, ca, c, o, cb, centroid, h, .. } = placed;
+            for coordinates in [n, ca, c, o, cb, centroid, h] {
+                for axis in [&mut coordinates.x, &mut coordinates.y, &mut coordinates.z] {
+                    axis.fill(value);
+                }
+            }
+        }
+        self.motion.poison(rubbish);
+    }
+}
+
+impl ChainInEnergy {
+    /// Of a sound description.
+    pub fn of(protein: &Protein) -> ChainInEnergy {
+        let linkage = protein.linkage();
+        let conformer = Conformer::of(&protein.source, &linkage)
+            .expect("a sound description has all backbone atoms");
+        let atoms = protein.obstacles.iter().flatten().flat_map(|residue| &residue.atoms);
+        let heavy = atoms.filter(|atom| atom.is_heavy());
+        let obstacles = Obstacles { points: heavy.map(|atom| atom.position).collect() };
+        let limits = protein.rules.at_nodes();
+        let along = protein.rules.along_motions();
+        let motions = MotionValidity::new(&linkage, &protein.source, &obstacles.points, along)
+            .expect("a sound description has all Cα");
+        ChainInEnergy {
+            space: crate::model::Description::space(protein),
+            native: linkage.source(),
+            energy: energy_of(protein, &conformer),
+            conformer,
+            limits,
+            obstacles,
+            motions,
+            highest: protein.highest,
+            step: protein.step,
+        }
+    }
+
+    /// Places the chain at `q` in the scratch.
+    fn placed<'a>(&self, q: &[f64], scratch: &'a mut Option<Placed>) -> &'a Placed {
+        // That of another chain may have been left.
+        let fits = |placed: &Placed| placed.len() == self.conformer.atoms().len();
+        if !scratch.as_ref().is_some_and(fits) {
+            *scratch = None;
+        }
+        let placed = scratch.get_or_insert_with(|| self.conformer.placed());
+        self.conformer.place(q, placed);
+        placed
+    }
+
+    /// The energies of both basins, or of the only one, without hydrophobic pairs, at `q`.
+    pub fn basins(&self, q: &[f64]) -> Vec<f64> {
+        self.energy.basins(self.placed(q, &mut None))
+    }
+
+    /// The energy of hydrophobic pairs at `q`.
+    pub fn hydrophobic(&self, q: &[f64]) -> f64 {
+        self.energy.hydrophobic(self.placed(q, &mut None))
+    }
+
+    /// The whole energy at `q`.
+    pub fn energy_at(&self, q: &[f64]) -> f64 {
+        self.energy.energy(self.placed(q, &mut None))
+    }
+
+    /// The positions of all Cα at `q`, Å.
+    pub fn alphas(&self, q: &[f64]) -> Vec<Point> {
+        let placed = &mut None;
+        let placed = self.placed(q, placed);
+        (0..placed.len()).map(|residue| placed.ca.at(residue)).collect()
+    }
+
+    /// How many pairs violate each rule at `q`.
+    pub fn counts(&self, q: &[f64]) -> Counts {
+        self.limits.count(self.placed(q, &mut None), &self.obstacles)
+    }
+
+    /// The first violation at `q`.
+    pub fn first_violation(&self, q: &[f64]) -> Option<Violation> {
+        self.limits.first_violation(self.placed(q, &mut None), &self.obstacles)
+    }
+
+    fn is_allowed(&self, energy: f64) -> bool {
+        self.highest.is_none_or(|highest| energy <= highest)
+    }
+}
+
+/// The constraints of the source, and those of the target between residues that the source has, too.
+pub(super) fn basins_of(protein: &Protein) -> Vec<Constraints> {
+    if !protein.energy.constraints {
+        return vec![Constraints::default()];
+    }
+    let mut basins = vec![Constraints::new(constraints_of(&protein.source))];
+    if let Some(target) = &protein.target {
+        let there = constraints_of(&target.residues);
+        let mut here = carried_over(&there, &target.matches);
+        // An amide without a hydrogen in the source can hold no bond.
+        here.retain(|constraint| constraint.is_of(&protein.source));
+        basins.push(Constraints::new(here));
+    }
+    basins
+}
+
+fn energy_of(protein: &Protein, conformer: &Conformer) -> Mixture {
+    let hydrophobic = protein.energy.hydrophobic.then(|| Hydrophobic::of(conformer.atoms()));
+    let mut basins = basins_of(protein).into_iter();
+    match (basins.next(), basins.next()) {
+        (Some(a), Some(b)) => Mixture::of_two(a, b, protein.energy.ends, hydrophobic),
+        (one, _) => Mixture::single(one.unwrap_or_default(), hydrophobic),
+    }
+}
+
+impl Model for ChainInEnergy {
+    fn space(&self) -> &Space {
+        &self.space
+    }
+
+    fn validity(&self, q: &[f64], scratch: &mut Scratch) -> Validity {
+        let scratch: &mut ProteinScratch = scratch.for_configuration();
+        if !self.space.within_bounds(q) {
+            return Validity::OutOfBounds;
+        }
+        let placed = self.placed(q, &mut scratch.placed);
+        let is_valid = self.limits.first_violation(placed, &self.obstacles).is_none()
+            && (self.highest.is_none() || self.is_allowed(self.energy.energy(placed)));
+        if is_valid { Validity::Valid } else { Validity::Invalid }
+    }
+
+    /// The costs are the climbs in units of kT: −ln of the probability of every step (Amato and Song 2002).
+    fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> Option<Cost> {
+        let ProteinScratch { placed, motion, between } = scratch.for_motion();
+        if !(self.space.within_bounds(a) && self.space.within_bounds(b)) {
+            return None;
+        }
+        if !self.motions.is_valid(a, b, motion) {
+            return None;
+        }
+        let step = self.step / f64::from(refinement);
+        let energy = |q: &[f64]| self.energy.energy(self.placed(q, placed));
+        let Profile { forward, backward, peak } = profile((a, b), step, KT, between, energy)?;
+        let cost = Directed { forward, backward, peak };
+        self.is_allowed(peak).then_some(Cost::Directed(cost))
+    }
+
+    fn energy(&self, q: &[f64], scratch: &mut Scratch) -> Option<f64> {
+        let scratch: &mut ProteinScratch = scratch.of_model();
+        Some(self.energy.energy(self.placed(q, &mut scratch.placed)))
+    }
+
+    fn native(&self) -> Option<&[f64]> {
+        Some(&self.native)
+    }
+
+    fn invalidity(&self) -> &'static str {
+        "two parts of the chain are too close, or the energy is above the highest that is valid"
+    }
+
+    fn is_obstructed(&self) -> bool {
+        true
+    }
+
+    fn node_values(&self) -> &'static [NodeValue] {
+        ENERGY
+    }
+
+    fn values(&self, q: &[f64], out: &mut Vec<f64>, scratch: &mut Scratch) {
+        out.extend(self.energy(q, scratch));
+    }
 }

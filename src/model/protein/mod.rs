@@ -5,6 +5,7 @@
 //! *model kJ/mol*: the constraints come from structures that are known, so that energies tell which conformations are
 //! near them, and no rates follow from them.
 
+mod all_atoms;
 mod chain_in_energy;
 mod describe;
 mod resolve;
@@ -12,13 +13,16 @@ mod sound;
 mod spec;
 mod write;
 
+pub mod atoms;
 pub mod energy;
+pub mod kinematics;
 pub mod linkage;
+pub mod placed;
 pub mod validity;
 
 pub use spec::{ChainSpec, FileSpec, Gaps, ObstacleSpec, ProteinSpec};
 
-use super::{Description, Documents, Model, ModelKind, NodeValue, Resolve};
+use super::{Description, Documents, Model, ModelKind, Molecule, NodeValue, Resolve};
 use crate::source::{ProblemError, Source};
 use crate::space::{Dof, Factor, FactorKind, Space};
 use crate::structure::Residue;
@@ -47,7 +51,7 @@ pub struct Protein {
     pub(crate) energy: EnergySpec,
     /// The highest energy that is valid, model kJ/mol; `None`: any.
     pub(crate) highest: Option<f64>,
-    /// The energy along a motion is computed at steps in which no Cα moves farther than this, Å.
+    /// How far apart in the space, radians, the configurations of a motion are at which its energy is computed.
     pub(crate) step: f64,
 }
 
@@ -78,8 +82,7 @@ impl Protein {
 
     /// The linkage.
     pub(crate) fn linkage(&self) -> Linkage {
-        Linkage::of(&self.source, self.gaps == Gaps::Rigid)
-            .expect("a sound description has a linkage")
+        Linkage::of(&self.source).expect("a sound description has a linkage")
     }
 }
 
@@ -136,7 +139,7 @@ impl Description for Protein {
     }
 
     fn cost_unit(&self) -> &'static str {
-        "kJ/mol"
+        "kT"
     }
 
     fn has_directed_costs(&self) -> bool {
@@ -171,7 +174,15 @@ impl Description for Protein {
         describe::describe(self, out).expect("writing to memory cannot fail");
     }
 
+    fn describe_end(&self, name: &str, q: &[f64], out: &mut String) {
+        describe::describe_end(self, name, q, out).expect("writing to memory cannot fail");
+    }
+
     fn write(&self, documents: &mut Documents) {
         write::write(self, documents);
+    }
+
+    fn molecule(&self) -> Option<&dyn Molecule> {
+        Some(self)
     }
 }

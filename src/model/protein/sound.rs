@@ -10,8 +10,8 @@ const RESIDUES_MAX: usize = 20_000;
 const ATOMS_MAX: usize = 200;
 /// The largest coordinate, Å: that of the PDB format.
 pub(super) const COORDINATE_MAX: f64 = 1e6;
-/// The finest step of motions, Å.
-const STEP_MIN: f64 = 1e-3;
+/// The finest step of motions, radians.
+const STEP_MIN: f64 = 1e-4;
 /// The coarsest.
 const STEP_MAX: f64 = 100.0;
 
@@ -64,7 +64,7 @@ impl Protein {
         }
         let is_step = (STEP_MIN..=STEP_MAX).contains(step);
         (!is_step).then(|| {
-            ("step", format!("{step} found; a length from {STEP_MIN} to {STEP_MAX} Å expected"))
+            ("step", format!("{step} found; {STEP_MIN} to {STEP_MAX} radians expected"))
         })
     }
 }

@@ -71,7 +71,8 @@ impl ProteinSpec {
         ProteinSpec { highest: Some(energy), ..self }
     }
 
-    /// The energy along a motion is computed at steps in which no Cα moves farther than this, Å; 0.5 if nothing is said.
+    /// How far apart in the space, radians, the configurations of a motion are at which its energy is computed; 0.1 if
+    /// nothing is said.
     pub fn step(self, length: f64) -> ProteinSpec {
         ProteinSpec { step: Some(length), ..self }
     }
