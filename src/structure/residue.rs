@@ -56,6 +56,8 @@ impl<Context> Decode<Context> for Atom {
     }
 }
 
+bincode::impl_borrow_decode!(Atom);
+
 /// A residue of a chain.
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
 pub struct Residue {

@@ -1,8 +1,9 @@
 //! The model: a chain made ready for work.
 
-use super::energy::{Constraints, Hydrophobic, Mixture, carried_over, constraints_of};
+use super::atoms::ResidueAtoms;
+use super::energy::{ConstraintKind, Constraints, Hydrophobic, Mixture, carried_over, constraints_of};
 use super::kinematics::Conformer;
-use super::motion::{MotionScratch, MotionValidity, Profile, profile};
+use super::motion::{Limits as MotionLimits, MotionScratch, MotionValidity, Profile, profile};
 use super::placed::Placed;
 use super::validity::{Counts, Limits, Obstacles, Violation};
 use super::{ENERGY, Protein};
@@ -59,7 +60,7 @@ impl ChainInEnergy {
         let heavy = atoms.filter(|atom| atom.is_heavy());
         let obstacles = Obstacles { points: heavy.map(|atom| atom.position).collect() };
         let limits = protein.rules.at_nodes();
-        let along = protein.rules.along_motions();
+        let along = motion_limits(protein);
         let motions = MotionValidity::new(&linkage, &protein.source, &obstacles.points, along)
             .expect("a sound description has all Cα");
         ChainInEnergy {
@@ -124,6 +125,20 @@ impl ChainInEnergy {
     }
 }
 
+/// What holds along motions.
+fn motion_limits(protein: &Protein) -> MotionLimits {
+    let alphas: Vec<Point> =
+        protein.source.iter().filter_map(|residue| residue.position("CA")).collect();
+    let bonds = alphas.windows(2).map(|pair| (pair[1] - pair[0]).norm());
+    let limits = protein.rules.along_motions(bonds.fold(0.0, f64::max));
+    MotionLimits {
+        alpha: limits.alpha_carbons,
+        side_chain: limits.side_chains,
+        alpha_obstacle: limits.obstacle_backbone,
+        side_chain_obstacle: limits.obstacle_side_chains,
+    }
+}
+
 /// The constraints of the source, and those of the target between residues that the source has, too.
 pub(super) fn basins_of(protein: &Protein) -> Vec<Constraints> {
     if !protein.energy.constraints {
@@ -133,8 +148,14 @@ pub(super) fn basins_of(protein: &Protein) -> Vec<Constraints> {
     if let Some(target) = &protein.target {
         let there = constraints_of(&target.residues);
         let mut here = carried_over(&there, &target.matches);
-        // An amide without a hydrogen in the source can hold no bond.
-        here.retain(|constraint| constraint.is_of(&protein.source));
+        // What the source lacks can hold no bond: the hydrogen of a proline, the side chain of a glycine.
+        let atoms = ResidueAtoms::of(&protein.source).unwrap_or_default();
+        here.retain(|constraint| match constraint.kind {
+            ConstraintKind::HydrogenBond => atoms[constraint.first].hydrogen.is_some(),
+            ConstraintKind::Disulphide => {
+                [constraint.first, constraint.second].iter().all(|at| atoms[*at].centroid.is_some())
+            }
+        });
         basins.push(Constraints::new(here));
     }
     basins

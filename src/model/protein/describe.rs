@@ -95,6 +95,11 @@ pub(super) fn describe_end(protein: &Protein, name: &str, q: &[f64], out: &mut S
     }
 }
 
+/// The first pair of atoms at `q` that breaks a rule, for people to read.
+pub(super) fn broken_rule(protein: &Protein, q: &[f64]) -> Option<String> {
+    ChainInEnergy::of(protein).first_violation(q).map(|violation| text_of(protein, &violation))
+}
+
 /// "Backbone: VAL 35 N, GLY 40 O, 2.312 Å apart".
 fn text_of(protein: &Protein, violation: &Violation) -> String {
     let Violation { rule, first, second, distance } = violation;

@@ -80,6 +80,11 @@ impl Protein {
         self.target.as_ref().map_or(&[], |target| &target.matches[..])
     }
 
+    /// The first pair of atoms at a configuration that breaks a rule, for people to read.
+    pub fn broken_rule(&self, q: &[f64]) -> Option<String> {
+        describe::broken_rule(self, q)
+    }
+
     /// The linkage.
     pub(crate) fn linkage(&self) -> Linkage {
         Linkage::of(&self.source).expect("a sound description has a linkage")

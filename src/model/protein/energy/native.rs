@@ -2,7 +2,8 @@
 
 use super::constraints::Constraint;
 use crate::structure::measure::hydrogen_bonds;
-use crate::structure::{Residue, disulphides};
+use crate::structure::disulphides::disulphides;
+use crate::structure::{Chain, Residue};
 
 /// The hydrogen bonds of a structure (W. Kabsch and C. Sander, Biopolymers 22, 1983: below −0.5 kcal/mol), and its
 /// disulphides at the distance that they have in it. Residues are counted from 0 along `residues`.
@@ -10,7 +11,9 @@ pub fn constraints_of(residues: &[Residue]) -> Vec<Constraint> {
     let bonds = hydrogen_bonds(residues).into_iter();
     let mut constraints: Vec<Constraint> =
         bonds.map(|bond| Constraint::hydrogen_bond(bond.donor, bond.acceptor)).collect();
-    for [first, second] in disulphides(residues) {
+    let chain = Chain { name: String::new(), residues: residues.to_vec(), others: Vec::new() };
+    for bond in disulphides(&[chain]) {
+        let (first, second) = (bond.first.1, bond.second.1);
         let centroids = [first, second].map(|residue| residues[residue].side_chain_centroid());
         if let [Some(a), Some(b)] = centroids {
             constraints.push(Constraint::disulphide(first, second, (a - b).norm()));

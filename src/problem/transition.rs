@@ -1,0 +1,67 @@
+//! The problem of a protein's transition between two known structures.
+
+use super::{Problem, ProblemBuilder, StrategySpec};
+use crate::model::ModelKind;
+use crate::model::protein::refit::{Refit, refit};
+use crate::model::protein::{Protein, ProteinSpec};
+use crate::sampler::{About, SamplerKind, TorsionNoise};
+use crate::source::ProblemError;
+use std::path::Path;
+
+/// Nodes of a set.
+const NODES: u64 = 50;
+
+/// A protein between two structures, as a problem with a query.
+#[derive(Debug)]
+pub struct Transition {
+    /// The problem: start is the source structure, goal what comes nearest to the target on the source's linkage.
+    pub problem: Problem,
+    /// How near that is.
+    pub refit: Refit,
+}
+
+/// Makes the problem of a transition from the source of `spec` to its target, with sets of torsion noise about both ends.
+/// Relative paths start in `folder`.
+///
+/// # Errors
+/// What is wrong with the structures, and ends that break the rules, with the first pair of atoms that does.
+pub fn transition(
+    name: &str,
+    folder: &Path,
+    spec: &ProteinSpec,
+) -> Result<Transition, ProblemError> {
+    let builder = Problem::builder(name, spec.clone()).folder(folder);
+    let protein = protein_of(&builder)?;
+    let Some(target) = protein.target() else {
+        return Err(ProblemError::pathless("protein.target: none found; the other end of the transition expected"));
+    };
+    let refit = refit(&protein.linkage(), protein.source(), target, protein.matches());
+    let (start, goal) = (protein.linkage().source(), refit.q.clone());
+    for (end, q) in [("start", &start), ("goal", &goal)] {
+        if let Some(message) = protein.broken_rule(q) {
+            return Err(ProblemError::pathless(format!("the {end} breaks a rule: {message}; rules that both ends keep expected")));
+        }
+    }
+    let noise = TorsionNoise { about: About::Ends, ..TorsionNoise::default() };
+    let strategy = StrategySpec::sampled("noise", SamplerKind::TorsionNoise(noise)).nodes(NODES);
+    let problem = builder.query(start, goal).strategy(strategy).build()?;
+    Ok(Transition { problem, refit })
+}
+
+/// Makes the problem of a protein about its only structure, with sets of torsion noise about it and no criterion.
+///
+/// # Errors
+/// What is wrong with the structure.
+pub fn about_native(name: &str, folder: &Path, spec: &ProteinSpec) -> Result<Problem, ProblemError> {
+    let noise = SamplerKind::TorsionNoise(TorsionNoise::default());
+    let strategy = StrategySpec::sampled("noise", noise).nodes(NODES);
+    Problem::builder(name, spec.clone()).folder(folder).strategy(strategy).build()
+}
+
+fn protein_of(builder: &ProblemBuilder) -> Result<Protein, ProblemError> {
+    let problem = builder.build()?;
+    match problem.model {
+        ModelKind::Protein(protein) => Ok(protein),
+        _ => unreachable!("the problem was built of a protein's spec"),
+    }
+}
