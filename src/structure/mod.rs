@@ -3,6 +3,7 @@
 //! All lengths are in ångströms (Å), positions in the frame of the file.
 
 mod amino_acid;
+pub mod measure;
 mod residue;
 
 pub use amino_acid::AminoAcid;
