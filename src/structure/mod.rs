@@ -1,7 +1,7 @@
 //! Molecular structures: atoms with positions, residues, chains, and the files that they come from.
 //!
 //! [`read()`] reads a PDB or mmCIF file; [`select_chain`] takes a chain of it, or a part of one; [`backbone::check`] says
-//! whether the chain is whole; [`matching::match_chains`] says which residues of two chains are the same.
+//! whether the chain is whole; [`comparison::compare`] says how two conformations of one protein differ.
 //! `docs/structures.md` says what is read and what is decided where files leave it open.
 //!
 //! All lengths are in ångströms (Å), angles in radians, positions in the frame of the file.
@@ -9,9 +9,11 @@
 mod alignment;
 mod amino_acid;
 pub mod backbone;
+pub mod comparison;
 pub mod disulphides;
 mod error;
 pub mod matching;
+pub mod measure;
 pub mod peptides;
 mod read;
 mod residue;
@@ -24,7 +26,7 @@ pub use read::read;
 #[doc(hidden)]
 pub use read::read_bytes;
 pub use residue::{Atom, Residue, ResidueNumber};
-pub use selection::{ChainSelection, select_chain};
+pub use selection::{ChainSelection, parse_range, select_chain};
 pub use torsion::torsion;
 
 use crate::digest::SourceFile;

@@ -9,6 +9,21 @@ pub struct ChainSelection<'a> {
     pub range: Option<(ResidueNumber, ResidueNumber)>,
 }
 
+/// Reads the first and the last residue of a range such as `4-147`, `-3-52A`.
+pub fn parse_range(text: &str) -> Option<(ResidueNumber, ResidueNumber)> {
+    // The first character may be a sign.
+    let after_first = text.char_indices().nth(1)?.0;
+    let middle = after_first + text[after_first..].find('-')?;
+    Some((parse_number(&text[..middle])?, parse_number(&text[middle + 1..])?))
+}
+
+/// Reads a residue's number with its insertion code: `52`, `52A`.
+fn parse_number(text: &str) -> Option<ResidueNumber> {
+    let insertion = text.chars().next_back().filter(char::is_ascii_alphabetic);
+    let number = if insertion.is_some() { &text[..text.len() - 1] } else { text };
+    Some(ResidueNumber { number: number.parse().ok()?, insertion })
+}
+
 /// The chain that is meant, without what is no residue of its range. `others` stay as they are.
 ///
 /// A sole chain of amino acids answers to any name, for many files leave it blank.
@@ -70,4 +85,74 @@ fn list(chains: &[&Chain]) -> String {
         _ => format!("`{}`", chain.name),
     };
     chains.iter().map(of).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structure::{AminoAcid, Residue};
+
+    fn chain(name: &str, numbers: std::ops::Range<i32>) -> Chain {
+        let residue = |number| Residue {
+            number: ResidueNumber { number, insertion: None },
+            name: "GLY".to_owned(),
+            amino_acid: Some(AminoAcid::Glycine),
+            atoms: Vec::new(),
+        };
+        Chain {
+            name: name.to_owned(),
+            residues: numbers.map(residue).collect(),
+            others: Vec::new(),
+        }
+    }
+
+    fn model(chains: Vec<Chain>) -> StructureModel {
+        StructureModel { number: 1, chains }
+    }
+
+    fn error(model: &StructureModel, chain: Option<&str>, range: Option<&str>) -> String {
+        let range = range.and_then(parse_range);
+        select_chain(model, ChainSelection { chain, range }).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_sole_chain_answers_to_any_name() {
+        let model = model(vec![chain("", 1..6), chain("W", 0..0)]);
+        for name in [None, Some("A"), Some("")] {
+            let selection = ChainSelection { chain: name, range: parse_range("2-4") };
+            let found = select_chain(&model, selection).unwrap();
+            let numbers: Vec<i32> =
+                found.residues.iter().map(|residue| residue.number.number).collect();
+            assert_eq!(numbers, [2, 3, 4]);
+        }
+    }
+
+    #[test]
+    fn errors_list_what_there_is() {
+        let two = model(vec![chain("A", 1..6), chain("B", -2..9)]);
+        let listed = "`A` (GLY 1 to GLY 5), `B` (GLY -2 to GLY 8)";
+        assert_eq!(
+            error(&two, Some("C"), None),
+            format!("no chain `C` found; one of {listed} expected")
+        );
+        assert!(error(&two, None, None).contains(listed));
+        assert!(
+            error(&two, Some("A"), Some("0-4")).starts_with("no residue 0 found; one of chain `A`")
+        );
+        assert!(error(&two, Some("A"), Some("4-2")).contains("the first before the last"));
+        let same = model(vec![chain("A", 1..6), chain("A", 1..9)]);
+        assert!(error(&same, Some("A"), None).starts_with("2 chains called `A` found"));
+        assert!(error(&model(Vec::new()), None, None).starts_with("no amino acids"));
+    }
+
+    #[test]
+    fn ranges_may_begin_below_zero_and_end_at_inserted_residues() {
+        let shown = |text: &str| parse_range(text).map(|(a, b)| format!("{a} {b}"));
+        assert_eq!(shown("4-147").as_deref(), Some("4 147"));
+        assert_eq!(shown("-3-52A").as_deref(), Some("-3 52A"));
+        assert_eq!(shown("-9--3").as_deref(), Some("-9 -3"));
+        for text in ["", "4", "-4", "a-b", "4-", "é-4", "4-é", "A-4"] {
+            assert_eq!(shown(text), None, "{text}");
+        }
+    }
 }

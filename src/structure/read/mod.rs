@@ -12,8 +12,6 @@ mod site;
 #[cfg(test)]
 mod tests;
 
-pub(super) use names::is_water;
-
 use super::{Structure, StructureError, StructureFormat};
 use crate::digest::SourceFile;
 use crate::source::{NoText, read_file, text_of};

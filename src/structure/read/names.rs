@@ -114,13 +114,6 @@ pub(super) fn normalise(amino_acid: AminoAcid, atoms: &mut [Atom]) {
     rename(&["OT2", "O2", "OC2", "O''"], "OXT");
 }
 
-/// Whether residues of this name are water.
-pub(in super::super) fn is_water(name: &str) -> bool {
-    ["HOH", "WAT", "DOD", "SOL", "TIP", "H2O"].contains(&name)
-        || name.starts_with("TIP") && name.len() == 4
-        || name.starts_with("SPC")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -162,11 +155,5 @@ mod tests {
         let mut lysine = atoms(&["CD", "O", "OXT"]);
         normalise(AminoAcid::Lysine, &mut lysine);
         assert_eq!(lysine, atoms(&["CD", "O", "OXT"]));
-    }
-
-    #[test]
-    fn water_has_many_names() {
-        assert!(["HOH", "TIP3", "SOL", "SPCE"].iter().all(|name| is_water(name)));
-        assert!(!is_water("TIPX5") && !is_water("ALA"));
     }
 }
