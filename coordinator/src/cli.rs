@@ -5,6 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use roadmill::export::{FORMATS, RoadmapFormat};
 use roadmill::numbers::Ordinal;
+use roadmill::structure::{ResidueNumber, parse_range};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -45,6 +46,9 @@ pub enum Command {
     Import(ImportArguments),
     /// Write a roadmap in a format that other programs read
     Export(ExportArguments),
+    /// Look at structures of proteins
+    #[command(subcommand)]
+    Protein(ProteinCommand),
     #[command(hide = true)]
     Worker(WorkerArguments),
 }
@@ -376,6 +380,54 @@ fn formats() -> PossibleValuesParser {
     PossibleValuesParser::new(FORMATS.iter().map(format))
 }
 
+/// What to do with structures of proteins.
+#[derive(Debug, Subcommand)]
+pub enum ProteinCommand {
+    /// Say what a structure file holds: models, chains, gaps, alternatives, secondary structure
+    Info(ProteinInfoArguments),
+    /// Say how two conformations of one protein differ
+    Compare(ProteinCompareArguments),
+}
+
+/// Of `protein info`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct ProteinInfoArguments {
+    /// A PDB or mmCIF file (docs/structures.md)
+    pub file: PathBuf,
+    /// Only this chain; a sole chain of amino acids answers to any name
+    #[arg(long)]
+    pub chain: Option<String>,
+    /// As a JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Of `protein compare`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct ProteinCompareArguments {
+    /// A PDB or mmCIF file (docs/structures.md); its first model is taken
+    pub first: PathBuf,
+    /// Another, which is moved onto it
+    pub second: PathBuf,
+    /// The chain; a sole chain of amino acids answers to any name
+    #[arg(long)]
+    pub chain: Option<String>,
+    /// The chain of the second file [default: as --chain]
+    #[arg(long)]
+    pub chain_b: Option<String>,
+    /// Only residues from FIRST to LAST, by their numbers in each file
+    #[arg(long, value_name = "FIRST-LAST", value_parser = residues, allow_hyphen_values = true)]
+    pub residues: Option<(ResidueNumber, ResidueNumber)>,
+    /// How many of the torsions that turn farthest are listed
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    pub torsions: usize,
+    /// As a JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// Of the hidden worker command.
 #[derive(Debug, Args)]
 pub struct WorkerArguments {
@@ -411,6 +463,10 @@ fn sets(text: &str) -> Result<(String, Range<Ordinal>), String> {
         (!range.is_empty()).then(|| (label.to_owned(), range))
     };
     parse().ok_or_else(|| "LABEL:FIRST..END expected, with FIRST below END".to_owned())
+}
+
+fn residues(text: &str) -> Result<(ResidueNumber, ResidueNumber), String> {
+    parse_range(text).ok_or_else(|| "FIRST-LAST expected, two numbers of residues".to_owned())
 }
 
 /// A share in percent, as a fraction.

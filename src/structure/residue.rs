@@ -67,7 +67,7 @@ pub struct Residue {
     pub name: String,
     /// The amino acid that it is, or was before it was modified; `None` for anything else.
     pub amino_acid: Option<AminoAcid>,
-    /// Its atoms, each name once.
+    /// Its atoms; of an amino acid each name once.
     pub atoms: Vec<Atom>,
 }
 
@@ -75,6 +75,16 @@ impl Residue {
     /// The position of the atom of this name.
     pub fn position(&self, name: &str) -> Option<Point> {
         self.atoms.iter().find(|atom| atom.name == name).map(|atom| atom.position)
+    }
+
+    /// Whether it is a molecule of water, by the names that the wwPDB and programs give it.
+    pub fn is_water(&self) -> bool {
+        let name = self.name.as_str();
+        matches!(name, "HOH" | "DOD" | "WAT" | "H2O" | "SOL" | "TIP")
+            || matches!(
+                name.as_bytes(),
+                [b'T', b'I', b'P', _] | [b'S', b'P', b'C'] | [b'S', b'P', b'C', _]
+            )
     }
 
     /// The atoms of the side chain: the heavy ones that are not N, CA, C, O or OXT.
@@ -96,5 +106,22 @@ impl Residue {
 impl fmt::Display for Residue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {}", self.name, self.number)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn water_has_many_names() {
+        let named = |name: &str| Residue {
+            number: ResidueNumber { number: 1, insertion: None },
+            name: name.to_owned(),
+            amino_acid: None,
+            atoms: Vec::new(),
+        };
+        assert!(["HOH", "TIP3", "SOL", "SPCE"].iter().all(|name| named(name).is_water()));
+        assert!(!["TIPX5", "ALA", ""].iter().any(|name| named(name).is_water()));
     }
 }

@@ -11,7 +11,7 @@
 //! source's positions to the bit.
 
 use crate::math;
-use crate::structure::{Point, Residue};
+use crate::structure::{Point, Residue, torsion};
 use nalgebra::{Matrix3, Unit};
 
 /// The longest distance from a C to the next N, Å, that a peptide bond can have: the bond is 1.33 Å long, and without a
@@ -91,14 +91,6 @@ fn rotation(axis: &Unit<Point>, sin: f64, cos: f64) -> Matrix3<f64> {
         t * y * z + sin * x,
         cos + t * z * z,
     )
-}
-
-/// The torsion angle of four points in radians, in [−π, π), positive where the far bond is turned clockwise as seen along
-/// the middle one (IUPAC-IUB 1970).
-pub fn torsion(a: &Point, b: &Point, c: &Point, d: &Point) -> f64 {
-    let (first, middle, last) = (b - a, c - b, d - c);
-    let (n1, n2) = (first.cross(&middle), middle.cross(&last));
-    math::wrap_angle(math::atan2(middle.norm() * first.dot(&n2), n1.dot(&n2)))
 }
 
 impl Linkage {

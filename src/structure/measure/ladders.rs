@@ -1,0 +1,154 @@
+//! Bridges between strands, and the ladders that they make: W. Kabsch & C. Sander, *Dictionary of protein secondary
+//! structure*, Biopolymers 22 (1983) 2577, with the bounds on bulges of DSSP 2.2.
+
+use std::collections::VecDeque;
+
+/// Of what a residue is part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rung {
+    /// Of no bridge.
+    None,
+    /// Of a bridge that stands alone.
+    Bridge,
+    /// Of bridges in a row, or of a bulge between two.
+    Ladder,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Direction {
+    Parallel,
+    Antiparallel,
+}
+
+/// Bridges in a row: the residues on the one strand and, ascending like them, those on the other.
+struct Ladder {
+    direction: Direction,
+    one: VecDeque<usize>,
+    other: VecDeque<usize>,
+}
+
+/// Of what each residue is part, given the residues' unbroken pieces of chain, and whether the N–H of a residue is bonded
+/// to the C=O of another.
+pub(super) fn rungs(segments: &[usize], is_bonded: impl Fn(usize, usize) -> bool) -> Vec<Rung> {
+    let mut ladders = join_bridges(segments, is_bonded);
+    join_ladders(segments, &mut ladders);
+    let mut rungs = vec![Rung::None; segments.len()];
+    for ladder in &ladders {
+        let rung = if ladder.one.len() > 1 { Rung::Ladder } else { Rung::Bridge };
+        for strand in [&ladder.one, &ladder.other] {
+            let (Some(first), Some(last)) = (strand.front(), strand.back()) else { continue };
+            for of_residue in &mut rungs[*first..=*last] {
+                if *of_residue != Rung::Ladder {
+                    *of_residue = rung;
+                }
+            }
+        }
+    }
+    rungs
+}
+
+/// All bridges, those that follow on one another without a gap joined.
+fn join_bridges(segments: &[usize], is_bonded: impl Fn(usize, usize) -> bool) -> Vec<Ladder> {
+    let mut ladders: Vec<Ladder> = Vec::new();
+    let count = segments.len();
+    for i in 1..count.saturating_sub(4) {
+        for j in i + 3..count - 1 {
+            let Some(direction) = bridge(segments, &is_bonded, i, j) else { continue };
+            let before = ladders.iter_mut().find(|ladder| {
+                let next = match direction {
+                    Direction::Parallel => ladder.other.back().map(|last| last + 1),
+                    Direction::Antiparallel => ladder.other.front().map(|first| first - 1),
+                };
+                ladder.direction == direction
+                    && ladder.one.back() == Some(&(i - 1))
+                    && next == Some(j)
+            });
+            match (before, direction) {
+                (None, _) => {
+                    ladders.push(Ladder { direction, one: [i].into(), other: [j].into() });
+                }
+                (Some(ladder), Direction::Parallel) => {
+                    ladder.one.push_back(i);
+                    ladder.other.push_back(j);
+                }
+                (Some(ladder), Direction::Antiparallel) => {
+                    ladder.one.push_back(i);
+                    ladder.other.push_front(j);
+                }
+            }
+        }
+    }
+    ladders
+}
+
+/// The bridge between residues i and j, neither the first nor the last, if there is one.
+fn bridge(
+    segments: &[usize],
+    is_bonded: impl Fn(usize, usize) -> bool,
+    i: usize,
+    j: usize,
+) -> Option<Direction> {
+    if segments[i - 1] != segments[i + 1] || segments[j - 1] != segments[j + 1] {
+        return None;
+    }
+    if is_bonded(i + 1, j) && is_bonded(j, i - 1) || is_bonded(j + 1, i) && is_bonded(i, j - 1) {
+        Some(Direction::Parallel)
+    } else if is_bonded(i + 1, j - 1) && is_bonded(j + 1, i - 1)
+        || is_bonded(j, i) && is_bonded(i, j)
+    {
+        Some(Direction::Antiparallel)
+    } else {
+        None
+    }
+}
+
+/// Joins ladders between which there is but a bulge: on one strand at most one residue, on the other at most four.
+fn join_ladders(segments: &[usize], ladders: &mut Vec<Ladder>) {
+    ladders.sort_by_key(|ladder| ladder.one.front().copied());
+    let mut i = 0;
+    while i < ladders.len() {
+        let mut j = i + 1;
+        while j < ladders.len() {
+            if is_bulge(segments, &ladders[i], &ladders[j]) {
+                let next = ladders.remove(j);
+                let ladder = &mut ladders[i];
+                ladder.one.extend(next.one);
+                match ladder.direction {
+                    Direction::Parallel => ladder.other.extend(next.other),
+                    Direction::Antiparallel => {
+                        next.other.into_iter().rev().for_each(|at| ladder.other.push_front(at));
+                    }
+                }
+            } else {
+                j += 1;
+            }
+        }
+        i += 1;
+    }
+}
+
+/// Whether `b` goes on where `a` ends, but for a bulge.
+fn is_bulge(segments: &[usize], a: &Ladder, b: &Ladder) -> bool {
+    let ends = |strand: &VecDeque<usize>| Some((*strand.front()?, *strand.back()?));
+    let (Some((a_first, a_last)), Some((b_first, b_last))) = (ends(&a.one), ends(&b.one)) else {
+        return false;
+    };
+    let (Some(a_other), Some(b_other)) = (ends(&a.other), ends(&b.other)) else { return false };
+    let in_one_segment = |(first, last): (usize, usize), (from, to): (usize, usize)| {
+        segments[first.min(from)] == segments[last.max(to)]
+    };
+    if a.direction != b.direction
+        || !in_one_segment((a_first, a_last), (b_first, b_last))
+        || !in_one_segment(a_other, b_other)
+        || b_first <= a_last
+    {
+        return false;
+    }
+    // The steps from the last bridge of `a` to the first of `b`; on the other strand they may overlap.
+    let step = b_first - a_last;
+    let (runs_on, other_step) = match a.direction {
+        Direction::Parallel => (b_other.0 > a_other.0, b_other.0.saturating_sub(a_other.1)),
+        Direction::Antiparallel => (b_other.0 < a_other.0, a_other.0.saturating_sub(b_other.1)),
+    };
+    runs_on && step < 6 && (other_step < 3 || other_step < 6 && step < 3)
+}
