@@ -1,3 +1,4 @@
 //! Proteins: chains whose backbone torsions turn.
 
 pub mod linkage;
+pub mod motion;
