@@ -17,6 +17,7 @@ pub mod atoms;
 pub mod energy;
 pub mod kinematics;
 pub mod linkage;
+pub mod motion;
 pub mod placed;
 pub mod validity;
 
