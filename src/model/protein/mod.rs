@@ -1,6 +1,8 @@
 //! Proteins: chains whose backbone torsions turn.
 
 pub mod atoms;
+#[cfg(test)]
+mod chains;
 pub mod energy;
 pub mod kinematics;
 pub mod linkage;
