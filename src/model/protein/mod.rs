@@ -14,6 +14,8 @@ mod spec;
 mod write;
 
 pub mod atoms;
+#[cfg(test)]
+mod chains;
 pub mod energy;
 pub mod kinematics;
 pub mod linkage;

@@ -67,6 +67,8 @@ pub struct Placed {
     pub has_centroid: Vec<bool>,
     /// Which residues have an amide hydrogen.
     pub has_hydrogen: Vec<bool>,
+    /// What is computed on the way.
+    pub(super) turns: Vec<[[f64; 4]; 2]>,
 }
 
 impl Placed {
@@ -78,5 +80,16 @@ impl Placed {
     /// Whether there is no residue.
     pub fn is_empty(&self) -> bool {
         self.ca.is_empty()
+    }
+
+    /// Fills it with what could mislead.
+    pub fn poison(&mut self) {
+        let Placed { n, ca, c, o, cb, centroid, h, .. } = self;
+        for kind in [n, ca, c, o, cb, centroid, h] {
+            [&mut kind.x, &mut kind.y, &mut kind.z]
+                .into_iter()
+                .for_each(|axis| axis.fill(f64::NAN));
+        }
+        self.turns.fill([[f64::NAN; 4]; 2]);
     }
 }
