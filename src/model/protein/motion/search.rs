@@ -39,9 +39,8 @@ pub struct MotionScratch {
     open: Vec<Open>,
 }
 
-#[cfg(test)]
 impl MotionScratch {
-    /// Fills it with what could mislead.
+    /// Fills it with what could mislead: for tests of the law that it never does.
     pub fn poison(&mut self, seed: u64) {
         let rubbish = if seed % 2 == 0 { f64::NAN } else { seed as f64 };
         let point = Point::new(rubbish, 1.0, -rubbish);
