@@ -9,6 +9,7 @@ mod pairs;
 mod sequences;
 pub(crate) mod statistics;
 mod steps;
+mod torsion_noise;
 
 use super::SamplerKind;
 use crate::context::Context;
