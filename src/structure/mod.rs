@@ -19,6 +19,8 @@ pub mod peptides;
 mod read;
 mod residue;
 mod selection;
+#[cfg(test)]
+mod tests;
 mod torsion;
 
 pub use amino_acid::AminoAcid;

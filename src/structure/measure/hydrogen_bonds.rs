@@ -7,8 +7,10 @@
 //!
 //! **Hydrogens** are always placed by rule, also where the file has some: X-ray files have none, and rules of programs
 //! that add them differ. As in the paper, H stands opposite to the C=O of the peptide group that N belongs to,
-//! H = N + 1.01 Å · (C − O)/|C − O|: a peptide group is planar and its C=O and N–H are antiparallel to about 5°, and no
-//! atom of the residue's own is needed. The paper's program has 1.00 Å, microwave spectra of amides 1.00 to 1.01 Å.
+//! H = N + r · (C − O)/|C − O|: a peptide group is planar and its C=O and N–H are antiparallel to about 5°, and no
+//! atom of the residue's own is needed. r is 1.01 Å, the length of the bond in force fields; the paper's program, DSSP, has
+//! 1.00 Å, which makes the energies of bonds up to 0.08 kcal/mol weaker or stronger. Secondary structure is assigned with
+//! 1.00 Å, so that it is DSSP's.
 
 use super::cells::Cells;
 use super::segments::segments;
@@ -16,6 +18,9 @@ use crate::structure::{AminoAcid, Point, Residue};
 
 /// The length of the bond N–H, in Å.
 const N_H: f64 = 1.01;
+
+/// Its length in the paper's program, in Å.
+const N_H_OF_DSSP: f64 = 1.00;
 
 /// q₁ q₂ f, in Å kcal/mol.
 const COUPLING: f64 = 0.42 * 0.20 * 332.0;
@@ -47,6 +52,11 @@ pub struct HydrogenBond {
 /// The hydrogen on each residue's N, in Å. There is none on proline, on the first residue of a chain or after a break
 /// (see [`segments`]), nor where C or O of the residue before were not seen.
 pub fn amide_hydrogens(residues: &[Residue]) -> Vec<Option<Point>> {
+    hydrogens(residues, N_H)
+}
+
+/// The hydrogens at this distance from N, in Å.
+fn hydrogens(residues: &[Residue], n_h: f64) -> Vec<Option<Point>> {
     let segments = segments(residues);
     let hydrogen = |i: usize| {
         let before = i.checked_sub(1).filter(|before| segments[*before] == segments[i])?;
@@ -55,14 +65,23 @@ pub fn amide_hydrogens(residues: &[Residue]) -> Vec<Option<Point>> {
         }
         let (c, o) = (residues[before].position("C")?, residues[before].position("O")?);
         let direction = (c - o).try_normalize(0.0)?;
-        Some(residues[i].position("N")? + direction * N_H)
+        Some(residues[i].position("N")? + direction * n_h)
     };
     (0..residues.len()).map(hydrogen).collect()
 }
 
 /// All hydrogen bonds between the peptide groups of residues at least two apart, by donor, then acceptor. A donor may
-/// have several; [`strongest_two`] leaves what secondary structure is made of.
+/// have several; [`strongest_two`] leaves at most two.
 pub fn hydrogen_bonds(residues: &[Residue]) -> Vec<HydrogenBond> {
+    bonds(residues, N_H)
+}
+
+/// Of each donor the two strongest bonds, with hydrogens 1.00 Å from N: what DSSP reads the secondary structure from.
+pub(super) fn bonds_of_dssp(residues: &[Residue]) -> Vec<HydrogenBond> {
+    strongest_two(&bonds(residues, N_H_OF_DSSP))
+}
+
+fn bonds(residues: &[Residue], n_h: f64) -> Vec<HydrogenBond> {
     let acceptors: Vec<(usize, Point, Point)> = residues
         .iter()
         .enumerate()
@@ -70,7 +89,7 @@ pub fn hydrogen_bonds(residues: &[Residue]) -> Vec<HydrogenBond> {
         .collect();
     let cells = Cells::new(acceptors.iter().map(|(.., o)| *o), FARTHEST);
     let mut bonds = Vec::new();
-    for (donor, h) in amide_hydrogens(residues).into_iter().enumerate() {
+    for (donor, h) in hydrogens(residues, n_h).into_iter().enumerate() {
         let (Some(h), Some(n)) = (h, residues[donor].position("N")) else { continue };
         let first = bonds.len();
         cells.near(&n, |index| {
@@ -143,9 +162,9 @@ mod tests {
         let helix = ideal_chain(6, -57.0, -47.0);
         let hydrogens = amide_hydrogens(&helix);
         assert_eq!(hydrogens[0], None);
-        for i in 1..6 {
+        for (i, hydrogen) in hydrogens.iter().enumerate().skip(1) {
             let at = |of: usize, name| helix[of].position(name).expect("it is there");
-            let (n, h) = (at(i, "N"), hydrogens[i].expect("there is one"));
+            let (n, h) = (at(i, "N"), hydrogen.expect("there is one"));
             assert!(((h - n).norm() - 1.01).abs() < 1e-12);
             let normal = (at(i - 1, "C") - n).cross(&(at(i, "CA") - n));
             assert!((h - n).dot(&normal).abs() < 1e-3);

@@ -152,3 +152,71 @@ fn is_bulge(segments: &[usize], a: &Ladder, b: &Ladder) -> bool {
     };
     runs_on && step < 6 && (other_step < 3 || other_step < 6 && step < 3)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The rungs of residues in one piece with these bonds, donors first: `-`, `B` or `E` each.
+    fn letters(count: usize, bonds: &[(usize, usize)]) -> String {
+        let rungs = rungs(&vec![0; count], |donor, acceptor| bonds.contains(&(donor, acceptor)));
+        let letter = |rung| match rung {
+            Rung::None => '-',
+            Rung::Bridge => 'B',
+            Rung::Ladder => 'E',
+        };
+        rungs.into_iter().map(letter).collect()
+    }
+
+    #[test]
+    fn two_bonds_make_a_bridge() {
+        // Antiparallel: both bonds between 2 and 9 themselves, or between their neighbours.
+        assert_eq!(letters(14, &[(2, 9), (9, 2)]), "--B------B----");
+        assert_eq!(letters(14, &[(3, 8), (10, 1)]), "--B------B----");
+        // Parallel: 2 between the bonds of 9, or 9 between those of 2.
+        assert_eq!(letters(14, &[(3, 9), (9, 1)]), "--B------B----");
+        assert_eq!(letters(14, &[(10, 2), (2, 8)]), "--B------B----");
+        assert_eq!(letters(14, &[(2, 9)]), "-".repeat(14));
+        assert_eq!(letters(14, &[]), "-".repeat(14));
+        for count in 0..6 {
+            assert_eq!(letters(count, &[(0, 4), (4, 0)]), "-".repeat(count));
+        }
+    }
+
+    #[test]
+    fn bridges_in_a_row_make_a_ladder() {
+        // Bridges 2–11 and 4–9 by their own bonds, and so 3–10 by its neighbours'.
+        let antiparallel = [(2, 11), (11, 2), (4, 9), (9, 4)];
+        assert_eq!(letters(14, &antiparallel), "--EEE----EEE--");
+        // Bridges 2–9 by the bonds of 9, 3–10 by those of 3, 4–11 by those of 11.
+        let parallel = [(3, 9), (9, 1), (11, 3), (3, 9), (5, 11)];
+        assert_eq!(letters(14, &parallel), "--EEE----EEE--");
+    }
+
+    #[test]
+    fn bulges_of_one_residue_and_four_are_part_of_a_ladder() {
+        // From the bridge 2–18 to one `step` and `other` residues on.
+        let bulge = |step: usize, other: usize| {
+            let (i, j) = (2 + step, 18 - other);
+            let text = letters(22, &[(2, 18), (18, 2), (i, j), (j, i)]);
+            let strand =
+                |from: usize, to: usize| text[from..=to].chars().all(|letter| letter == 'E');
+            strand(2, i) && strand(j, 18)
+        };
+        for (step, other) in [(1, 2), (2, 2), (2, 5), (5, 2), (5, 1)] {
+            assert!(bulge(step, other), "{step} {other}");
+        }
+        for (step, other) in [(3, 3), (2, 6), (6, 2), (3, 5)] {
+            assert!(!bulge(step, other), "{step} {other}");
+        }
+    }
+
+    #[test]
+    fn nothing_reaches_over_a_break() {
+        let segments: Vec<usize> = (0..14).map(|i| usize::from(i >= 3)).collect();
+        let bonds = [(2, 9), (9, 2), (5, 11), (11, 5)];
+        let rungs = rungs(&segments, |donor, acceptor| bonds.contains(&(donor, acceptor)));
+        let expected = |i| if matches!(i, 5 | 11) { Rung::Bridge } else { Rung::None };
+        assert_eq!(rungs, (0..14).map(expected).collect::<Vec<_>>());
+    }
+}

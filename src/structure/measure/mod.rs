@@ -20,7 +20,7 @@ mod superposition;
 mod tests;
 
 pub use contacts::{APART, CA_REACH, NativeContacts, ca_contacts, share_of_ca_contacts};
-pub use domain_angle::{angle_of_centroids, domain_angle};
+pub use domain_angle::{BACKBONE_AND_CB, CA, angle_of_centroids, domain_angle};
 pub use hydrogen_bonds::{HydrogenBond, amide_hydrogens, hydrogen_bonds, strongest_two};
 pub use radius_of_gyration::{mass, radius_of_gyration, radius_of_gyration_by_mass};
 pub use rmsd::{CentredPoints, rmsd, rmsd_in_place};

@@ -8,11 +8,11 @@
 //!   in one another with at most one more residue on one strand and four on the other, which are E too.
 //! - Inside a turn that is no helix is T, and S where the chain bends by more than 70° over five residues.
 //!
-//! A residue that could be several things is the first of H, B, E, G, I, T, S, as in the paper; there is no helix G or I
-//! that a residue of an earlier kind would shorten. DSSP since 2.1, and mdtraj with it, prefer I to H. As in the paper's
-//! program only the two strongest bonds of every N–H count.
+//! A residue that could be several things is the first of H, E, B, G, I, T and S, and there is no helix G or I where one of
+//! its residues is of an earlier kind. DSSP since 2.1, and mdtraj with it, prefer I to H; the paper does not. As in the
+//! paper's program only the two strongest bonds of every N–H count.
 
-use super::hydrogen_bonds::{hydrogen_bonds, strongest_two};
+use super::hydrogen_bonds::bonds_of_dssp;
 use super::ladders::{Rung, rungs};
 use super::segments::segments;
 use crate::math;
@@ -95,7 +95,7 @@ impl ThreeStates {
 /// A backbone atom that was not seen has no bonds, and the chain is broken there.
 pub fn secondary_structure(residues: &[Residue]) -> Vec<SecondaryStructure> {
     let segments = segments(residues);
-    let bonds = strongest_two(&hydrogen_bonds(residues));
+    let bonds = bonds_of_dssp(residues);
     let is_bonded = |donor: usize, acceptor: usize| {
         bonds.binary_search_by(|b| (b.donor, b.acceptor).cmp(&(donor, acceptor))).is_ok()
     };
@@ -119,17 +119,14 @@ pub fn secondary_structure(residues: &[Residue]) -> Vec<SecondaryStructure> {
     mark_helices(turns_3, 3, Helix310, &[Loop, Helix310], &mut assigned);
     mark_helices(turns_5, 5, PiHelix, &[Loop, PiHelix], &mut assigned);
 
-    for i in 0..residues.len() {
-        if assigned[i] != Loop {
-            continue;
-        }
+    for (i, kind) in assigned.iter_mut().enumerate().filter(|(_, kind)| **kind == Loop) {
         let is_in_turn = |(turns, length): (&Vec<bool>, usize)| {
             (1..length).any(|back| i.checked_sub(back).is_some_and(|start| turns[start]))
         };
         if turns.iter().zip(3..).any(is_in_turn) {
-            assigned[i] = Turn;
+            *kind = Turn;
         } else if bends(residues, &segments, i) {
-            assigned[i] = Bend;
+            *kind = Bend;
         }
     }
     assigned

@@ -106,10 +106,10 @@ pub(super) fn rows<'a>(
                     columns.push(name);
                     values.push(value);
                     next = tokens.next()?;
-                    if let Some((line, Token::Tag(name))) = next {
-                        if category(name) == category(first) {
-                            tag = Some((line, name));
-                        }
+                    if let Some((line, Token::Tag(name))) = next
+                        && category(name) == category(first)
+                    {
+                        tag = Some((line, name));
                     }
                 }
                 let (columns, values) = (&columns, &values);

@@ -165,11 +165,12 @@ fn atom(line: &Columns, number: usize, parents: &Parents) -> Result<Site, Struct
 fn residue_number(line: &Columns) -> Option<ResidueNumber> {
     let field = line.columns(22, 26);
     let insertion = line.letter(26);
-    if let Some(digit) = insertion.and_then(|c| c.to_digit(10)) {
-        if field.len() == 4 && field.bytes().all(|byte| byte.is_ascii_digit()) {
-            let number = 10 * field.parse::<i32>().ok()? + i32::try_from(digit).ok()?;
-            return Some(ResidueNumber { number, insertion: None });
-        }
+    if let Some(digit) = insertion.and_then(|c| c.to_digit(10))
+        && field.len() == 4
+        && field.bytes().all(|byte| byte.is_ascii_digit())
+    {
+        let number = 10 * field.parse::<i32>().ok()? + i32::try_from(digit).ok()?;
+        return Some(ResidueNumber { number, insertion: None });
     }
     let number = field.trim().parse().ok().or_else(|| hybrid_36(&field))?;
     Some(ResidueNumber { number, insertion })
