@@ -7,4 +7,5 @@ pub mod energy;
 pub mod kinematics;
 pub mod linkage;
 pub mod placed;
+pub mod refit;
 pub mod validity;
