@@ -21,6 +21,7 @@ pub mod kinematics;
 pub mod linkage;
 pub mod motion;
 pub mod placed;
+pub mod refit;
 pub mod validity;
 
 pub use spec::{ChainSpec, FileSpec, Gaps, ObstacleSpec, ProteinSpec};

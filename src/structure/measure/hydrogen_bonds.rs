@@ -23,10 +23,10 @@ const N_H: f64 = 1.01;
 const N_H_OF_DSSP: f64 = 1.00;
 
 /// q₁ q₂ f, in Å kcal/mol.
-const COUPLING: f64 = 0.42 * 0.20 * 332.0;
+pub const COUPLING: f64 = 0.42 * 0.20 * 332.0;
 
 /// What is below this is a bond, in kcal/mol.
-const WEAKEST: f64 = -0.5;
+pub const WEAKEST: f64 = -0.5;
 
 /// The lowest energy, in kcal/mol, which is also that of groups that overlap: as in the paper's program.
 const STRONGEST: f64 = -9.9;
@@ -123,7 +123,7 @@ pub fn strongest_two(bonds: &[HydrogenBond]) -> Vec<HydrogenBond> {
 }
 
 /// The energy of N–H···O=C in kcal/mol, not below −9.9; NaN if a coordinate is.
-fn energy(n: &Point, h: &Point, c: &Point, o: &Point) -> f64 {
+pub fn energy(n: &Point, h: &Point, c: &Point, o: &Point) -> f64 {
     let pairs = [(o, n), (c, h), (o, h), (c, n)];
     let [on, ch, oh, cn] = pairs.map(|(a, b)| (a - b).norm());
     if [on, ch, oh, cn].iter().any(|distance| *distance < OVERLAP) {

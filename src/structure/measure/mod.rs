@@ -21,7 +21,10 @@ mod tests;
 
 pub use contacts::{APART, CA_REACH, NativeContacts, ca_contacts, share_of_ca_contacts};
 pub use domain_angle::{BACKBONE_AND_CB, CA, angle_of_centroids, domain_angle};
-pub use hydrogen_bonds::{HydrogenBond, amide_hydrogens, hydrogen_bonds, strongest_two};
+pub use hydrogen_bonds::{
+    COUPLING as HYDROGEN_BOND_COUPLING, HydrogenBond, WEAKEST as WEAKEST_HYDROGEN_BOND,
+    amide_hydrogens, energy as hydrogen_bond_energy, hydrogen_bonds, strongest_two,
+};
 pub use radius_of_gyration::{mass, radius_of_gyration, radius_of_gyration_by_mass};
 pub use rmsd::{CentredPoints, rmsd, rmsd_in_place};
 pub use secondary_structure::{SecondaryStructure, ThreeStates, secondary_structure};
