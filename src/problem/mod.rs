@@ -14,6 +14,7 @@ mod layout;
 mod limits;
 mod resolve;
 mod strategy;
+mod transition;
 mod write;
 
 pub use crate::source::ProblemError;
@@ -24,6 +25,7 @@ pub use configuration::configuration;
 pub use layout::Layout;
 pub use limits::{Limits, NODES_MAX};
 pub use strategy::StrategySpec;
+pub use transition::{Transition, about_native, transition};
 pub use write::Written;
 
 use crate::context::{Context, Ends};

@@ -2,10 +2,11 @@
 
 use super::{Problem, ProblemBuilder, StrategySpec};
 use crate::model::ModelKind;
-use crate::model::protein::refit::{Refit, refit};
+use crate::model::protein::refit::{Refit, Weights, refit};
 use crate::model::protein::{Protein, ProteinSpec};
 use crate::sampler::{About, SamplerKind, TorsionNoise};
 use crate::source::ProblemError;
+use crate::structure::Residue;
 use std::path::Path;
 
 /// Nodes of a set.
@@ -33,9 +34,19 @@ pub fn transition(
     let builder = Problem::builder(name, spec.clone()).folder(folder);
     let protein = protein_of(&builder)?;
     let Some(target) = protein.target() else {
-        return Err(ProblemError::pathless("protein.target: none found; the other end of the transition expected"));
+        let message = "protein.target: none found; the other end of the transition expected";
+        return Err(ProblemError::pathless(message.to_owned()));
     };
-    let refit = refit(&protein.linkage(), protein.source(), target, protein.matches());
+    let counterparts = counterparts(&protein, target)?;
+    let fitted = refit(
+        protein.source(),
+        &protein.linkage(),
+        &counterparts,
+        protein.rules(),
+        &Weights::default(),
+    );
+    let refit =
+        fitted.map_err(|error| ProblemError::pathless(format!("protein.target: {error}")))?;
     let (start, goal) = (protein.linkage().source(), refit.q.clone());
     for (end, q) in [("start", &start), ("goal", &goal)] {
         if let Some(message) = protein.broken_rule(q) {
@@ -56,6 +67,21 @@ pub fn about_native(name: &str, folder: &Path, spec: &ProteinSpec) -> Result<Pro
     let noise = SamplerKind::TorsionNoise(TorsionNoise::default());
     let strategy = StrategySpec::sampled("noise", noise).nodes(NODES);
     Problem::builder(name, spec.clone()).folder(folder).strategy(strategy).build()
+}
+
+/// The target's residues, one for each of the source's.
+fn counterparts(protein: &Protein, target: &[Residue]) -> Result<Vec<Residue>, ProblemError> {
+    let (source, matches) = (protein.source(), protein.matches());
+    let is_matched = |at: &usize| matches.iter().any(|[here, _]| *here as usize == *at);
+    if let Some(lone) = (0..source.len()).find(|at| !is_matched(at)) {
+        let message = format!(
+            "protein.target: no counterpart of {} found; all of the source's residues expected: choose those that both ends \
+             have by `residues`",
+            source[lone]
+        );
+        return Err(ProblemError::pathless(message));
+    }
+    Ok(matches.iter().map(|[_, there]| target[*there as usize].clone()).collect())
 }
 
 fn protein_of(builder: &ProblemBuilder) -> Result<Protein, ProblemError> {

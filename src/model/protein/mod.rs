@@ -84,6 +84,11 @@ impl Protein {
         self.target.as_ref().map_or(&[], |target| &target.matches[..])
     }
 
+    /// Which conformations are invalid.
+    pub fn rules(&self) -> &Rules {
+        &self.rules
+    }
+
     /// The first pair of atoms at a configuration that breaks a rule, for people to read.
     pub fn broken_rule(&self, q: &[f64]) -> Option<String> {
         describe::broken_rule(self, q)

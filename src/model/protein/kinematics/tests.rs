@@ -52,7 +52,7 @@ fn every_chain_stands_where_the_linkage_puts_it() {
             assert!(turned < 1e-9, "{len} residues, turned: {turned}");
         }
     }
-    assert!(Conformer::of(&[], &Linkage { torsions: Vec::new() }).is_some());
+    assert!(Conformer::of(&[], &Linkage { torsions: Vec::new(), gaps: Vec::new() }).is_some());
 }
 
 #[test]

@@ -8,7 +8,7 @@ use super::sites::{FITTED, Kind, Sites};
 use crate::math;
 use crate::model::protein::energy::{Constraint, Constraints};
 use crate::model::protein::kinematics::Conformer;
-use crate::model::protein::linkage::torsion;
+use crate::structure::torsion;
 use crate::structure::Point;
 use crate::structure::measure::{HydrogenBond, WEAKEST_HYDROGEN_BOND, superpose};
 use std::f64::consts::FRAC_PI_2;
