@@ -4,6 +4,7 @@ mod support;
 
 use roadmill::problem::{NODES_MAX, Problem};
 use roadmill_coordinator::{Run, Workers};
+use std::fs;
 use std::path::Path;
 use support::{ENDLESS, Scratch};
 
@@ -32,6 +33,11 @@ fn every_call_finishes_a_round_however_short_its_time() {
         done.assert_code(0);
         done.assert_stderr(&["`roadmill resume run` goes on; --max-time TIME"]);
         assert_eq!((rounds(&scratch), scratch.summary("run").stop.as_str()), (1, "time-limit"));
+        // However slow the disk, what goes into the ledger before the first round is a part of the time.
+        let summary = fs::read(scratch.path("run/summary.json")).expect("there is a summary");
+        let summary: serde_json::Value = serde_json::from_slice(&summary).expect("it is JSON");
+        let seconds = |key: &str| summary[key].as_f64().expect("a number");
+        assert!(seconds("ledger_seconds") <= seconds("wall_seconds"), "{summary}");
         // The limit of the first call is the run's.
         for expected in [2, 3] {
             scratch.run(&[&["resume", "run"], &crew[..]].concat()).assert_code(0);
