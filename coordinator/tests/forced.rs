@@ -116,12 +116,20 @@ fn a_build_that_may_open_few_files_leaves_nothing() {
 fn builds_that_replace_a_run_at_once_are_kept_apart() {
     let scratch = scratch();
     for round in 0..trials(8) {
+        if round % 2 == 1 {
+            // Then it is about who is first.
+            fs::remove_dir_all(scratch.path("runs/run")).expect("it is there");
+        }
         let running: Vec<_> =
             (0..3).map(|_| scratch.start(&[&FORCE[..], &["1"]].concat())).collect();
-        let codes: Vec<_> =
-            running.into_iter().map(|build| build.finish().status.code().unwrap_or(-1)).collect();
+        let done: Vec<_> = running.into_iter().map(|build| build.finish()).collect();
+        let codes: Vec<_> = done.iter().map(|done| done.status.code().unwrap_or(-1)).collect();
         assert!(codes.contains(&0), "{round}: {codes:?}");
         assert!(codes.iter().all(|code| [0, 2].contains(code)), "{round}: {codes:?}");
+        for loser in done.iter().filter(|done| done.status.code() == Some(2)) {
+            let says = |text: &str| loser.stderr.contains(text);
+            assert!(says("works on this run") || says("meanwhile"), "{round}: {}", loser.stderr);
+        }
         assert_eq!(beside(&scratch), [""; 0]);
         scratch.run(&["verify", "runs/run", "--threads", "1"]).assert_code(0);
     }

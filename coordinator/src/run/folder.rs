@@ -5,7 +5,7 @@
 //! process leaves beside the path, under a name with its process id, the next build there tidies up.
 
 use super::ledger::{LEDGER, LedgerWriter};
-use super::lock::{RunLock, started};
+use super::lock::{Holder, RunLock, held, started};
 use crate::exit::Failure;
 use crate::files::{cannot_write, folder_of};
 use roadmill_workers::Reserve;
@@ -141,7 +141,7 @@ impl RunFolder {
     /// The run has its ledger: it is given its place, if it has not been there from the start.
     ///
     /// # Errors
-    /// Exit code 2: something else has come to stand there; 1: the system refuses. The folder is then removed.
+    /// Exit code 2: another build has come to stand there; 1: the system refuses. The folder is then removed.
     pub fn settle(mut self, ledger: &mut LedgerWriter) -> Result<RunFolder, Failure> {
         let Some(staged) = self.staged.take() else { return Ok(self) };
         let moved = match self.replaces.take() {
@@ -155,7 +155,7 @@ impl RunFolder {
             // What cannot be removed now the next build tidies up.
             let _ = fs::remove_dir_all(&staged);
             return Err(match error.kind() {
-                ErrorKind::AlreadyExists | ErrorKind::DirectoryNotEmpty => exists(&self.path),
+                ErrorKind::AlreadyExists | ErrorKind::DirectoryNotEmpty => taken(&self.path),
                 _ => cannot_write(&self.path, &error),
             });
         }
@@ -322,6 +322,17 @@ fn exists(path: &Path) -> Failure {
     ))
 }
 
+/// Another build has come to stand at the path since nothing was there.
+fn taken(path: &Path) -> Failure {
+    match Holder::read(path) {
+        Some(holder) if holder.lives() != Some(false) => held(path, Some(&holder)),
+        _ => Failure::usage(format!(
+            "{}: something has come to stand there meanwhile; the same command may replace it if it is a run",
+            path.display()
+        )),
+    }
+}
+
 fn cannot_make(path: &Path, error: &io::Error) -> Failure {
     let Failure { code, .. } = cannot_write(path, error);
     Failure::new(code, format!("{}: cannot make the run folder: {error}", path.display()))
@@ -389,6 +400,20 @@ mod tests {
         assert_eq!((ledger(&path), ledger(&old)), ("new".to_owned(), "old".to_owned()));
         assert!(rename_to_free(&old, &path).is_err(), "it is taken");
         rename_to_free(&old, &folder.path().join("free")).unwrap();
+    }
+
+    /// Whoever was faster is named, or has ended already.
+    #[test]
+    fn a_place_that_was_taken_meanwhile_is_anothers() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run");
+        run(&path, "faster");
+        let lock = RunLock::take(&path, || false).unwrap();
+        let message = taken(&path).message;
+        assert!(message.contains("works on this run"), "{message}");
+        drop(lock);
+        let message = taken(&path).message;
+        assert!(message.contains("has come to stand there meanwhile"), "{message}");
     }
 
     #[test]
