@@ -1,5 +1,6 @@
 use super::Problem;
 use crate::generator::Sample;
+use crate::internal::plain::plain;
 use crate::schedule::Adaptive;
 use crate::strategy::Strategy;
 use std::fmt::Write;
@@ -12,8 +13,8 @@ pub(super) fn describe(problem: &Problem) -> String {
 
 fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     let space = problem.space();
-    writeln!(out, "problem          {} (seed {})", problem.name, problem.seed)?;
-    writeln!(out, "configuration    {}", space.form())?;
+    writeln!(out, "problem          {} (seed {})", plain(&problem.name), problem.seed)?;
+    writeln!(out, "configuration    {}", plain(&space.form()))?;
     problem.model.description().describe(out);
     if let Some(query) = &problem.query {
         writeln!(out, "start            {:?}", query.start)?;
@@ -25,12 +26,16 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
             Some(Sample { sampler, within }) => format!("{sampler:?}, within {within:?}"),
             None => format!("{generator:?}"),
         };
-        writeln!(out, "strategy         {label}: {nodes} nodes per set, {makes}, among {among:?}")?;
+        writeln!(
+            out,
+            "strategy         {}: {nodes} nodes per set, {makes}, among {among:?}",
+            plain(label)
+        )?;
     }
     let labels: Vec<_> = problem
         .schedule
         .iter()
-        .map(|index| problem.strategies[index.index()].label.as_str())
+        .map(|index| plain(&problem.strategies[index.index()].label))
         .collect();
     writeln!(
         out,

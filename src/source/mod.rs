@@ -4,14 +4,12 @@
 mod error;
 mod file;
 mod names;
-mod plain;
 mod text;
 mod xml;
 
 pub use error::ProblemError;
 pub(crate) use file::read_file;
 pub(crate) use names::{fits, fitting, fitting_name};
-pub(crate) use plain::plain;
 pub(crate) use text::{NoText, text_of, xml_text};
 pub(crate) use xml::too_many_attributes;
 

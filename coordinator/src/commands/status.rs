@@ -49,7 +49,7 @@ pub fn status(arguments: &StatusArguments) -> Result<Code, Failure> {
             let is_read = match (arguments.json, arguments.watch && !is_over) {
                 (true, _) => output::json(&status),
                 (false, true) => output::line(status.line()),
-                (false, false) => output::line(&status),
+                (false, false) => output::lines(&status),
             };
             if !is_read {
                 return Ok(Code::Done);
