@@ -106,6 +106,9 @@ fn nodes_that_are_left_open_give_way_to_a_limit_of_time() {
     assert_eq!(grown("open", &open(), None), by_memory);
     assert_eq!(grown("timed", &open(), Some(1000.0)), NODES_MAX);
     assert_eq!(grown("given", ENDLESS, Some(1000.0)), 4_000_000);
+    // A number that is given is meant, though it is what the limit would be if it were left open.
+    let same = ENDLESS.replace("nodes = 4000000", &format!("nodes = {by_memory}"));
+    assert_eq!(grown("given-the-same", &same, Some(1000.0)), by_memory);
     let seconds = format!("{}[limits]\nseconds = 1000\n", open());
     assert_eq!(grown("in-the-file", &seconds, None), NODES_MAX);
     let both = format!("{}[limits]\nseconds = 1000\nnodes = 70\n", open());

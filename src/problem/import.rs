@@ -26,6 +26,7 @@ pub(super) fn problem_of(path: &Path, imported: ForeignProblem) -> Result<Proble
         sets_per_round,
         evaluators: Vec::new(),
         limits,
+        nodes_are_given: false,
         notes,
         sources,
         earlier: Vec::new(),

@@ -55,6 +55,7 @@ pub(super) fn resolve(
         sets_per_round,
         evaluators,
         limits,
+        nodes_are_given: file.limits.nodes.is_some(),
         notes,
         sources: Vec::new(),
         earlier: Vec::new(),

@@ -1,6 +1,6 @@
 //! A problem written out as a problem file that loads to the same problem.
 
-use super::{Limits, Problem};
+use super::Problem;
 use crate::generator::Sample;
 use crate::model::Documents;
 use crate::source::value;
@@ -80,12 +80,8 @@ fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
     }
     let limits = &problem.limits;
     writeln!(out, "\n[limits]")?;
-    let mut open = Limits::left_open(&problem.space());
-    if limits.seconds.is_some() {
-        open = open.with_time(&problem.space());
-    }
-    if limits.nodes != open.nodes {
-        writeln!(out, "nodes = {}", limits.nodes)?;
+    if let Some(nodes) = problem.nodes_to_say() {
+        writeln!(out, "nodes = {nodes}")?;
     }
     if limits.sets != u64::MAX {
         writeln!(out, "sets = {}", limits.sets)?;

@@ -326,7 +326,7 @@ impl Anew {
     ) -> Result<Found, Failure> {
         let Anew { problem, max_nodes, max_sets, folder: out, replace, or_resume, imports } = self;
         let mut limits = problem.limits();
-        if seconds.is_some() {
+        if seconds.is_some() && problem.leaves_nodes_open() {
             limits = limits.with_time(&problem.space());
         }
         let problem = limited(problem, limits, max_nodes, max_sets)?;
