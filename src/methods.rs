@@ -26,8 +26,7 @@ impl Complaint {
             let (found, expected) = (format!("{length:e}"), format!("at most {most:e}").into());
             return Some(Complaint { key, found, expected });
         }
-        // Written so that NaN fails it.
-        (!(length > 0.0)).then(|| Complaint::new(key, length, "a positive length"))
+        (length.is_nan() || length <= 0.0).then(|| Complaint::new(key, length, "a positive length"))
     }
 }
 

@@ -2,6 +2,7 @@ use super::Problem;
 use crate::generator::Sample;
 use crate::internal::plain::plain;
 use crate::schedule::Adaptive;
+use crate::source::{setting, value};
 use crate::strategy::Strategy;
 use std::fmt::Write;
 
@@ -23,14 +24,14 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     for strategy in &problem.strategies {
         let Strategy { label, nodes, generator, among } = strategy;
         let makes = match generator.as_sample() {
-            Some(Sample { sampler, within }) => format!("{sampler:?}, within {within:?}"),
-            None => format!("{generator:?}"),
+            Some(Sample { sampler, within }) => {
+                format!("sampler = {}, within = {}", value(sampler), value(within))
+            }
+            None => format!("generator = {}", value(generator)),
         };
-        writeln!(
-            out,
-            "strategy         {}: {nodes} nodes per set, {makes}, among {among:?}",
-            plain(label)
-        )?;
+        let (label, among) = (plain(label), value(among));
+        let methods = format!("{makes}, among = {among}");
+        writeln!(out, "strategy         {label}: {nodes} nodes per set, {}", plain(&methods))?;
     }
     let labels: Vec<_> = problem
         .schedule
@@ -49,7 +50,7 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         problem.sets_per_round
     )?;
     for evaluator in &problem.evaluators {
-        writeln!(out, "until            {evaluator:?}")?;
+        writeln!(out, "until            {}", plain(&setting(evaluator)))?;
     }
     let sets = match problem.limits.sets {
         u64::MAX => "any number of".to_owned(),

@@ -3,7 +3,7 @@
 use super::Problem;
 use crate::generator::Sample;
 use crate::model::Documents;
-use crate::source::value;
+use crate::source::{setting, value};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -73,10 +73,7 @@ fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
     }
     for evaluator in &problem.evaluators {
         writeln!(out, "\n[[evaluators]]")?;
-        // A method is an inline table of one key, which stands in a table of its own here.
-        let method = value(evaluator);
-        let method = method.strip_prefix('{').and_then(|rest| rest.strip_suffix('}'));
-        writeln!(out, "{}", method.expect("a method is a table").trim())?;
+        writeln!(out, "{}", setting(evaluator))?;
     }
     let limits = &problem.limits;
     writeln!(out, "\n[limits]")?;

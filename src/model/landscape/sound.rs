@@ -59,10 +59,10 @@ impl Landscape {
 /// What is wrong with a term within these bounds.
 fn complaint_of(term: &Term, min: [f64; 2], max: [f64; 2]) -> Option<String> {
     let Term { height, centre, xx, xy, yy } = *term;
-    // Both written so that NaN fails them.
-    if !(height.abs() <= HEIGHT_MAX) {
+    if height.is_nan() || height.abs() > HEIGHT_MAX {
         return Some(format!("height {height} found; one within ±{HEIGHT_MAX:e} expected"));
     }
+    // Written so that NaN fails it.
     if !centre.iter().all(|value| value.abs() <= LENGTH_MAX) {
         return Some(format!("centre {centre:?} found; lengths within ±{LENGTH_MAX:e} expected"));
     }
