@@ -1,7 +1,7 @@
 //! Files: opened for what they are expected to be, and written whole.
 
 use crate::exit::{Code, Failure};
-use rustix::fs::{Mode, OFlags, open};
+use rustix::fs::{CWD, Mode, OFlags, RenameFlags, open, renameat_with};
 use rustix::io::Errno;
 use std::fs::{self, File, Permissions};
 use std::io::{self, ErrorKind, Write};
@@ -82,6 +82,16 @@ pub(crate) fn beside(path: &Path) -> io::Result<NamedTempFile> {
     Builder::new().prefix(&name).permissions(mode).tempfile_in(folder_of(path))
 }
 
+/// Gives the folder `new` a name that nothing has.
+pub(crate) fn rename_to_free(new: &Path, path: &Path) -> io::Result<()> {
+    match renameat_with(CWD, new, CWD, path, RenameFlags::NOREPLACE) {
+        Ok(()) => Ok(()),
+        // Takes the place of an empty folder at most.
+        Err(Errno::INVAL | Errno::NOSYS | Errno::NOTSUP) => fs::rename(new, path),
+        Err(error) => Err(error.into()),
+    }
+}
+
 /// Writes a file so that it is there whole or not at all. What is written to a FIFO or a device, as `/dev/stdout`,
 /// goes there.
 ///
@@ -107,7 +117,7 @@ pub(crate) fn write_whole(path: &Path, contents: impl AsRef<[u8]>) -> Result<(),
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rustix::fs::{CWD, mkfifoat};
+    use rustix::fs::mkfifoat;
     use std::os::unix::fs::symlink;
 
     #[test]

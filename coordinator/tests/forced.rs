@@ -242,3 +242,66 @@ fn an_import_replaces_a_problem_and_what_dead_ones_have_left() {
     import("new.toml");
     assert_eq!(children(&scratch.path("out")), [scratch.path("out/copy.toml")]);
 }
+
+/// Problems with meshes, which stand in a folder beside the file.
+#[test]
+fn an_import_that_is_killed_leaves_a_whole_problem_and_the_next_tidies_up() {
+    let scratch = Scratch::new();
+    scratch.write(
+        "corner.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+    );
+    let mesh = |scale: &str| {
+        let shape = format!("{{ mesh = {{ file = \"corner.obj\", scale = {scale} }} }}");
+        format!("{ENDLESS}[[obstacles]]\nshape = {shape}\nposition = [0.1, 0.1, 0.1]\n")
+    };
+    scratch.write("old.toml", &mesh("0.2"));
+    scratch.write("new.toml", &mesh("0.3"));
+    let digest = |file: &str| {
+        let check = scratch.run(&["check", file]);
+        check.assert_code(0);
+        let line = check.stdout.lines().find(|line| line.contains("digest"));
+        line.expect("there is a digest").to_owned()
+    };
+    let digests = ["old.toml", "new.toml"].map(digest);
+    fs::create_dir(scratch.path("out")).expect("a folder can be made");
+    let import = |from: &str| scratch.start(&["import", from, "--out", "out/copy.toml", "--force"]);
+    let names = || {
+        let mut names: Vec<_> = children(&scratch.path("out")).into_iter().collect();
+        names.sort();
+        names
+    };
+    let [file, meshes, others] =
+        ["copy.toml", "copy-meshes", "copy-meshes-2"].map(|name| scratch.path("out").join(name));
+    import("old.toml").finish().assert_code(0);
+    assert_eq!(names(), [meshes.clone(), file.clone()]);
+    // The new meshes stand beside the old ones, and only the file is replaced.
+    import("new.toml").finish().assert_code(0);
+    assert_eq!(names(), [others, file.clone()]);
+    assert_eq!(digest("out/copy.toml"), digests[1]);
+    let mut random = Random::new(0x1e);
+    for _ in 0..trials(10) {
+        let present = digest("out/copy.toml");
+        let other = if present == digests[0] { "new.toml" } else { "old.toml" };
+        let running = import(other);
+        thread::sleep(Duration::from_micros(random.below(12_000) as u64));
+        running.signal(Signal::KILL);
+        running.end();
+        let now = digest("out/copy.toml");
+        assert!(digests.contains(&now), "{now}");
+    }
+    import("old.toml").finish().assert_code(0);
+    assert_eq!(digest("out/copy.toml"), digests[0]);
+    assert_eq!(names().len(), 2, "{:?}", names());
+    // One that was killed between its two steps: the meshes are there, the file is not.
+    let mut child = std::process::Command::new("true").spawn().expect("it starts");
+    child.wait().expect("it ends");
+    let left = scratch.path(&format!("out/.copy.toml.import-{}", child.id()));
+    fs::create_dir(&left).expect("a folder can be made");
+    fs::write(left.join("copy.toml"), "half").expect("it can be written");
+    fs::write(left.join("folders"), "copy-meshes-7\0copy-meshes\0").expect("it can be written");
+    fs::create_dir(scratch.path("out/copy-meshes-7")).expect("a folder can be made");
+    import("new.toml").finish().assert_code(0);
+    assert_eq!(digest("out/copy.toml"), digests[1]);
+    assert_eq!(names().len(), 2, "{:?}", names());
+}

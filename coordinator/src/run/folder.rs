@@ -7,7 +7,7 @@
 use super::ledger::{LEDGER, LedgerWriter};
 use super::lock::{Holder, RunLock, held, started};
 use crate::exit::Failure;
-use crate::files::{cannot_write, folder_of};
+use crate::files::{cannot_write, folder_of, rename_to_free};
 use roadmill_workers::Reserve;
 use rustix::fs::{CWD, RenameFlags, renameat_with};
 use rustix::io::Errno;
@@ -245,16 +245,6 @@ fn change_places(new: &Path, path: &Path) -> io::Result<PathBuf> {
         return Err(error);
     }
     Ok(old)
-}
-
-/// Gives the folder `new` a name that nothing has.
-fn rename_to_free(new: &Path, path: &Path) -> io::Result<()> {
-    match renameat_with(CWD, new, CWD, path, RenameFlags::NOREPLACE) {
-        Ok(()) => Ok(()),
-        // Takes the place of an empty folder at most.
-        Err(Errno::INVAL | Errno::NOSYS | Errno::NOTSUP) => fs::rename(new, path),
-        Err(error) => Err(error.into()),
-    }
 }
 
 /// A name beside `path` that nobody but this process uses.
