@@ -1,5 +1,6 @@
 //! The pattern by which a problem file chooses among methods.
 
+use std::borrow::Cow;
 use std::fmt;
 
 /// What is wrong with a method's setting.
@@ -10,13 +11,22 @@ pub struct Complaint {
     /// The value that was found.
     pub found: String,
     /// What is expected, in words.
-    pub expected: &'static str,
+    pub expected: Cow<'static, str>,
 }
 
 impl Complaint {
     /// A complaint about the value `found` of the setting `key`.
     pub fn new(key: &'static str, found: impl fmt::Display, expected: &'static str) -> Complaint {
-        Complaint { key, found: found.to_string(), expected }
+        Complaint { key, found: found.to_string(), expected: expected.into() }
+    }
+
+    /// What is wrong with a setting that must be a length above 0 and not above `most`, if anything is.
+    pub fn of_length(key: &'static str, length: f64, most: f64) -> Option<Complaint> {
+        if length > most {
+            let (found, expected) = (format!("{length:e}"), format!("at most {most:e}").into());
+            return Some(Complaint { key, found, expected });
+        }
+        (length.is_nan() || length <= 0.0).then(|| Complaint::new(key, length, "a positive length"))
     }
 }
 

@@ -99,7 +99,25 @@ fn errors_name_file_line_and_joint() {
         ),
         ("<axis", "<mimic joint=\"x\"/><axis", "arm.urdf:13: joint `shoulder`: <mimic> found"),
         ("lower=\"-1\"", "lower=\"3\"", "arm.urdf:14: limits 3 to 2 found"),
-        (" version=\"1.2\"", "", "arm.urdf: not a URDF: "),
+        (
+            " version=\"1.2\"",
+            "",
+            "arm.urdf:14: <limit> without `effort` found; effort=\"…\" expected",
+        ),
+        (
+            "upper=\"2\"",
+            "upper=\"2\" velocity=\"fast\"",
+            "arm.urdf:14: velocity = `fast` found; a number",
+        ),
+        ("<link name=\"ball\">", "<link>", "arm.urdf:10: <link> without `name` found"),
+        ("<parent link=\"post\"/>", "<parent/>", "arm.urdf:13: <parent> without `link` found"),
+        ("<parent link=\"post\"/>", "", "arm.urdf:12: <joint> without <parent> found"),
+        ("length=\"0.4\"", "", "arm.urdf:10: <capsule> without `length` found"),
+        (
+            "<geometry><box size=\"1 1 1\"/></geometry>",
+            "",
+            "arm.urdf:9: <visual> without <geometry> found",
+        ),
         (
             "version=\"1.2\">\n",
             "version=\"1.2\">\n<x:include xmlns:x=\"http://www.ros.org/wiki/xacro\"/>\n",
@@ -212,6 +230,10 @@ fn what_is_not_read_may_lack_what_the_format_requires() {
             "  <material name=\"red\"><color/></material>\n  <link name=\"hand\">\n<inertial/>",
         ),
         ("<limit", "<dynamics/><calibration rising=\"x\"/><safety_controller/><limit"),
+        (
+            "  <joint name=\"grip\"",
+            "<gazebo><link><visual><geometry><box/></geometry></visual></link></gazebo>\n  <joint name=\"grip\"",
+        ),
         ("<?xml version=\"1.0\"?>", "\u{feff}<?xml version=\"1.0\"?>"),
     ] {
         let text = ARM.replacen(from, to, 1);

@@ -1,39 +1,14 @@
 //! Files: opened for what they are expected to be, and written whole.
 
 use crate::exit::{Code, Failure};
-use rustix::fs::{Mode, OFlags, open};
+pub(crate) use roadmill::internal::regular::open_regular;
+use rustix::fs::{CWD, OFlags, RenameFlags, renameat_with};
 use rustix::io::Errno;
 use std::fs::{self, File, Permissions};
 use std::io::{self, ErrorKind, Write};
-use std::os::unix::fs::{FileTypeExt, PermissionsExt};
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use tempfile::{Builder, NamedTempFile};
-
-/// Opens a regular file, and nothing else: a FIFO would wait for its other end, a device do what devices do. New
-/// files have the mode that the umask leaves.
-///
-/// # Errors
-/// What the system says; for something that is no regular file, what it is.
-pub(crate) fn open_regular(path: &Path, access: OFlags) -> io::Result<File> {
-    let flags = access | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
-    let file = match open(path, flags, Mode::from_raw_mode(0o666)) {
-        Ok(file) => File::from(file),
-        Err(Errno::LOOP) if access.contains(OFlags::NOFOLLOW) => return Err(other("a link")),
-        // A FIFO without a reader, or a socket.
-        Err(Errno::NXIO) => return Err(other("no file that can be read")),
-        Err(error) => return Err(error.into()),
-    };
-    let kind = file.metadata()?.file_type();
-    if kind.is_file() {
-        Ok(file)
-    } else if kind.is_dir() {
-        Err(other("a folder"))
-    } else if kind.is_fifo() {
-        Err(other("a FIFO"))
-    } else {
-        Err(other("a device"))
-    }
-}
 
 /// Opens a file of a run folder, as [`open_regular`] does. No link is followed: it could lead anywhere.
 ///
@@ -41,10 +16,6 @@ pub(crate) fn open_regular(path: &Path, access: OFlags) -> io::Result<File> {
 /// As [`open_regular`].
 pub(crate) fn open_in_run(path: &Path, access: OFlags) -> io::Result<File> {
     open_regular(path, access | OFlags::NOFOLLOW)
-}
-
-fn other(found: &str) -> io::Error {
-    io::Error::new(ErrorKind::InvalidInput, format!("{found} found, a regular file expected"))
 }
 
 /// A failure to write a file: the user's where the path is to blame, the system's where it has no room, say.
@@ -82,6 +53,16 @@ pub(crate) fn beside(path: &Path) -> io::Result<NamedTempFile> {
     Builder::new().prefix(&name).permissions(mode).tempfile_in(folder_of(path))
 }
 
+/// Gives the folder `new` a name that nothing has.
+pub(crate) fn rename_to_free(new: &Path, path: &Path) -> io::Result<()> {
+    match renameat_with(CWD, new, CWD, path, RenameFlags::NOREPLACE) {
+        Ok(()) => Ok(()),
+        // Takes the place of an empty folder at most.
+        Err(Errno::INVAL | Errno::NOSYS | Errno::NOTSUP) => fs::rename(new, path),
+        Err(error) => Err(error.into()),
+    }
+}
+
 /// Writes a file so that it is there whole or not at all. What is written to a FIFO or a device, as `/dev/stdout`,
 /// goes there.
 ///
@@ -107,25 +88,18 @@ pub(crate) fn write_whole(path: &Path, contents: impl AsRef<[u8]>) -> Result<(),
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rustix::fs::{CWD, mkfifoat};
     use std::os::unix::fs::symlink;
 
     #[test]
-    fn only_regular_files_are_opened_and_in_run_folders_no_links() {
+    fn no_links_are_followed_in_run_folders() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
         fs::write(path("file"), "x").unwrap();
         symlink(path("file"), path("link")).unwrap();
-        mkfifoat(CWD, path("fifo"), Mode::RUSR | Mode::WUSR).unwrap();
-        assert!(open_regular(&path("link"), OFlags::RDONLY).is_ok());
-        for (name, found) in [("link", "a link"), ("fifo", "a FIFO"), (".", "a folder")] {
-            let error = open_in_run(&path(name), OFlags::RDONLY).unwrap_err();
-            assert!(error.to_string().starts_with(found), "{name}: {error}");
+        for access in [OFlags::RDONLY, OFlags::WRONLY | OFlags::CREATE] {
+            let error = open_in_run(&path("link"), access).unwrap_err();
+            assert!(error.to_string().starts_with("a link"), "{error}");
         }
-        let error = open_regular(Path::new("/dev/null"), OFlags::RDWR).unwrap_err();
-        assert!(error.to_string().starts_with("a device"), "{error}");
-        let error = open_in_run(&path("link"), OFlags::WRONLY | OFlags::CREATE).unwrap_err();
-        assert!(error.to_string().starts_with("a link"), "{error}");
         open_in_run(&path("new"), OFlags::WRONLY | OFlags::CREATE).unwrap();
     }
 

@@ -5,11 +5,12 @@
 //! program quietly. Notes that nobody can read change nothing.
 //!
 //! Names and labels come from files, which may be anybody's. Characters that would move a terminal's cursor, change
-//! its colours or the direction of its text are printed as escapes such as `\u{1b}`.
+//! its colours or the direction of its text, or break a line in two, are printed as escapes such as `\u{1b}`
+//! ([`roadmill::internal::plain`] says which).
 
 use crate::exit::Failure;
+use roadmill::internal::plain::{acts, plain, plain_lines, plain_word};
 use serde::Serialize;
-use std::borrow::Cow;
 use std::fmt::{self, Display, Write as _};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::{Mutex, PoisonError};
@@ -17,11 +18,15 @@ use std::sync::{Mutex, PoisonError};
 /// Why output was lost first, if any was.
 static LOST: Mutex<Option<String>> = Mutex::new(None);
 
-/// Prints lines on standard output, escaped, and a line break behind them. Whether somebody still reads: if not,
-/// there is no use in printing more.
+/// Prints a line on standard output, escaped. Whether somebody still reads: if not, there is no use in printing more.
 pub(crate) fn line(text: impl Display) -> bool {
-    let text = text.to_string();
-    print(format!("{}\n", escape(&text, keeps_layout)).as_bytes())
+    print(format!("{}\n", plain(&text.to_string())).as_bytes())
+}
+
+/// Prints lines on standard output, escaped, and a line break behind the last. Names and labels in them have to be
+/// [`Plain`] already: nobody could tell their line breaks from the text's. Returns as [`line`].
+pub(crate) fn lines(text: impl Display) -> bool {
+    print(format!("{}\n", plain_lines(&text.to_string())).as_bytes())
 }
 
 /// Prints an object as JSON on a line of standard output. Returns as [`line`].
@@ -31,7 +36,7 @@ pub(crate) fn json(value: &impl Serialize) -> bool {
         Ok(text) => {
             let mut line = String::with_capacity(text.len() + 1);
             for c in text.chars() {
-                if is_harmful(c) {
+                if acts(c) {
                     let _ = write!(line, "\\u{:04x}", u32::from(c));
                 } else {
                     line.push(c);
@@ -48,16 +53,15 @@ pub(crate) fn json(value: &impl Serialize) -> bool {
 /// that is a terminal. Returns as [`line`].
 pub(crate) fn data(text: &str) -> bool {
     if io::stdout().is_terminal() {
-        print(escape(text, keeps_layout).as_bytes())
+        print(plain_lines(text).as_bytes())
     } else {
         print(text.as_bytes())
     }
 }
 
-/// Prints lines on standard error, escaped. Nobody may be there to read them.
+/// Prints a line on standard error, escaped. Nobody may be there to read it.
 pub(crate) fn note(text: impl Display) {
-    let text = text.to_string();
-    let text = format!("{}\n", escape(&text, keeps_layout));
+    let text = format!("{}\n", plain(&text.to_string()));
     // In one piece, so that lines of several processes do not mix.
     let _ = io::stderr().write_all(text.as_bytes());
 }
@@ -78,12 +82,21 @@ pub(crate) fn lost() -> Option<Failure> {
     lost.map(|why| Failure::system(format!("cannot write to standard output: {why}")))
 }
 
-/// A name or label as one word of a line: with all characters escaped that are not plain text, line breaks too.
+/// A name or label in a line: with all characters escaped that are not plain text, line breaks too.
 pub(crate) struct Plain<'a>(pub &'a str);
 
 impl Display for Plain<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(&escape(self.0, |_| false))
+        f.pad(&plain(self.0))
+    }
+}
+
+/// A name or label as one word, as a column of a table: blanks are escaped, too.
+pub(crate) struct Word<'a>(pub &'a str);
+
+impl Display for Word<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(&plain_word(self.0))
     }
 }
 
@@ -98,47 +111,14 @@ fn note_loss(error: &io::Error) -> bool {
     false
 }
 
-/// Characters that lay text out without moving over what is there.
-fn keeps_layout(c: char) -> bool {
-    matches!(c, '\n' | '\t')
-}
-
-/// Control characters, and those that change in which order others are shown.
-fn is_harmful(c: char) -> bool {
-    let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}'
-        | '\u{2066}'..='\u{2069}');
-    c.is_control() || turns || matches!(c, '\u{2028}' | '\u{2029}')
-}
-
-fn escape(text: &str, is_kept: impl Fn(char) -> bool) -> Cow<'_, str> {
-    let is_harmful = |c: char| is_harmful(c) && !is_kept(c);
-    if !text.contains(is_harmful) {
-        return text.into();
-    }
-    let mut escaped = String::with_capacity(text.len() + 16);
-    for c in text.chars() {
-        if is_harmful(c) {
-            escaped.extend(c.escape_default());
-        } else {
-            escaped.push(c);
-        }
-    }
-    escaped.into()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn text_is_printed_as_it_is_and_what_acts_on_a_terminal_as_escapes() {
-        assert_eq!(escape("a\tb\nÄ→ \u{1f600}", keeps_layout), "a\tb\nÄ→ \u{1f600}");
-        assert_eq!(
-            escape("\x1b[31m\r\u{9b}x\u{7f}", keeps_layout),
-            "\\u{1b}[31m\\r\\u{9b}x\\u{7f}"
-        );
-        assert_eq!(escape("a\u{202e}b", keeps_layout), "a\\u{202e}b");
+    fn names_are_padded_and_words_have_no_blanks() {
         assert_eq!(Plain("a\nb").to_string(), "a\\nb");
         assert_eq!(format!("{:<5}|", Plain("ab")), "ab   |");
+        assert_eq!(Word("a b").to_string(), "a\\u{20}b");
     }
 }

@@ -173,5 +173,8 @@ fn a_ledger_that_cannot_be_written_ends_the_build() {
     let done = scratch.start_with_file_limit(&arguments, 6144).finish();
     done.assert_code(1);
     done.assert_stderr(&["run/ledger: cannot write the ledger"]);
+    // Nobody has killed it.
+    let status = scratch.run(&["status", "run"]);
+    assert!(status.stdout.contains("state       failed"), "{}", status.stdout);
     assert_readable(&scratch, "run");
 }

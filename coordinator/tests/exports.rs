@@ -254,8 +254,16 @@ fn many_queries_go_into_a_folder_of_their_own() {
         refused.assert_stderr(&["many.csv:6: ", expected]);
         assert!(!scratch.path("other").exists());
     }
-    scratch.write("many.csv", "# nothing\n");
-    ask("other").assert_code(2);
+    // Names stand above numbers only as many as these are.
+    for (text, expected) in [
+        ("# nothing\n", "many.csv: no queries found"),
+        ("a,b\n", "many.csv:1: 2 values found, 6 expected"),
+    ] {
+        scratch.write("many.csv", text);
+        let refused = ask("other");
+        refused.assert_code(2);
+        refused.assert_stderr(&[expected]);
+    }
 }
 
 #[test]

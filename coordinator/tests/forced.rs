@@ -7,7 +7,7 @@ mod support;
 use by_hand::{Fields, frames};
 use rustix::process::Signal;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 use support::{ENDLESS, Random, Scratch, children, trials, wait_until};
@@ -83,14 +83,32 @@ fn a_run_replaces_another_and_leaves_nothing_beside_it() {
     fs::remove_dir_all(scratch.path("runs/run")).expect("it is there");
     scratch.run(&[&FORCE[..], &["1"]].concat()).assert_code(0);
     assert_eq!((seed_of(&scratch.path("runs/run")), beside(&scratch)), (12, vec![]));
-    // A build that cannot begin changes nothing.
-    let mut command = std::process::Command::new("sh");
-    let script = "ulimit -n 12; exec \"$0\" \"$@\"";
-    command.args(["-c", script, env!("CARGO_BIN_EXE_roadmill")]);
-    command.args(&FORCE[..2]).args(["--seed", "13"]).args(&FORCE[2..]).arg("4");
-    let done = scratch.start_command(command, "").finish();
-    done.assert_code(1);
-    assert_eq!((seed_of(&scratch.path("runs/run")), beside(&scratch)), (12, vec![]));
+}
+
+/// However few files may be open at a time, a build that cannot begin changes nothing, and whatever its end nothing
+/// is left beside the run, of temporary files or in shared memory.
+#[test]
+fn a_build_that_may_open_few_files_leaves_nothing() {
+    let scratch = scratch();
+    let mut seed = 11;
+    // From too few for the program to start to enough for two workers.
+    for files in 6..=32 {
+        seed += 1;
+        let mut command = std::process::Command::new("sh");
+        let script = format!("ulimit -n {files}; exec \"$0\" \"$@\"");
+        command.args(["-c", &script, env!("CARGO_BIN_EXE_roadmill")]);
+        command.args(&FORCE[..2]).args(["--seed", &seed.to_string()]).args(&FORCE[2..]).arg("2");
+        let before = seed_of(&scratch.path("runs/run"));
+        // Which also finds what is left in shared memory.
+        let done = scratch.start_command(command, "").finish();
+        let code = done.status.code();
+        assert!(matches!(code, Some(0..=2)), "{files}: {code:?}: {}", done.stderr);
+        assert_eq!(scratch.temporary_files(), [] as [PathBuf; 0], "{files}: {}", done.stderr);
+        assert_eq!(beside(&scratch), [""; 0], "{files}: {}", done.stderr);
+        let now = seed_of(&scratch.path("runs/run"));
+        assert!(now == before || now == seed, "{files}: {before}, {now}: {}", done.stderr);
+        assert!(code != Some(0) || now == seed, "{files}: {now}: {}", done.stderr);
+    }
 }
 
 /// Of several at once one replaces the run, and the others say who works on it.
@@ -98,12 +116,20 @@ fn a_run_replaces_another_and_leaves_nothing_beside_it() {
 fn builds_that_replace_a_run_at_once_are_kept_apart() {
     let scratch = scratch();
     for round in 0..trials(8) {
+        if round % 2 == 1 {
+            // Then it is about who is first.
+            fs::remove_dir_all(scratch.path("runs/run")).expect("it is there");
+        }
         let running: Vec<_> =
             (0..3).map(|_| scratch.start(&[&FORCE[..], &["1"]].concat())).collect();
-        let codes: Vec<_> =
-            running.into_iter().map(|build| build.finish().status.code().unwrap_or(-1)).collect();
+        let done: Vec<_> = running.into_iter().map(|build| build.finish()).collect();
+        let codes: Vec<_> = done.iter().map(|done| done.status.code().unwrap_or(-1)).collect();
         assert!(codes.contains(&0), "{round}: {codes:?}");
         assert!(codes.iter().all(|code| [0, 2].contains(code)), "{round}: {codes:?}");
+        for loser in done.iter().filter(|done| done.status.code() == Some(2)) {
+            let says = |text: &str| loser.stderr.contains(text);
+            assert!(says("works on this run") || says("meanwhile"), "{round}: {}", loser.stderr);
+        }
         assert_eq!(beside(&scratch), [""; 0]);
         scratch.run(&["verify", "runs/run", "--threads", "1"]).assert_code(0);
     }
@@ -215,4 +241,67 @@ fn an_import_replaces_a_problem_and_what_dead_ones_have_left() {
     fs::write(left.join("copy.toml"), "half").expect("it can be written");
     import("new.toml");
     assert_eq!(children(&scratch.path("out")), [scratch.path("out/copy.toml")]);
+}
+
+/// Problems with meshes, which stand in a folder beside the file.
+#[test]
+fn an_import_that_is_killed_leaves_a_whole_problem_and_the_next_tidies_up() {
+    let scratch = Scratch::new();
+    scratch.write(
+        "corner.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+    );
+    let mesh = |scale: &str| {
+        let shape = format!("{{ mesh = {{ file = \"corner.obj\", scale = {scale} }} }}");
+        format!("{ENDLESS}[[obstacles]]\nshape = {shape}\nposition = [0.1, 0.1, 0.1]\n")
+    };
+    scratch.write("old.toml", &mesh("0.2"));
+    scratch.write("new.toml", &mesh("0.3"));
+    let digest = |file: &str| {
+        let check = scratch.run(&["check", file]);
+        check.assert_code(0);
+        let line = check.stdout.lines().find(|line| line.contains("digest"));
+        line.expect("there is a digest").to_owned()
+    };
+    let digests = ["old.toml", "new.toml"].map(digest);
+    fs::create_dir(scratch.path("out")).expect("a folder can be made");
+    let import = |from: &str| scratch.start(&["import", from, "--out", "out/copy.toml", "--force"]);
+    let names = || {
+        let mut names: Vec<_> = children(&scratch.path("out")).into_iter().collect();
+        names.sort();
+        names
+    };
+    let [file, meshes, others] =
+        ["copy.toml", "copy-meshes", "copy-meshes-2"].map(|name| scratch.path("out").join(name));
+    import("old.toml").finish().assert_code(0);
+    assert_eq!(names(), [meshes.clone(), file.clone()]);
+    // The new meshes stand beside the old ones, and only the file is replaced.
+    import("new.toml").finish().assert_code(0);
+    assert_eq!(names(), [others, file.clone()]);
+    assert_eq!(digest("out/copy.toml"), digests[1]);
+    let mut random = Random::new(0x1e);
+    for _ in 0..trials(10) {
+        let present = digest("out/copy.toml");
+        let other = if present == digests[0] { "new.toml" } else { "old.toml" };
+        let running = import(other);
+        thread::sleep(Duration::from_micros(random.below(12_000) as u64));
+        running.signal(Signal::KILL);
+        running.end();
+        let now = digest("out/copy.toml");
+        assert!(digests.contains(&now), "{now}");
+    }
+    import("old.toml").finish().assert_code(0);
+    assert_eq!(digest("out/copy.toml"), digests[0]);
+    assert_eq!(names().len(), 2, "{:?}", names());
+    // One that was killed between its two steps: the meshes are there, the file is not.
+    let mut child = std::process::Command::new("true").spawn().expect("it starts");
+    child.wait().expect("it ends");
+    let left = scratch.path(&format!("out/.copy.toml.import-{}", child.id()));
+    fs::create_dir(&left).expect("a folder can be made");
+    fs::write(left.join("copy.toml"), "half").expect("it can be written");
+    fs::write(left.join("folders"), "copy-meshes-7\0copy-meshes\0").expect("it can be written");
+    fs::create_dir(scratch.path("out/copy-meshes-7")).expect("a folder can be made");
+    import("new.toml").finish().assert_code(0);
+    assert_eq!(digest("out/copy.toml"), digests[1]);
+    assert_eq!(names().len(), 2, "{:?}", names());
 }

@@ -338,7 +338,7 @@ fn fifos_devices_and_links_are_refused() {
     };
     fifo("a.sets");
     let import = "build small.toml --threads 1 --out new --import";
-    refused(&format!("{import} a.sets"), "a.sets: cannot be read: a FIFO found");
+    refused(&format!("{import} a.sets"), "a.sets: cannot be read: a named pipe found");
     refused(&format!("{import} /dev/zero"), "/dev/zero: cannot be read: a device found");
     fs::create_dir(scratch.path("run")).expect("it can be made");
     fifo("run/ledger");
@@ -354,7 +354,7 @@ fn fifos_devices_and_links_are_refused() {
         fs::remove_file(link).expect("it is there");
     }
     fifo("run/lock");
-    refused("resume run --threads 1 --max-sets 10", "a FIFO found");
+    refused("resume run --threads 1 --max-sets 10", "a named pipe found");
     let precious = fs::read_to_string(scratch.path("precious")).expect("it is there");
     assert_eq!(precious, "precious");
 }

@@ -4,6 +4,7 @@ mod support;
 
 use roadmill::problem::{NODES_MAX, Problem};
 use roadmill_coordinator::{Run, Workers};
+use std::fs;
 use std::path::Path;
 use support::{ENDLESS, Scratch};
 
@@ -32,6 +33,11 @@ fn every_call_finishes_a_round_however_short_its_time() {
         done.assert_code(0);
         done.assert_stderr(&["`roadmill resume run` goes on; --max-time TIME"]);
         assert_eq!((rounds(&scratch), scratch.summary("run").stop.as_str()), (1, "time-limit"));
+        // However slow the disk, what goes into the ledger before the first round is a part of the time.
+        let summary = fs::read(scratch.path("run/summary.json")).expect("there is a summary");
+        let summary: serde_json::Value = serde_json::from_slice(&summary).expect("it is JSON");
+        let seconds = |key: &str| summary[key].as_f64().expect("a number");
+        assert!(seconds("ledger_seconds") <= seconds("wall_seconds"), "{summary}");
         // The limit of the first call is the run's.
         for expected in [2, 3] {
             scratch.run(&[&["resume", "run"], &crew[..]].concat()).assert_code(0);
@@ -100,6 +106,9 @@ fn nodes_that_are_left_open_give_way_to_a_limit_of_time() {
     assert_eq!(grown("open", &open(), None), by_memory);
     assert_eq!(grown("timed", &open(), Some(1000.0)), NODES_MAX);
     assert_eq!(grown("given", ENDLESS, Some(1000.0)), 4_000_000);
+    // A number that is given is meant, though it is what the limit would be if it were left open.
+    let same = ENDLESS.replace("nodes = 4000000", &format!("nodes = {by_memory}"));
+    assert_eq!(grown("given-the-same", &same, Some(1000.0)), by_memory);
     let seconds = format!("{}[limits]\nseconds = 1000\n", open());
     assert_eq!(grown("in-the-file", &seconds, None), NODES_MAX);
     let both = format!("{}[limits]\nseconds = 1000\nnodes = 70\n", open());

@@ -101,6 +101,36 @@ fn messages_that_nobody_can_read_change_nothing() {
     assert!(scratch.ledger("run") == scratch.ledger("new"), "the ledgers differ");
 }
 
+/// Line breaks, tabs and blanks of a label move nothing, and columns stay columns.
+#[test]
+fn labels_break_neither_lines_nor_columns() {
+    let scratch = Scratch::new();
+    let label =
+        |end: &str| SMALL.replace("label = \"a\"", &format!("label = \"a b\\nc\\td{end}\""));
+    scratch.write("small.toml", &label(""));
+    scratch.write("other.toml", &label("e"));
+    scratch.build("run", &["small.toml", "--threads", "1"], 0);
+    scratch.build("other", &["other.toml", "--threads", "1"], 0);
+    let check = scratch.run(&["check", "small.toml"]).stdout;
+    assert!(
+        check.contains("\nstrategy         a b\\nc\\td: 20 nodes per set, sampler = { uniform"),
+        "{check}"
+    );
+    assert!(check.contains("\nschedule         a b\\nc\\td, over and over"), "{check}");
+    let log = scratch.run(&["log", "run"]).stdout;
+    let columns: Vec<usize> = log.lines().map(|line| line.split_whitespace().count()).collect();
+    assert!(columns.len() > 1 && columns.iter().all(|count| *count == 10), "{log}");
+    assert!(log.contains(" a\\u{20}b\\nc\\td:0 "), "{log}");
+    for (command, shown) in [
+        (&["diff", "run", "other"][..], "it is a b\\nc\\td:0 and a b\\nc\\tde:0"),
+        (&["verify", "run", "--set=b:0"][..], "with a label of a b\\nc\\td"),
+    ] {
+        let done = scratch.run(command);
+        assert!(done.stderr.trim_end().ends_with(shown), "{}", done.stderr);
+        assert_eq!(done.stderr.lines().count(), 1, "{}", done.stderr);
+    }
+}
+
 /// A label, the reason of a stop and a problem's file name may hold anything.
 #[test]
 fn names_from_files_do_nothing_to_a_terminal() {

@@ -101,7 +101,7 @@ impl Built {
     /// Says what differs that must not.
     pub fn resume_with<'a>(&self, changed: &Problem) -> Result<Build<'a>, String> {
         let mut problem = self.setup.problem.continued(changed, self.rounds.len() as u64)?;
-        problem.limits = problem.limits.without_clock(&problem.space());
+        problem.limits = problem.limits_without_clock();
         // What the evaluators of before said is no verdict of those of now.
         let same = problem.evaluators == self.setup.problem.evaluators
             && problem.query == self.setup.problem.query;

@@ -75,7 +75,7 @@ pub enum BuildError {
 impl<'a> Build<'a> {
     /// The build of a problem, in this thread.
     pub fn new(mut problem: Problem) -> Build<'a> {
-        problem.limits = problem.limits.without_clock(&problem.space());
+        problem.limits = problem.limits_without_clock();
         Build::after(Arc::new(Setup::new(problem)), Vec::new(), None)
     }
 

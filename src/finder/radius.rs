@@ -2,6 +2,7 @@ use super::Finder;
 use crate::methods::Complaint;
 use crate::neighbor::{Neighbor, radius_graph};
 use crate::roadmap::{Components, Configs};
+use crate::scene::LENGTH_MAX;
 use crate::space::Space;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
@@ -52,9 +53,7 @@ impl Finder for Radius {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        if !(self.radius > 0.0 && self.radius <= crate::scene::LENGTH_MAX) {
-            return Some(Complaint::new("radius", self.radius, "a positive length"));
-        }
-        (self.most == Some(0)).then(|| Complaint::new("most", "0", "at least 1"))
+        Complaint::of_length("radius", self.radius, LENGTH_MAX)
+            .or_else(|| (self.most == Some(0)).then(|| Complaint::new("most", "0", "at least 1")))
     }
 }

@@ -6,6 +6,7 @@ use crate::model::{Scratch, Validity};
 use crate::numbers::NodeId;
 use crate::roadmap::{Edge, EdgeCost, Increment, Roadmap};
 use crate::sampler::GaveUp;
+use crate::scene::LENGTH_MAX;
 use crate::seed::{Purpose, Seed, Stream};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
@@ -105,8 +106,8 @@ impl Generator for ExpansionStep {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        if !(self.step > 0.0 && self.step <= crate::scene::LENGTH_MAX) {
-            return Some(Complaint::new("step", self.step, "a positive length"));
+        if let Some(complaint) = Complaint::of_length("step", self.step, LENGTH_MAX) {
+            return Some(complaint);
         }
         if self.halvings > HALVINGS_MAX {
             return Some(Complaint::new("halvings", self.halvings, "0 to 30"));

@@ -6,6 +6,7 @@ use crate::model::Scratch;
 use crate::numbers::NodeId;
 use crate::roadmap::{Configs, Edge, EdgeCost, Increment, Roadmap};
 use crate::sampler::GaveUp;
+use crate::scene::LENGTH_MAX;
 use crate::seed::{Purpose, Seed};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
@@ -94,8 +95,8 @@ impl Generator for Reuse {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        if !(self.spread > 0.0 && self.spread <= crate::scene::LENGTH_MAX) {
-            return Some(Complaint::new("spread", self.spread, "a positive length"));
+        if let Some(complaint) = Complaint::of_length("spread", self.spread, LENGTH_MAX) {
+            return Some(complaint);
         }
         (self.attempts == 0).then(|| Complaint::new("attempts", "0", "at least 1"))
     }

@@ -58,7 +58,6 @@ impl Problem {
             .strategies(self.strategies.iter().map(StrategySpec::from))
             .sets_per_round(self.sets_per_round.into())
             .evaluators(self.evaluators.clone())
-            .most_nodes(self.limits.nodes)
             .most_sets(self.limits.sets);
         let builder = match self.adaptive {
             Some(adaptive) => builder.adaptive(adaptive),
@@ -68,6 +67,10 @@ impl Problem {
         };
         let builder = match &self.query {
             Some(query) => builder.query(query.start.clone(), query.goal.clone()),
+            None => builder,
+        };
+        let builder = match self.nodes_to_say() {
+            Some(nodes) => builder.most_nodes(nodes),
             None => builder,
         };
         match self.limits.seconds {

@@ -1,6 +1,8 @@
 use super::Problem;
 use crate::generator::Sample;
+use crate::internal::plain::plain;
 use crate::schedule::Adaptive;
+use crate::source::{setting, value};
 use crate::strategy::Strategy;
 use std::fmt::Write;
 
@@ -15,8 +17,8 @@ pub(super) fn describe(problem: &Problem) -> String {
 
 fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     let space = problem.space();
-    writeln!(out, "problem          {} (seed {})", problem.name, problem.seed)?;
-    writeln!(out, "configuration    {}", space.form())?;
+    writeln!(out, "problem          {} (seed {})", plain(&problem.name), problem.seed)?;
+    writeln!(out, "configuration    {}", plain(&space.form()))?;
     problem.model.description().describe(out);
     if let Some(query) = &problem.query {
         for (name, q) in [("start", &query.start), ("goal", &query.goal)] {
@@ -31,15 +33,19 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     for strategy in &problem.strategies {
         let Strategy { label, nodes, generator, among } = strategy;
         let makes = match generator.as_sample() {
-            Some(Sample { sampler, within }) => format!("{sampler:?}, within {within:?}"),
-            None => format!("{generator:?}"),
+            Some(Sample { sampler, within }) => {
+                format!("sampler = {}, within = {}", value(sampler), value(within))
+            }
+            None => format!("generator = {}", value(generator)),
         };
-        writeln!(out, "strategy         {label}: {nodes} nodes per set, {makes}, among {among:?}")?;
+        let (label, among) = (plain(label), value(among));
+        let methods = format!("{makes}, among = {among}");
+        writeln!(out, "strategy         {label}: {nodes} nodes per set, {}", plain(&methods))?;
     }
     let labels: Vec<_> = problem
         .schedule
         .iter()
-        .map(|index| problem.strategies[index.index()].label.as_str())
+        .map(|index| plain(&problem.strategies[index.index()].label))
         .collect();
     writeln!(
         out,
@@ -53,7 +59,7 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         problem.sets_per_round
     )?;
     for evaluator in &problem.evaluators {
-        writeln!(out, "until            {evaluator:?}")?;
+        writeln!(out, "until            {}", plain(&setting(evaluator)))?;
     }
     let sets = match problem.limits.sets {
         u64::MAX => "any number of".to_owned(),

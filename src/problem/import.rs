@@ -4,8 +4,9 @@ use super::building::{self, Sets};
 use super::{DEFAULT_SEED, Limits, Problem};
 use crate::context::Ends;
 use crate::evaluate::{EvaluatorKind, Query};
+use crate::internal::plain::plain;
 use crate::model::ForeignProblem;
-use crate::source::{ProblemError, plain};
+use crate::source::ProblemError;
 use std::path::Path;
 
 /// The problem of what was read from the file `path`.
@@ -25,6 +26,7 @@ pub(super) fn problem_of(path: &Path, imported: ForeignProblem) -> Result<Proble
         sets_per_round,
         evaluators: Vec::new(),
         limits,
+        nodes_are_given: false,
         notes,
         sources,
         earlier: Vec::new(),

@@ -144,6 +144,7 @@ impl<S> Rest<S> {
     where
         Strategy: From<S>,
     {
+        let nodes_are_given = !self.limits.leaves_nodes_open(&model.description().space());
         Problem {
             name,
             seed,
@@ -155,6 +156,7 @@ impl<S> Rest<S> {
             sets_per_round: self.sets_per_round,
             evaluators: self.evaluators,
             limits: self.limits,
+            nodes_are_given,
             notes: self.notes,
             sources: self.sources,
             earlier: self.earlier,

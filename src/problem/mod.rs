@@ -69,6 +69,9 @@ pub struct Problem {
     pub(crate) evaluators: Vec<EvaluatorKind>,
     /// Bounds on the build.
     pub(crate) limits: Limits,
+    /// Whether the limit on nodes was given, rather than left open. Ledgers do not say so: of a problem that comes from
+    /// one it is told by the number.
+    pub(crate) nodes_are_given: bool,
     /// What was chosen where the file leaves a choice, for people to read.
     pub(crate) notes: Vec<String>,
     /// The files that were read, first its own, if it came from one.
@@ -177,6 +180,21 @@ impl Problem {
         self.limits
     }
 
+    /// Whether the limit on nodes was left open: then it goes by memory, or by a limit of time.
+    pub fn leaves_nodes_open(&self) -> bool {
+        !self.nodes_are_given
+    }
+
+    /// The limit on nodes as a problem file says it; `None` where it is what a file has that does not say it.
+    pub(crate) fn nodes_to_say(&self) -> Option<u64> {
+        let mut open = Limits::left_open(&self.space());
+        if self.limits.seconds.is_some() {
+            open = open.with_time(&self.space());
+        }
+        let is_said = self.nodes_are_given || self.limits.nodes != open.nodes;
+        is_said.then_some(self.limits.nodes)
+    }
+
     /// What was chosen where the problem leaves a choice, for people to read.
     pub fn notes(&self) -> &[String] {
         &self.notes
@@ -204,15 +222,30 @@ impl Problem {
         Problem { seed, ..self }
     }
 
-    /// The problem with other bounds on the build.
+    /// The problem with other bounds on the build. A number of nodes that was left open counts as given if it becomes
+    /// one that no problem has which leaves it open.
     ///
     /// # Errors
     /// When one of them bounds nothing: no nodes, no sets, or seconds that are not a positive number.
     pub fn with_limits(self, limits: Limits) -> Result<Problem, ProblemError> {
         match limits.complaint() {
             Some((key, message)) => Err(ProblemError::pathless(format!("limits.{key}: {message}"))),
-            None => Ok(Problem { limits, ..self }),
+            None => {
+                let is_given = !limits.leaves_nodes_open(&self.space());
+                let nodes_are_given = self.nodes_are_given || is_given;
+                Ok(Problem { limits, nodes_are_given, ..self })
+            }
         }
+    }
+
+    /// The limits of a build of it that reads no clock.
+    pub(crate) fn limits_without_clock(&self) -> Limits {
+        if self.nodes_are_given { self.limits } else { self.limits.without_clock(&self.space()) }
+    }
+
+    /// The problem whose limit on nodes counts as given, whatever the number.
+    pub fn with_nodes_given(self) -> Problem {
+        Problem { nodes_are_given: true, ..self }
     }
 
     /// The configuration space.

@@ -5,10 +5,11 @@ use super::file::{File, KEYS};
 use super::{DEFAULT_SEED, Problem};
 use crate::context::Ends;
 use crate::generator::Runs;
+use crate::internal::plain::plain;
 use crate::model::{ModelKind, ModelSpec};
 use crate::seed::Seed;
 use crate::source::Step::{Index, Key};
-use crate::source::{ProblemError, Source, fits, plain};
+use crate::source::{ProblemError, Source, fits};
 use crate::space::Space;
 use crate::strategy::Strategy;
 use std::path::Path;
@@ -55,6 +56,7 @@ pub(super) fn resolve(
         sets_per_round,
         evaluators,
         limits,
+        nodes_are_given: file.limits.nodes.is_some(),
         notes,
         sources: Vec::new(),
         earlier: Vec::new(),

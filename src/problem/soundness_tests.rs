@@ -53,6 +53,8 @@ fn linkage() -> Problem {
     bodies.robot.may_touch = vec![(0, 4)];
     let shape = Shape::Mesh(tetrahedron());
     bodies.obstacles.push(Body { shape, pose: Pose::IDENTITY, solid: true });
+    // The limit on nodes that is left open goes by the space, which has more degrees of freedom now.
+    problem.limits = Limits::left_open(&problem.space());
     problem
 }
 

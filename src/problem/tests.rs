@@ -17,7 +17,7 @@ fn every_choice_is_noted_and_every_default_is_the_papers() {
     assert_eq!(problem.strategies[0].nodes, 50);
     let described = problem.describe();
     for expected in
-        ["x y z qw qx qy qz", "neighbors: 10", "components: 3, pairs: 10", "12 box", "chosen"]
+        ["x y z qw qx qy qz", "neighbors = 10", "components = 3, pairs = 10", "12 box", "chosen"]
     {
         assert!(described.contains(expected), "{expected} in\n{described}");
     }
@@ -57,6 +57,15 @@ fn errors_in_added_tables_name_the_key() {
         ("[limits]\nnodes = 1_000_000_000_000\n", "limits.nodes: 1000000000000 found; 1 to"),
         ("[limits]\nseconds = -1.0\n", "limits.seconds: -1 found"),
         ("[[strategies]]\nlabel = \"a\"\nsampler = { uniform = { atempts = 3 } }\n", "`atempts`"),
+        (
+            "[[strategies]]\nlabel = \"a\"\nsampler = \"uniform\"\n",
+            "`uniform` alone found; a table with its settings expected, as { uniform = {",
+        ),
+        ("[[strategies]]\nlabel = \"a\"\nsampler = {}\n", "an empty table found; one with one key"),
+        (
+            "[[evaluators]]\nquery = {}\ncoverage = { percent = 1 }\n",
+            "a table with several keys found; one with one key",
+        ),
         (&format!("{strategy}nodes = 0\n"), "strategies[0].nodes: 0 found; 1 to"),
         (&format!("{strategy}{strategy}"), "strategies[1].label: `a` found twice"),
         (

@@ -1,9 +1,9 @@
 //! A problem written out as a problem file that loads to the same problem.
 
-use super::{Limits, Problem};
+use super::Problem;
 use crate::generator::Sample;
 use crate::model::Documents;
-use crate::source::value;
+use crate::source::{setting, value};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -73,19 +73,12 @@ fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
     }
     for evaluator in &problem.evaluators {
         writeln!(out, "\n[[evaluators]]")?;
-        // A method is an inline table of one key, which stands in a table of its own here.
-        let method = value(evaluator);
-        let method = method.strip_prefix('{').and_then(|rest| rest.strip_suffix('}'));
-        writeln!(out, "{}", method.expect("a method is a table").trim())?;
+        writeln!(out, "{}", setting(evaluator))?;
     }
     let limits = &problem.limits;
     writeln!(out, "\n[limits]")?;
-    let mut open = Limits::left_open(&problem.space());
-    if limits.seconds.is_some() {
-        open = open.with_time(&problem.space());
-    }
-    if limits.nodes != open.nodes {
-        writeln!(out, "nodes = {}", limits.nodes)?;
+    if let Some(nodes) = problem.nodes_to_say() {
+        writeln!(out, "nodes = {nodes}")?;
     }
     if limits.sets != u64::MAX {
         writeln!(out, "sets = {}", limits.sets)?;

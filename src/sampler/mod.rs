@@ -150,10 +150,9 @@ fn collides(validity: Validity, bounds: bool) -> Option<bool> {
     }
 }
 
-/// What is wrong with a setting that must be a length: the comparison is written so that NaN fails it.
+/// What is wrong with a setting that must be a length.
 fn no_length(key: &'static str, length: f64) -> Option<Complaint> {
-    let sound = length > 0.0 && length <= crate::scene::LENGTH_MAX;
-    (!sound).then(|| Complaint::new(key, length, "a positive length"))
+    Complaint::of_length(key, length, crate::scene::LENGTH_MAX)
 }
 
 /// What is wrong with a setting that must be a number of things other than none.

@@ -1,7 +1,8 @@
 //! What the readers of mesh files have in common: the mesh as stored, faces, errors.
 
 use super::polygon;
-use crate::source::{plain, text_of};
+use crate::internal::plain::plain;
+use crate::source::text_of;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 

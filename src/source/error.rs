@@ -1,4 +1,4 @@
-use super::plain;
+use crate::internal::plain::plain;
 use std::fmt;
 use std::path::{Path, PathBuf};
 

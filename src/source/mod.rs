@@ -4,14 +4,12 @@
 mod error;
 mod file;
 mod names;
-mod plain;
 mod text;
 mod xml;
 
 pub use error::ProblemError;
 pub(crate) use file::read_file;
 pub(crate) use names::{fits, fitting, fitting_name};
-pub(crate) use plain::plain;
 pub(crate) use text::{NoText, text_of, xml_text};
 pub(crate) use xml::too_many_attributes;
 
@@ -151,11 +149,35 @@ fn line_of(text: &str, offset: usize) -> usize {
 }
 
 fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> ProblemError {
-    let message = error.message().to_owned();
+    let message = match error.message() {
+        // What the library calls a variant is a method or a shape here, the only key of a table.
+        "invalid type: unit variant, expected newtype variant" => {
+            let name = error.span().and_then(|span| text.get(span)).unwrap_or("name");
+            let name = name.trim_matches(['"', '\'']);
+            format!(
+                "`{name}` alone found; a table with its settings expected, as {{ {name} = {{ … }} }}"
+            )
+        }
+        "wanted exactly 1 element, found 0 elements" => {
+            "an empty table found; one with one key, which says what it is, expected".to_owned()
+        }
+        "wanted exactly 1 element, more than 1 element" => {
+            "a table with several keys found; one with one key, which says what it is, expected"
+                .to_owned()
+        }
+        other => other.to_owned(),
+    };
     match error.span() {
         Some(span) => ProblemError::line(path, line_of(text, span.start), message),
         None => ProblemError::file(path, message),
     }
+}
+
+/// A method, which is an inline table of one key, as that key and its value: as it stands in a table of its own.
+pub(crate) fn setting<T: Serialize + ?Sized>(method: &T) -> String {
+    let table = value(method);
+    let inside = table.strip_prefix('{').and_then(|rest| rest.strip_suffix('}'));
+    inside.expect("a method is a table").trim().to_owned()
 }
 
 /// A value as TOML writes it, within one line.

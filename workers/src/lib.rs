@@ -12,6 +12,7 @@ mod id;
 mod line;
 pub mod message;
 mod process;
+mod reserve;
 pub mod stream;
 mod worker;
 
@@ -19,4 +20,5 @@ pub use error::WorkerError;
 pub use id::WorkerId;
 pub use line::{HEARTBEAT, Line, NothingShared, SharedData};
 pub use process::{WorkerArguments, build_id, build_id_of, run};
+pub use reserve::Reserve;
 pub use worker::serve;

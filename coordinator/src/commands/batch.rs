@@ -59,7 +59,9 @@ fn read(asker: &Asker, file: &Path) -> Result<Vec<[Vec<f64>; 2]>, Failure> {
             continue;
         }
         let fields: Vec<&str> = line.split(',').map(str::trim).collect();
-        let names = fields.iter().all(|field| field.parse::<f64>().is_err());
+        // A line of names may stand above the numbers.
+        let is_wide = fields.len() == 2 * dofs;
+        let names = is_wide && fields.iter().all(|field| field.parse::<f64>().is_err());
         if std::mem::take(&mut header_may_come) && names {
             continue;
         }
@@ -69,7 +71,7 @@ fn read(asker: &Asker, file: &Path) -> Result<Vec<[Vec<f64>; 2]>, Failure> {
         if fields.len() != 2 * dofs {
             let found = fields.len();
             return Err(wrong(format!(
-                "{found} values found, {} expected: those of the start, then of the goal",
+                "{found} values found, {} expected: those of the start, then of the goal, with commas between",
                 2 * dofs
             )));
         }
@@ -83,7 +85,10 @@ fn read(asker: &Asker, file: &Path) -> Result<Vec<[Vec<f64>; 2]>, Failure> {
         queries.push([end("start", &fields[..dofs])?, end("goal", &fields[dofs..])?]);
     }
     if queries.is_empty() {
-        return Err(Failure::usage(format!("{}: no queries found", file.display())));
+        return Err(Failure::usage(format!(
+            "{}: no queries found; a line for each expected",
+            file.display()
+        )));
     }
     Ok(queries)
 }

@@ -38,7 +38,7 @@ pub(super) fn grow(growth: Growth, json: bool) -> Result<Code, Failure> {
     if json {
         output::json(summary);
     } else {
-        output::line(summary);
+        output::lines(summary);
     }
     match ended.outcome() {
         (Code::Done, _) => {

@@ -1,6 +1,6 @@
 use crate::cli::LogArguments;
 use crate::exit::{Code, Failure};
-use crate::output::{self, Plain};
+use crate::output::{self, Word};
 use crate::run::{Replay, Scan, Told};
 use roadmill::img::Joined;
 use roadmill::internal::wire;
@@ -80,7 +80,7 @@ impl fmt::Display for SetLine<'_> {
             "{} {} {}:{} {} {} {} {} {} {} {}",
             self.round,
             self.number,
-            Plain(self.label),
+            Word(self.label),
             self.ordinal,
             &self.seed[..16],
             self.nodes,

@@ -26,7 +26,7 @@ struct Status {
     edges: u64,
     components: u64,
     evaluators: Vec<EvaluatorValue>,
-    /// `running`, `held` (on another host), `killed`, or the word of a stop.
+    /// `running`, `held` (on another host), `killed`, `failed`, or the word of a stop.
     state: String,
     reason: String,
     /// Of a build that has stopped: how it goes on, where it can.
@@ -49,7 +49,7 @@ pub fn status(arguments: &StatusArguments) -> Result<Code, Failure> {
             let is_read = match (arguments.json, arguments.watch && !is_over) {
                 (true, _) => output::json(&status),
                 (false, true) => output::line(status.line()),
-                (false, false) => output::line(&status),
+                (false, false) => output::lines(&status),
             };
             if !is_read {
                 return Ok(Code::Done);
@@ -74,7 +74,15 @@ impl Status {
             (_, Some(holder), Some(Some(true))) => ("running".to_owned(), holder.to_string()),
             (_, Some(holder), Some(None)) => ("held".to_owned(), holder.to_string()),
             (Some(stopped), _, _) => (stopped.word.clone(), stopped.reason.clone()),
-            _ => ("killed".to_owned(), "nobody works on it; `resume` goes on".to_owned()),
+            (None, Some(_), _) => {
+                ("killed".to_owned(), "nobody works on it; `resume` goes on".to_owned())
+            }
+            // Whoever held it has let go of it, so was not killed.
+            (None, None, _) => (
+                "failed".to_owned(),
+                "it ended without an end in its ledger, as on a full disk; `resume` goes on"
+                    .to_owned(),
+            ),
         };
         let stopped = scan.stopped.as_ref().filter(|stopped| stopped.word == state);
         let way_on = stopped.and_then(|stopped| stopped.way_on(scan.folder()));

@@ -5,9 +5,10 @@
 //! process leaves beside the path, under a name with its process id, the next build there tidies up.
 
 use super::ledger::{LEDGER, LedgerWriter};
-use super::lock::{RunLock, started};
+use super::lock::{Holder, RunLock, held, started};
 use crate::exit::Failure;
-use crate::files::{cannot_write, folder_of};
+use crate::files::{cannot_write, folder_of, rename_to_free};
+use roadmill_workers::Reserve;
 use rustix::fs::{CWD, RenameFlags, renameat_with};
 use rustix::io::Errno;
 use std::fs;
@@ -21,6 +22,8 @@ const BEFORE_LEDGER: [&str; 3] = [super::lock::LOCK, super::ledger::BEGUN, super
 /// cannot change names.
 const NEW: &str = "new";
 const REPLACED: &str = "replaced";
+/// Files that are open at a time while a run folder is removed, which has no folders in it.
+const OPEN_TO_REMOVE: usize = 1;
 
 /// A run folder made for a build.
 #[derive(Debug)]
@@ -32,6 +35,8 @@ pub struct RunFolder {
     replaces: Option<RunLock>,
     /// Where the run that it has replaced waits until the new one has begun.
     replaced: Option<(PathBuf, RunLock)>,
+    /// What it takes to remove a folder, however many files this process has come to open.
+    reserve: Option<Reserve>,
 }
 
 impl RunFolder {
@@ -41,17 +46,15 @@ impl RunFolder {
     /// # Errors
     /// Exit code 2: the folder exists, is no run, or cannot be made; another process works on the run.
     pub fn make(out: Option<&Path>, name: &str, force: bool) -> Result<RunFolder, Failure> {
-        let path = match out {
-            Some(path) => path,
-            None => return Self::make_numbered(name),
-        };
+        let Some(path) = out else { return Self::make_numbered(name) };
+        let reserve = reserve(path)?;
         make_parents(path)?;
         tidy(path);
         if force {
-            return Self::stage(path);
+            return Ok(RunFolder { reserve, ..Self::stage(path)? });
         }
         match fs::create_dir(path) {
-            Ok(()) => Ok(RunFolder::of(path)),
+            Ok(()) => Ok(RunFolder { reserve, ..RunFolder::of(path) }),
             Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(exists(path)),
             Err(error) => Err(cannot_make(path, &error)),
         }
@@ -63,6 +66,7 @@ impl RunFolder {
     /// # Errors
     /// Exit code 2: it holds something else, or cannot be made.
     pub fn make_or_take(path: &Path) -> Result<RunFolder, Failure> {
+        let reserve = reserve(path)?;
         make_parents(path)?;
         match fs::create_dir(path) {
             Ok(()) => {}
@@ -76,12 +80,13 @@ impl RunFolder {
             }
             Err(error) => return Err(cannot_make(path, &error)),
         }
-        Ok(RunFolder::of(path))
+        Ok(RunFolder { reserve, ..RunFolder::of(path) })
     }
 
     /// The folder of a run that goes on.
     pub fn of(path: &Path) -> RunFolder {
-        RunFolder { path: path.to_owned(), staged: None, replaces: None, replaced: None }
+        let path = path.to_owned();
+        RunFolder { path, staged: None, replaces: None, replaced: None, reserve: None }
     }
 
     fn make_numbered(name: &str) -> Result<RunFolder, Failure> {
@@ -91,9 +96,10 @@ impl RunFolder {
                 1 => Path::new("runs").join(name),
                 _ => Path::new("runs").join(format!("{name}-{number}")),
             };
+            let reserve = reserve(&path)?;
             make_parents(&path)?;
             match fs::create_dir(&path) {
-                Ok(()) => return Ok(RunFolder::of(&path)),
+                Ok(()) => return Ok(RunFolder { reserve, ..RunFolder::of(&path) }),
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => number += 1,
                 Err(error) => return Err(cannot_make(&path, &error)),
             }
@@ -135,7 +141,7 @@ impl RunFolder {
     /// The run has its ledger: it is given its place, if it has not been there from the start.
     ///
     /// # Errors
-    /// Exit code 2: something else has come to stand there; 1: the system refuses. The folder is then removed.
+    /// Exit code 2: another build has come to stand there; 1: the system refuses. The folder is then removed.
     pub fn settle(mut self, ledger: &mut LedgerWriter) -> Result<RunFolder, Failure> {
         let Some(staged) = self.staged.take() else { return Ok(self) };
         let moved = match self.replaces.take() {
@@ -145,10 +151,11 @@ impl RunFolder {
             None => rename_to_free(&staged, &self.path),
         };
         if let Err(error) = moved {
+            drop(self.reserve.take());
             // What cannot be removed now the next build tidies up.
             let _ = fs::remove_dir_all(&staged);
             return Err(match error.kind() {
-                ErrorKind::AlreadyExists | ErrorKind::DirectoryNotEmpty => exists(&self.path),
+                ErrorKind::AlreadyExists | ErrorKind::DirectoryNotEmpty => taken(&self.path),
                 _ => cannot_write(&self.path, &error),
             });
         }
@@ -164,6 +171,7 @@ impl RunFolder {
     /// # Errors
     /// Exit code 1: it cannot be removed.
     pub fn begun(&mut self) -> Result<(), Failure> {
+        drop(self.reserve.take());
         let Some((old, lock)) = self.replaced.take() else { return Ok(()) };
         let removed = fs::remove_dir_all(&old).map_err(|error| {
             Failure::system(format!("{}: cannot remove it: {error}", old.display()))
@@ -174,6 +182,7 @@ impl RunFolder {
 
     /// The build could not begin: all is as it was before.
     pub fn discard(mut self) {
+        drop(self.reserve.take());
         // What cannot be put right is no worse than the failure that led here.
         let _ = match (&self.staged, &mut self.replaced) {
             (Some(staged), _) => fs::remove_dir_all(staged),
@@ -238,16 +247,6 @@ fn change_places(new: &Path, path: &Path) -> io::Result<PathBuf> {
     Ok(old)
 }
 
-/// Gives the folder `new` a name that nothing has.
-fn rename_to_free(new: &Path, path: &Path) -> io::Result<()> {
-    match renameat_with(CWD, new, CWD, path, RenameFlags::NOREPLACE) {
-        Ok(()) => Ok(()),
-        // Takes the place of an empty folder at most.
-        Err(Errno::INVAL | Errno::NOSYS | Errno::NOTSUP) => fs::rename(new, path),
-        Err(error) => Err(error.into()),
-    }
-}
-
 /// A name beside `path` that nobody but this process uses.
 fn aside(path: &Path, kind: &str, number: u64) -> PathBuf {
     let mut name = std::ffi::OsString::from(".");
@@ -294,6 +293,11 @@ pub fn tidy(path: &Path) {
     }
 }
 
+/// Taken before a folder is made.
+fn reserve(path: &Path) -> Result<Option<Reserve>, Failure> {
+    Reserve::take(OPEN_TO_REMOVE).map(Some).map_err(|error| cannot_make(path, &error))
+}
+
 fn make_parents(path: &Path) -> Result<(), Failure> {
     match path.parent() {
         Some(parent) => fs::create_dir_all(parent).map_err(|error| cannot_make(path, &error)),
@@ -306,6 +310,17 @@ fn exists(path: &Path) -> Failure {
         "{}: exists already; a new folder expected, or --force to replace a run, or --or-resume to go on with it",
         path.display()
     ))
+}
+
+/// Another build has come to stand at the path since nothing was there.
+fn taken(path: &Path) -> Failure {
+    match Holder::read(path) {
+        Some(holder) if holder.lives() != Some(false) => held(path, Some(&holder)),
+        _ => Failure::usage(format!(
+            "{}: something has come to stand there meanwhile; the same command may replace it if it is a run",
+            path.display()
+        )),
+    }
 }
 
 fn cannot_make(path: &Path, error: &io::Error) -> Failure {
@@ -375,6 +390,20 @@ mod tests {
         assert_eq!((ledger(&path), ledger(&old)), ("new".to_owned(), "old".to_owned()));
         assert!(rename_to_free(&old, &path).is_err(), "it is taken");
         rename_to_free(&old, &folder.path().join("free")).unwrap();
+    }
+
+    /// Whoever was faster is named, or has ended already.
+    #[test]
+    fn a_place_that_was_taken_meanwhile_is_anothers() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run");
+        run(&path, "faster");
+        let lock = RunLock::take(&path, || false).unwrap();
+        let message = taken(&path).message;
+        assert!(message.contains("works on this run"), "{message}");
+        drop(lock);
+        let message = taken(&path).message;
+        assert!(message.contains("has come to stand there meanwhile"), "{message}");
     }
 
     #[test]

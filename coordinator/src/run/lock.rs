@@ -269,7 +269,8 @@ fn interrupted() -> Failure {
     Failure::new(Code::Interrupted, "a signal came")
 }
 
-fn held(folder: &Path, holder: Option<&Holder>) -> Failure {
+/// The refusal of a run that somebody holds.
+pub(super) fn held(folder: &Path, holder: Option<&Holder>) -> Failure {
     let holder = holder.map_or_else(|| "another process".to_owned(), Holder::to_string);
     Failure::usage(format!("{}: {holder} works on this run", folder.display()))
 }

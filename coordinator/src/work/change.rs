@@ -38,7 +38,7 @@ impl Change {
                 let mut limits = Limits { seconds: present.limits().seconds, ..problem.limits() };
                 // What a problem leaves open depends on the version of the program, and on a limit of time.
                 let (space, of_run) = (present.space(), present.limits());
-                if limits.leaves_nodes_open(&space) && of_run.may_have_left_nodes_open(&space) {
+                if problem.leaves_nodes_open() && of_run.may_have_left_nodes_open(&space) {
                     limits.nodes = of_run.nodes;
                 }
                 let problem = (**problem).clone().with_limits(limits);

@@ -126,8 +126,8 @@ impl<'a> Growth<'a> {
     }
 
     /// Stops the build after this time, instead of that of the problem's limits: within a round, which is then lost,
-    /// but not before one round has been finished and judged. Of a new run whose limit of nodes is left open the time
-    /// is the only limit.
+    /// but not before one round has been finished and judged. The time begins with the call of [`Growth::grow`]. Of a
+    /// new run whose limit of nodes is left open the time is the only limit.
     pub fn max_seconds(self, seconds: Option<f64>) -> Growth<'a> {
         Growth { seconds, ..self }
     }
@@ -217,6 +217,7 @@ impl<'a> Growth<'a> {
     /// on the run; 4: the run is damaged; 1: the system refuses; 6: it was to end before it had gone on. A
     /// build that stops, for whatever reason, is none: [`Ended::outcome`] says what it came to.
     pub fn grow(self) -> Result<Ended, Failure> {
+        let begun = Instant::now();
         let Growth { origin, workers, watch, interrupt, cpu, seconds, memory } = self;
         let cpu = cpu.unwrap_or_else(CpuClock::start);
         let mut watch = watch.unwrap_or_else(|| Box::new(()));
@@ -254,7 +255,7 @@ impl<'a> Growth<'a> {
             interrupt: interrupt.clone(),
             workers: workers.count,
             cpu,
-            begun: Instant::now(),
+            begun,
             verdicts,
             seconds: seconds.or(setup.problem().limits().seconds),
             memory,
@@ -325,7 +326,7 @@ impl Anew {
     ) -> Result<Found, Failure> {
         let Anew { problem, max_nodes, max_sets, folder: out, replace, or_resume, imports } = self;
         let mut limits = problem.limits();
-        if seconds.is_some() {
+        if seconds.is_some() && problem.leaves_nodes_open() {
             limits = limits.with_time(&problem.space());
         }
         let problem = limited(problem, limits, max_nodes, max_sets)?;

@@ -25,6 +25,10 @@ pub(super) fn limited(
     match limits.complaint() {
         // The problem's own limits have been checked.
         Some((limit, message)) => Err(Failure::usage(format!("--max-{limit}: {message}"))),
-        None => problem.with_limits(limits).map_err(|error| Failure::usage(error.to_string())),
+        None => {
+            let problem = problem.with_limits(limits);
+            let problem = problem.map_err(|error| Failure::usage(error.to_string()))?;
+            Ok(if max_nodes.is_some() { problem.with_nodes_given() } else { problem })
+        }
     }
 }

@@ -43,7 +43,7 @@ impl Standing<'_> {
             word => return Some(format!("the stop {word:?} is none that a build comes to")),
         };
         match found.map(|stop| Stopped::new(&stop, problem)) {
-            Some(found) if found == *stopped => None,
+            Some(found) if found.is_recorded_as(stopped) => None,
             Some(found) => Some(differ(&stopped.reason, &found.reason)),
             None => Some(differ(&stopped.reason, "no reason to stop")),
         }

@@ -111,6 +111,7 @@ pub(super) struct Keeper<'a> {
     pub interrupt: Interrupt,
     pub workers: usize,
     pub cpu: CpuClock,
+    /// When this call began. What is done before the first round counts, too: the ledger is begun then, or read.
     pub begun: Instant,
     pub verdicts: Vec<Verdict>,
     pub seconds: Option<f64>,

@@ -3,6 +3,7 @@
 use super::Bodies;
 use super::robot::{JointKind, Limits};
 use super::validity::{BoundsMeaning, MotionChecking, TOLERANCE};
+use crate::internal::plain::plain;
 use crate::scene::{Body, Shape};
 use crate::space::BaseJoint;
 use std::fmt::Write;
@@ -20,7 +21,7 @@ pub(super) fn describe(bodies: &Bodies, out: &mut String) -> std::fmt::Result {
     };
     writeln!(out, "                 {base}, its frame in the world's")?;
     for joint in bodies.robot.links.iter().filter_map(|link| link.joint.as_ref()) {
-        let name = &joint.name;
+        let name = plain(&joint.name);
         match joint.kind {
             JointKind::Fixed => {}
             JointKind::Revolute { limits: None, .. } => {

@@ -44,7 +44,7 @@ fn bounds_of(source: &Source, space: &SpaceSpec) -> Result<Bounds, ProblemError>
         }
         for (axis, value) in values.iter().enumerate() {
             if value.abs() > LENGTH_MAX || value.is_nan() {
-                let message = format!("{value} found; a finite number expected");
+                let message = format!("{value} found; a length within ±{LENGTH_MAX:e} expected");
                 return Err(source.error(&place, message));
             }
             corner[axis] = *value;

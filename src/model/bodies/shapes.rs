@@ -63,7 +63,7 @@ pub(super) fn pose_of(frame: &FrameSpec) -> Result<Pose, (&'static str, String)>
     let FrameSpec { position, orientation, turn } = frame;
     // Written so that NaN fails it.
     if !position.iter().all(|value| value.abs() <= LENGTH_MAX) {
-        let message = format!("{position:?} found; finite lengths expected");
+        let message = format!("{position:?} found; lengths within ±{LENGTH_MAX:e} expected");
         return Err(("position", message));
     }
     let rotation = match (orientation, turn) {

@@ -20,7 +20,10 @@ impl Landscape {
         for (key, corner) in [("min", min), ("max", max)] {
             // Written so that NaN fails it.
             if !corner.iter().all(|value| value.abs() <= LENGTH_MAX) {
-                return Some((key, format!("{corner:?} found; finite lengths expected")));
+                return Some((
+                    key,
+                    format!("{corner:?} found; lengths within ±{LENGTH_MAX:e} expected"),
+                ));
             }
         }
         for (axis, name) in ["x", "y"].into_iter().enumerate() {
@@ -56,10 +59,12 @@ impl Landscape {
 /// What is wrong with a term within these bounds.
 fn complaint_of(term: &Term, min: [f64; 2], max: [f64; 2]) -> Option<String> {
     let Term { height, centre, xx, xy, yy } = *term;
-    if !(height.abs() <= HEIGHT_MAX && centre.iter().all(|value| value.abs() <= LENGTH_MAX)) {
-        return Some(format!(
-            "height {height} at {centre:?} found; a size of at most {HEIGHT_MAX:e} at a finite place expected"
-        ));
+    if height.is_nan() || height.abs() > HEIGHT_MAX {
+        return Some(format!("height {height} found; one within ±{HEIGHT_MAX:e} expected"));
+    }
+    // Written so that NaN fails it.
+    if !centre.iter().all(|value| value.abs() <= LENGTH_MAX) {
+        return Some(format!("centre {centre:?} found; lengths within ±{LENGTH_MAX:e} expected"));
     }
     let [u, v] = [0, 1]
         .map(|axis: usize| (min[axis] - centre[axis]).abs().max((max[axis] - centre[axis]).abs()));

@@ -177,7 +177,7 @@ fn samplers_say_what_they_cannot_work_with() {
         (SCENE, "obprm = { step = 1, steps = 0 }", "steps = 0 found; at least 1"),
         (SCENE, "obprm = { step = 1, start = \"both\" }", "unknown variant `both`"),
         (SCENE, "uobprm = { length = 1, step = 2 }", "step = 2 found; a millionth"),
-        (SCENE, "maprm = { step = inf, tolerance = 1 }", "step = inf found; a positive length"),
+        (SCENE, "maprm = { step = inf, tolerance = 1 }", "step = inf found; at most 1e30 expected"),
         (SCENE, "maprm = { step = 1, tolerance = 2 }", "tolerance = 2 found; a billionth"),
         (
             SCENE,

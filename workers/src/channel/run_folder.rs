@@ -14,6 +14,7 @@ use super::bell::SOCKET_PATH_BYTES_MAX;
 use super::error::ChannelError;
 use super::run_lock::{LockedParent, try_lock};
 use super::shared_files::{self, SHARED_MEMORY_FOLDER, is_ours};
+use crate::reserve::Reserve;
 
 const PREFIX: &str = "roadmill-";
 /// locked by the hub as long as it lives
@@ -21,6 +22,9 @@ const OWNER: &str = "owner";
 /// locked, shared, by each link as long as it lives
 const MEMBERS: &str = "members";
 const UNIQUE_DIGITS: usize = 12;
+/// Files that are open at a time while a run is removed: the folder of all runs, and folders of shared memory, which
+/// are three deep.
+const OPEN_TO_REMOVE: usize = 4;
 /// process id, dash, unique digits
 const RUN_NAME_BYTES_MAX: usize = 10 + 1 + UNIQUE_DIGITS;
 
@@ -30,19 +34,45 @@ pub(super) struct RunFolder {
     path: PathBuf,
     /// The lock that this process holds as long as the run lives; `None` while the folder is being made.
     owner: Option<File>,
+    /// What it takes to remove the run, however many files this process has come to open.
+    reserve: Option<Reserve>,
     is_removed: bool,
 }
 
 impl RunFolder {
     /// Removes the runs whose processes have all died, then makes a new one, locked.
     pub fn create() -> Result<RunFolder, ChannelError> {
-        let parent = LockedParent::lock(&parent_path()?)?;
+        let path = parent_path()?;
+        // Before anything is made that is to be removed.
+        let reserve =
+            Reserve::take(OPEN_TO_REMOVE).map_err(ChannelError::io("could not open", &path))?;
+        let parent = match LockedParent::lock(&path) {
+            Ok(parent) => parent,
+            Err(error) => {
+                // It may have been made, and then not opened.
+                drop(reserve);
+                if let Some(parent) = LockedParent::lock_if_free(&path) {
+                    parent.remove_if_empty();
+                }
+                return Err(error);
+            }
+        };
         reap(&parent);
+        let folder = RunFolder::create_in(&parent, reserve);
+        if folder.is_err() {
+            parent.remove_if_empty();
+        }
+        folder
+    }
+
+    /// Makes a run, locked. Nothing of it is left if anything fails.
+    fn create_in(parent: &LockedParent, reserve: Reserve) -> Result<RunFolder, ChannelError> {
         let path = parent.path().join(new_run_name());
         let io = |action| ChannelError::io(action, &path);
         DirBuilder::new().mode(0o700).create(&path).map_err(io("could not create"))?;
         // From here on the run is removed if anything fails.
-        let mut folder = RunFolder { path: path.clone(), owner: None, is_removed: false };
+        let reserve = Some(reserve);
+        let mut folder = RunFolder { path: path.clone(), owner: None, reserve, is_removed: false };
         if let Some(memory) = memory_folder(&path) {
             shared_files::create_folder(&memory)?;
         }
@@ -79,6 +109,7 @@ impl RunFolder {
         }
         // without this file no worker can join any more, and leave files behind
         let _ = fs::remove_file(self.path.join(MEMBERS));
+        drop(self.reserve.take());
         // While the folder is made its parent is locked already.
         let parent = self.owner.as_ref().and(self.path.parent()).map(LockedParent::lock);
         remove_run(&self.path)?;

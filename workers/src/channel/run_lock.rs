@@ -37,9 +37,8 @@ pub(super) struct LockedParent {
 }
 
 impl LockedParent {
-    /// The folder, locked, if it is there, private, and nobody else has locked it.
+    /// The folder, locked, if it is there, private, and nobody else has locked it. It is not made.
     pub fn lock_if_free(path: &Path) -> Option<LockedParent> {
-        fs::symlink_metadata(path).ok()?;
         let directory = LockedParent::try_lock(path).ok()??;
         Some(LockedParent { path: path.to_path_buf(), _directory: directory })
     }
@@ -48,6 +47,12 @@ impl LockedParent {
     pub fn lock(path: &Path) -> Result<LockedParent, ChannelError> {
         let deadline = Instant::now() + PATIENCE;
         loop {
+            match DirBuilder::new().mode(0o700).create(path) {
+                Err(error) if error.kind() != ErrorKind::AlreadyExists => {
+                    return Err(ChannelError::io("could not create", path)(error));
+                }
+                _ => {}
+            }
             if let Some(directory) = LockedParent::try_lock(path)? {
                 return Ok(LockedParent { path: path.to_path_buf(), _directory: directory });
             }
@@ -58,13 +63,8 @@ impl LockedParent {
         }
     }
 
+    /// `None` if it is not there, or somebody else has locked it.
     fn try_lock(path: &Path) -> Result<Option<File>, ChannelError> {
-        match DirBuilder::new().mode(0o700).create(path) {
-            Err(error) if error.kind() != ErrorKind::AlreadyExists => {
-                return Err(ChannelError::io("could not create", path)(error));
-            }
-            _ => {}
-        }
         let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::NOFOLLOW | OFlags::CLOEXEC;
         let directory: File = match open(path, flags, Mode::empty()) {
             Ok(directory) => directory.into(),
@@ -101,7 +101,8 @@ impl LockedParent {
         &self.path
     }
 
-    /// Removes the folder if no run is left in it.
+    /// Removes the folder if no run is left in it. Whoever has locked the folder and leaves no run in it does so, and
+    /// whoever has made it meanwhile, or is about to open it, makes it anew.
     pub fn remove_if_empty(self) {
         // still locked, so nobody can have begun a run that is not seen here; a folder that has
         // other runs is left alone by the system itself

@@ -20,12 +20,8 @@ impl Stopped {
         let label = |strategy: StrategyIndex| problem.strategies()[strategy.index()].label();
         let (word, reason) = match stop {
             Stop::Satisfied => ("satisfied", "all criteria are met".to_owned()),
-            Stop::NodeLimit => {
-                ("node-limit", format!("the limit of {} nodes is reached", problem.limits().nodes))
-            }
-            Stop::SetLimit => {
-                ("set-limit", format!("the limit of {} sets is reached", problem.limits().sets))
-            }
+            Stop::NodeLimit => ("node-limit", limit_of(problem.limits().nodes, "node")),
+            Stop::SetLimit => ("set-limit", limit_of(problem.limits().sets, "set")),
             Stop::GaveUp { strategy, ordinal, gave_up } => {
                 ("gave-up", format!("set {}:{ordinal}: {gave_up}", label(*strategy)))
             }
@@ -46,6 +42,15 @@ impl Stopped {
             Stop::Cut(Cut::WorkersLost(why)) => ("workers-lost", why.clone()),
         };
         Stopped { word: word.to_owned(), reason }
+    }
+
+    /// Whether a stop that is recorded is this one. Earlier versions wrote "1 nodes".
+    pub fn is_recorded_as(&self, recorded: &Stopped) -> bool {
+        let is_of_limit = matches!(&*self.word, "node-limit" | "set-limit");
+        let earlier = || self.reason.replace("limit of 1 node is", "limit of 1 nodes is");
+        let earlier = || earlier().replace("limit of 1 set is", "limit of 1 sets is");
+        let is_same = self.reason == recorded.reason || is_of_limit && earlier() == recorded.reason;
+        self.word == recorded.word && is_same
     }
 
     /// Whether the build would stop again at once: its problem must change for it to go on.
@@ -91,6 +96,11 @@ impl Stopped {
     }
 }
 
+fn limit_of(count: u64, what: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("the limit of {count} {what}{plural} is reached")
+}
+
 /// A job as people name it: by its set's label and ordinal.
 pub fn name(job: Job, problem: &Problem) -> String {
     let set = |strategy: StrategyIndex, ordinal: Ordinal| {
@@ -105,5 +115,22 @@ pub fn name(job: Job, problem: &Problem) -> String {
             let evaluator = problem.evaluators()[evaluator.index()].method().name();
             format!("the {evaluator} evaluation after round {round}")
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_is_singular_and_what_earlier_versions_wrote_is_the_same_stop() {
+        let stop = |word: &str, reason: &str| Stopped { word: word.into(), reason: reason.into() };
+        assert_eq!(limit_of(1, "node"), "the limit of 1 node is reached");
+        assert_eq!(limit_of(21, "set"), "the limit of 21 sets is reached");
+        let now = stop("node-limit", &limit_of(1, "node"));
+        assert!(now.is_recorded_as(&now));
+        assert!(now.is_recorded_as(&stop("node-limit", "the limit of 1 nodes is reached")));
+        assert!(!now.is_recorded_as(&stop("node-limit", "the limit of 2 nodes is reached")));
+        assert!(!now.is_recorded_as(&stop("set-limit", "the limit of 1 node is reached")));
     }
 }

@@ -1,6 +1,7 @@
 use crate::digest::SourceFile;
+use crate::internal::plain::plain;
 use crate::scene::MeshError;
-use crate::source::{NoText, plain, read_file, text_of, too_many_attributes, xml_text};
+use crate::source::{NoText, read_file, text_of, too_many_attributes, xml_text};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 

@@ -174,6 +174,7 @@ pub(super) mod tests {
     use super::*;
     use crate::math;
     use crate::model::bodies::robot::rates_tests::drawn_pose;
+    use crate::numbers::Ordinal;
     use crate::seed::{Purpose, Seed, Stream};
     use proptest::prelude::*;
 
@@ -258,7 +259,7 @@ pub(super) mod tests {
         fn the_inside_of_shells_that_overlap_is_that_of_any(
             ordinal in any::<u64>(), count in 1usize..6, mixed in any::<bool>(),
         ) {
-            let mut stream = Seed::of_set(5, "shells", crate::numbers::Ordinal(ordinal)).stream(Purpose::Sampling);
+            let mut stream = Seed::of_set(5, "shells", Ordinal(ordinal)).stream(Purpose::Sampling);
             let shells: Vec<Mesh> = (0..count).map(|_| drawn_shell(&mut stream)).collect();
             let mut mesh = joined(&shells);
             prop_assert!(mesh.is_closed());
@@ -290,7 +291,7 @@ pub(super) mod tests {
         fn a_shell_turned_the_other_way_within_another_is_a_cavity(
             ordinal in any::<u64>(), count in 1usize..5, round in any::<bool>(), fused in any::<bool>(),
         ) {
-            let mut stream = Seed::of_set(5, "cavities", crate::numbers::Ordinal(ordinal)).stream(Purpose::Sampling);
+            let mut stream = Seed::of_set(5, "cavities", Ordinal(ordinal)).stream(Purpose::Sampling);
             let mut meshes: Vec<Mesh> = (0..count).map(|level| {
                 let mesh = octahedron([0.0; 3], 1.4 - 0.3 * level as f64);
                 if (level % 2 == 1) ^ round { turned_round(mesh) } else { mesh }

@@ -5,6 +5,7 @@ use super::{BodyScratch, BodyValidity, Bounds, BoundsMeaning, MotionChecking};
 use crate::model::bodies::robot::Robot;
 use crate::model::bodies::robot::rates_tests::drawn_pose;
 use crate::model::{Clearances, Model, Scratch, Validity};
+use crate::numbers::Ordinal;
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::{BaseJoint, Space};
@@ -141,7 +142,7 @@ proptest! {
     fn powers_of_two_change_no_verdict_and_no_digit(
         ordinal in any::<u64>(), power in prop::sample::select(vec![-90, -40, -17, -1, 1, 23, 60, 90]),
     ) {
-        let mut stream = Seed::of_set(5, "units", crate::numbers::Ordinal(ordinal)).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "units", Ordinal(ordinal)).stream(Purpose::Sampling);
         let factor = (0..i32::abs(power)).fold(1.0, |f, _| if power > 0 { f * 2.0 } else { f / 2.0 });
         let scratch = &mut Scratch::new();
         for scene in pairs(&mut stream) {
@@ -162,7 +163,7 @@ proptest! {
     /// Other units round, which may only matter where a millionth part of the size does.
     #[test]
     fn a_change_of_unit_changes_no_verdict(ordinal in any::<u64>(), power in -6i32..=6) {
-        let mut stream = Seed::of_set(5, "decimals", crate::numbers::Ordinal(ordinal)).stream(Purpose::Sampling);
+        let mut stream = Seed::of_set(5, "decimals", Ordinal(ordinal)).stream(Purpose::Sampling);
         let factor = format!("1e{power}").parse().unwrap();
         let scratch = &mut Scratch::new();
         for scene in pairs(&mut stream) {
@@ -256,7 +257,7 @@ fn judged(scene: &Scene, motions: &[[Vec<f64>; 2]], by: [f64; 3]) -> (Vec<(Valid
 /// Motions between valid configurations, half of them short.
 fn drawn_motions(scene: &Scene, name: &str, count: usize) -> Vec<[Vec<f64>; 2]> {
     let (space, validity) = scene.ready();
-    let mut stream = Seed::of_set(5, name, crate::numbers::Ordinal(0)).stream(Purpose::Sampling);
+    let mut stream = Seed::of_set(5, name, Ordinal(0)).stream(Purpose::Sampling);
     let scratch = &mut Scratch::new();
     let mut motions = Vec::new();
     let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);

@@ -7,6 +7,8 @@ use std::path::Path;
 
 /// How deep elements may be nested; a collision's shape is the fifth.
 const DEPTH_MAX: usize = 64;
+/// What limits have besides their ends.
+const RATES: &str = " effort=\"…\" velocity=\"…\"";
 
 /// Lines of the elements, in the order of the file.
 pub(super) struct Lines {
@@ -34,8 +36,10 @@ impl Lines {
             1 + breaks.partition_point(|at| *at < start)
         };
         let root = document.root_element();
+        let version = Version::of(root);
         for node in root.descendants().filter(Node::is_element) {
-            check(node).map_err(|message| ForeignError::line(path, line(node), message))?;
+            check(node, version)
+                .map_err(|message| ForeignError::line(path, line(node), message))?;
         }
         let named = |parent: Node<'_, '_>, name: &'static str| {
             let children = parent.children().filter(move |node| node.has_tag_name(name));
@@ -77,7 +81,7 @@ fn says_no_shape(node: &Node) -> bool {
     )
 }
 
-fn check(node: Node) -> Result<(), String> {
+fn check(node: Node, version: Version) -> Result<(), String> {
     let name = node.tag_name().name();
     if node.tag_name().namespace().is_some_and(|space| space.contains("xacro")) {
         return Err(format!("<xacro:{name}> found; a URDF that xacro has expanded expected"));
@@ -100,9 +104,10 @@ fn check(node: Node) -> Result<(), String> {
             if matches!(kind, "revolute" | "prismatic") && !has_limit {
                 let joint = node.attribute("name").unwrap_or_default();
                 let other = if kind == "revolute" { ", or the type continuous," } else { "" };
+                let rates = if version.requires_rates() { RATES } else { "" };
                 return Err(format!(
                     "joint `{joint}`: type `{kind}` without <limit> found; <limit lower=\"…\" \
-                     upper=\"…\"/>{other} expected"
+                     upper=\"…\"{rates}/>{other} expected"
                 ));
             }
         }
@@ -115,6 +120,9 @@ fn check(node: Node) -> Result<(), String> {
         }
         _ => {}
     }
+    if let Some(what) = lacking(node, parent, version) {
+        return Err(what);
+    }
     for attribute in node.attributes() {
         let (count, positive) = match (name, attribute.name()) {
             ("origin" | "axis", "xyz") | ("origin", "rpy") | ("mesh", "scale") => (3, false),
@@ -123,6 +131,13 @@ fn check(node: Node) -> Result<(), String> {
             ("limit", "lower" | "upper") => (1, false),
             ("origin", "quat_xyzw") => {
                 return Err("quat_xyzw found; a rotation as rpy expected".to_owned());
+            }
+            ("limit", "effort" | "velocity") => {
+                let (key, value) = (attribute.name(), attribute.value());
+                match numbers(value).as_deref() {
+                    Some([_]) => continue,
+                    _ => return Err(format!("{key} = `{value}` found; a number expected")),
+                }
             }
             _ => continue,
         };
@@ -150,6 +165,57 @@ fn check(node: Node) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// What an element lacks that is read, and cannot be without: attributes, or other elements.
+fn lacking(node: Node, parent: &str, version: Version) -> Option<String> {
+    // Within other elements, as what a simulator is told, the same names mean other things.
+    let is_read = |top: Node| top.has_tag_name("link") || top.has_tag_name("joint");
+    let root = node.document().root_element();
+    let top = node.ancestors().find(|above| above.parent_element() == Some(root));
+    if !top.is_some_and(is_read) {
+        return None;
+    }
+    let name = node.tag_name().name();
+    let (attributes, elements): (&[&str], &[&str]) = match (parent, name) {
+        ("robot", "link") => (&["name"], &[]),
+        ("robot", "joint") => (&["name", "type"], &["parent", "child"]),
+        ("joint", "parent" | "child") => (&["link"], &[]),
+        ("joint", "limit") if version.requires_rates() => (&["effort", "velocity"], &[]),
+        ("link", "visual" | "collision") => (&[], &["geometry"]),
+        ("geometry", "box") => (&["size"], &[]),
+        ("geometry", "cylinder" | "capsule") => (&["radius", "length"], &[]),
+        ("geometry", "sphere") => (&["radius"], &[]),
+        ("geometry", "mesh") => (&["filename"], &[]),
+        _ => (&[], &[]),
+    };
+    if let Some(missing) = attributes.iter().find(|key| node.attribute(**key).is_none()) {
+        return Some(format!("<{name}> without `{missing}` found; {missing}=\"…\" expected"));
+    }
+    let has = |element: &str| node.children().any(|child| child.has_tag_name(element));
+    let missing = elements.iter().find(|element| !has(element))?;
+    Some(format!("<{name}> without <{missing}> found; <{missing} …/> in it expected"))
+}
+
+/// The version of the format that a file is of, as (1, 2).
+#[derive(Clone, Copy)]
+struct Version(u32, u32);
+
+impl Version {
+    /// What the robot says, or 1.0 where it says nothing that can be read, as ROS's own reader takes it.
+    fn of(robot: Node) -> Version {
+        let version = robot.attribute("version").and_then(|text| {
+            let (major, minor) = text.trim().split_once('.')?;
+            Some(Version(major.parse().ok()?, minor.parse().ok()?))
+        });
+        version.unwrap_or(Version(1, 0))
+    }
+
+    /// Whether limits have to give the largest effort and velocity. Nothing here uses them, but ROS's own reader refuses
+    /// files without.
+    fn requires_rates(self) -> bool {
+        (self.0, self.1) < (1, 2)
+    }
 }
 
 fn numbers(text: &str) -> Option<Vec<f64>> {
