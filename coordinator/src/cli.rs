@@ -387,6 +387,8 @@ pub enum ProteinCommand {
     Info(ProteinInfoArguments),
     /// Say how two conformations of one protein differ
     Compare(ProteinCompareArguments),
+    /// Write a transition between two structures, or what is about one, as a problem file
+    Problem(ProteinProblemArguments),
 }
 
 /// Of `protein info`.
@@ -426,6 +428,46 @@ pub struct ProteinCompareArguments {
     /// As a JSON object
     #[arg(long)]
     pub json: bool,
+}
+
+/// Of `protein problem`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct ProteinProblemArguments {
+    /// A PDB or mmCIF file (docs/structures.md): its bonds, angles and omegas are kept, and it is the start
+    pub first: PathBuf,
+    /// Another structure of the same residues: the goal is what comes nearest to it
+    pub second: Option<PathBuf>,
+    /// The chain; a sole chain of amino acids answers to any name
+    #[arg(long)]
+    pub chain: Option<String>,
+    /// The chain of the second file [default: as --chain]
+    #[arg(long)]
+    pub chain_b: Option<String>,
+    /// Only residues from FIRST to LAST, by their numbers in each file
+    #[arg(long, value_name = "FIRST-LAST", value_parser = residues, allow_hyphen_values = true)]
+    pub residues: Option<(ResidueNumber, ResidueNumber)>,
+    /// What is made of gaps in a chain
+    #[arg(long, value_enum, default_value_t = Gaps::Error)]
+    pub gaps: Gaps,
+    /// Another chain of the first file, which stands still; may be given several times
+    #[arg(long = "obstacle", value_name = "CHAIN")]
+    pub obstacles: Vec<String>,
+    /// The problem file to be written; structures go beside it into the folder NAME-structures
+    #[arg(long, value_name = "NAME.toml")]
+    pub out: PathBuf,
+    /// Replace what is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// What is made of gaps in a chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Gaps {
+    /// An error that names the residues at both sides
+    Error,
+    /// What follows a gap moves as one with what is before it
+    Rigid,
 }
 
 /// Of the hidden worker command.

@@ -17,6 +17,7 @@ mod resume;
 mod status;
 mod verify;
 mod worker;
+mod written;
 
 pub use build::build;
 pub use check::check;

@@ -2,6 +2,7 @@
 
 mod compare;
 mod info;
+mod problem;
 
 use crate::cli::ProteinCommand;
 use crate::exit::{Code, Failure};
@@ -13,6 +14,7 @@ pub fn protein(command: &ProteinCommand) -> Result<Code, Failure> {
     match command {
         ProteinCommand::Info(arguments) => info::info(arguments),
         ProteinCommand::Compare(arguments) => compare::compare(arguments),
+        ProteinCommand::Problem(arguments) => problem::problem(arguments),
     }
 }
 
