@@ -18,7 +18,7 @@ pub struct Contact {
     pub required: f64,
 }
 
-/// Distances in Å that pairs of sites, by their numbers, are to have instead of what the rules say.
+/// Distances in Å that pairs of sites, by their numbers, need at most, whatever the rules say.
 pub type Exceptions = BTreeMap<(usize, usize), f64>;
 
 /// Finds the contacts of a chain.
@@ -75,7 +75,7 @@ impl<'a> Contacts<'a> {
     }
 
     /// The pairs nearer than their limit and `margin` (Å), in the order of their residues. Pairs that `exceptions` names
-    /// are held to the distance that it gives.
+    /// need at most the distance that it gives.
     pub fn find(&self, positions: &[Point], margin: f64, exceptions: &Exceptions) -> Vec<Contact> {
         let Limits { alpha_carbons, side_chains, nitrogen_oxygen, backbone, .. } = self.limits;
         let farthest = alpha_carbons.max(side_chains).max(nitrogen_oxygen).max(backbone) + margin;
@@ -111,7 +111,9 @@ impl<'a> Contacts<'a> {
                 else {
                     continue;
                 };
-                let required = exceptions.get(&(first, second)).copied().unwrap_or(least + margin);
+                let wanted = least + margin;
+                let exception = exceptions.get(&(first, second));
+                let required = exception.map_or(wanted, |distance| distance.min(wanted));
                 let distance = (positions[second] - positions[first]).norm();
                 if distance < required {
                     found.push(Contact { first, second, distance, required });

@@ -1,6 +1,7 @@
 use super::least_squares::SumOfSquares;
 use super::*;
 use crate::model::protein::chains::{Numbers, crooked, read};
+use crate::model::protein::validity::Obstacles;
 use crate::structure::{AminoAcid, ResidueNumber};
 
 /// A chain with every torsion turned by up to `amount` radians.
@@ -95,6 +96,37 @@ fn derivatives_are_those_of_differences() {
         let [a, b] = [-size, size].map(|size| objective.cost(&after(&objective, unknown, size)));
         let expected = (b - a) / (2.0 * size);
         assert!((found - expected).abs() < 1e-5 * (1.0 + expected.abs()), "{found} {expected}");
+    }
+}
+
+#[test]
+fn contacts_are_what_the_rules_count() {
+    // Wider than usual, since these chains are stretched.
+    let rules = Rules {
+        alpha_carbons: Some(7.0),
+        side_chains: Some(5.0),
+        nitrogen_oxygen: Some(5.5),
+        backbone: Some(6.0),
+        ..Rules::default()
+    };
+    let limits = rules.at_nodes();
+    for seed in 0..5 {
+        let source = crooked(60, seed);
+        let linkage = Linkage::of(&source).expect("it is whole");
+        let conformer = Conformer::of(&source, &linkage).expect("it is whole");
+        let sites = Sites::of(conformer.atoms(), &linkage);
+        let found = Contacts::of(limits, &sites).find(&sites.source(), 0.0, &Exceptions::new());
+        // Two CA may violate two rules, and are one pair.
+        let is_twice = |contact: &&contacts::Contact| {
+            let kinds = [contact.first, contact.second].map(|number| sites.sites[number].kind);
+            kinds == [Kind::AlphaCarbon; 2] && contact.distance < limits.backbone
+        };
+        let twice = found.iter().filter(is_twice).count();
+        let mut placed = conformer.placed();
+        conformer.place(&linkage.source(), &mut placed);
+        let counts = limits.count(&placed, &Obstacles::default());
+        assert!(found.len() > 10);
+        assert_eq!(found.len() + twice, counts.total(), "{counts:?}");
     }
 }
 
@@ -240,6 +272,11 @@ fn both_ends_of_calmodulin_and_of_adenylate_kinase_fit_on_either_linkage() {
             assert!(found.kept() >= 0.95, "{:?}", found.lost_hydrogen_bonds);
             assert_eq!(found.new_clashes, []);
             assert_eq!(found.turned_peptides, []);
+            let linkage = Linkage::of(source).expect("it is whole");
+            let conformer = Conformer::of(source, &linkage).expect("it is whole");
+            let mut placed = conformer.placed();
+            conformer.place(&found.q, &mut placed);
+            assert_eq!(Rules::default().first_violation(&placed), None);
             assert!(found.energy[1] < 1.35 * found.energy[0], "{:?}", found.energy);
         }
     }
