@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub const IDENTITY_MIN: f64 = 0.5;
 
 /// The longest chains that are aligned, in residues; the table of an alignment has the product of both.
-const ALIGNED_MAX: usize = 10_000;
+const ALIGNED_MAX: usize = 5_000;
 
 /// How residues were matched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

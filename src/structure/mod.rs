@@ -26,9 +26,7 @@ mod torsion;
 pub use amino_acid::AminoAcid;
 pub use error::StructureError;
 pub use mmcif::mmcif;
-pub use read::read;
-#[doc(hidden)]
-pub use read::read_bytes;
+pub use read::{read, read_bytes};
 pub use residue::{Atom, Residue, ResidueNumber};
 pub use selection::{ChainSelection, parse_range, select_chain};
 pub use torsion::torsion;

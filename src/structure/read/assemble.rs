@@ -10,8 +10,9 @@ use super::site::{RawModel, Site};
 use crate::structure::peptides::PEPTIDE_BOND_MAX;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The largest residues in which lost letters are looked for, in atoms: the search compares each with all others.
-const RESTORED_MAX: usize = 1000;
+/// The most atoms of an amino acid. Larger residues, such as sheets of carbon, are taken as they are, without a search for
+/// alternatives and parts that stand elsewhere, which compares each atom with all others.
+const RESIDUE_MAX: usize = 1000;
 
 /// A model made of a file's atoms.
 pub(super) struct Assembled {
@@ -26,7 +27,7 @@ pub(super) struct Assembled {
 pub(super) fn assemble(raw: &mut RawModel, parents: &Parents) -> Result<Assembled, StructureError> {
     for residue in raw.sites.chunk_by_mut(is_same_residue) {
         let has_partial = |site: &Site| site.letter.is_none() && site.occupancy < 1.0;
-        if residue.iter().any(has_partial) && residue.len() <= RESTORED_MAX {
+        if residue.iter().any(has_partial) && residue.len() <= RESIDUE_MAX {
             restore_letters(residue);
         }
     }
@@ -39,10 +40,12 @@ pub(super) fn assemble(raw: &mut RawModel, parents: &Parents) -> Result<Assemble
     let mut drafts = Vec::with_capacity(groups.len());
     for group in &groups {
         let sites = || group.sites.iter().map(|index| &raw.sites[*index]);
-        let letters = letters(sites());
+        let is_small = group.sites.len() <= RESIDUE_MAX;
+        let letters = if is_small { letters(sites()) } else { Vec::new() };
         let letter = chosen(&letters);
-        let taken: Vec<&Site> =
-            sites().filter(|site| site.letter.is_none() || site.letter == letter).collect();
+        let taken: Vec<&Site> = sites()
+            .filter(|site| letter.is_none() || site.letter.is_none() || site.letter == letter)
+            .collect();
         let draft = Draft::of(&taken, parents, &mut repeated)?;
         if let Some(chosen) = letter {
             alternatives.push(Alternative {
@@ -89,7 +92,7 @@ fn groups(sites: &[Site]) -> Vec<Group> {
             let is_same =
                 |one: &Site, other: &Site| one.name == other.name && one.letter == other.letter;
             let has = |site: &Site| earlier.iter().any(|index| is_same(site, &sites[*index]));
-            if !run.iter().any(has) {
+            if earlier.len() + run.len() <= RESIDUE_MAX && !run.iter().any(has) {
                 earlier.extend(indices);
                 continue;
             }
@@ -130,6 +133,11 @@ impl Draft {
         let name =
             sites.iter().find(|site| site.letter.is_some()).unwrap_or(&first).residue.clone();
         let amino_acid = names::amino_acid(&name, parents);
+        if amino_acid.is_some() && sites.len() > RESIDUE_MAX {
+            let message = format!("{first}: more than {RESIDUE_MAX} atoms of one amino acid found");
+            let message = format!("{message}; at most that many expected");
+            return Err(StructureError::line(first.line, message));
+        }
         let mut lines: Vec<usize> = Vec::with_capacity(sites.len());
         let mut atoms: Vec<Atom> = Vec::with_capacity(sites.len());
         for site in sites {

@@ -8,6 +8,7 @@ use super::cif::{Row, Value, rows};
 use super::elements;
 use super::names::{Parents, amino_acid};
 use super::site::{RawModel, Site, coordinate, expect_room};
+use std::collections::BTreeMap;
 
 /// What an mmCIF file holds.
 #[derive(Debug, Default)]
@@ -23,6 +24,7 @@ pub(super) fn read(text: &str) -> Result<MmcifText, StructureError> {
     let mut mmcif = MmcifText::default();
     let mut layout: Option<(usize, Layout)> = None;
     let mut block_of_atoms = None;
+    let mut places: BTreeMap<i32, usize> = BTreeMap::new();
     let mut count = 0;
     let mut has_polymers = false;
     rows(text, |row| {
@@ -52,14 +54,10 @@ pub(super) fn read(text: &str) -> Result<MmcifText, StructureError> {
         let (model, site) = layout.site(row)?;
         has_polymers |= site.in_polymer == Some(true);
         let models = &mut mmcif.models;
-        // Atoms of a model mostly stand in a row.
-        let place = match models.iter().rposition(|other| other.number == model) {
-            Some(place) => place,
-            None => {
-                models.push(RawModel { number: model, sites: Vec::new() });
-                models.len() - 1
-            }
-        };
+        let place = *places.entry(model).or_insert_with(|| {
+            models.push(RawModel { number: model, sites: Vec::new() });
+            models.len() - 1
+        });
         models[place].sites.push(site);
         Ok(())
     })?;

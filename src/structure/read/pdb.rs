@@ -8,6 +8,7 @@ use super::elements;
 use super::names::{Parents, amino_acid};
 use super::site::{RawModel, Site, coordinate, expect_room};
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 /// What a PDB file holds.
 #[derive(Debug, Default)]
@@ -31,6 +32,7 @@ pub(super) fn read(text: &str) -> Result<PdbText, StructureError> {
     let mut is_open = false;
     let mut has_models = false;
     let mut count = 0;
+    let mut numbers = BTreeSet::new();
     let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line));
     for (number, line) in lines.by_ref() {
         match line.get(..6).unwrap_or(line).trim_end() {
@@ -61,7 +63,7 @@ pub(super) fn read(text: &str) -> Result<PdbText, StructureError> {
                 }
                 let next = i32::try_from(pdb.models.len() + 1).unwrap_or(i32::MAX);
                 let named = line["MODEL".len()..].trim().parse().unwrap_or(next);
-                if pdb.models.iter().any(|model| model.number == named) {
+                if !numbers.insert(named) && pdb.notes.is_empty() {
                     pdb.notes.push(format!("line {number}: model {named} comes again"));
                 }
                 pdb.models.push(RawModel { number: named, sites: Vec::new() });

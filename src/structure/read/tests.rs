@@ -342,6 +342,26 @@ fn files_of_a_million_atoms_are_refused_at_a_line() {
 }
 
 #[test]
+fn heaps_of_models_names_and_letters_take_no_long_time() {
+    let lines = |line: &dyn Fn(u32) -> String| -> String { (0..40_000).map(line).collect() };
+    // Were each compared with all others, these would take minutes.
+    let models = lines(&|_| "MODEL 1\n".to_owned());
+    assert!(try_read(&models).unwrap_err().starts_with("no atoms"));
+    let atom = |name: u32, letter, residue: &str, number: u32| {
+        format!(
+            "ATOM      1 {name:0>4}{letter}{residue} A{number:>4}       0.000   0.000   0.000\n"
+        )
+    };
+    let names = lines(&|line| atom(line % 10_000, ' ', "ALA", 1));
+    assert!(try_read(&names).unwrap_err().contains("more than 1000 atoms of one amino acid"));
+    let letters =
+        lines(&|line| atom(line % 10_000, char::from_u32(0x4e00 + line).unwrap_or('A'), "XYZ", 1));
+    assert_eq!(read(&letters).models[0].chains[0].others[0].atoms.len(), 40_000);
+    let parts = lines(&|line| atom(line % 10_000, ' ', "XYZ", 1 + line % 2));
+    assert_eq!(read(&parts).counts[0].atoms, 40_000);
+}
+
+#[test]
 fn gaps_are_where_no_peptide_bond_is() {
     let text = [1, 2, 4].map(|number| residue("ATOM", "ALA", 'A', number)).concat();
     let gaps = peptides::gaps(&read(&text).models[0].chains[0].residues);
