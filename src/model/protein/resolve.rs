@@ -5,8 +5,8 @@ use crate::source::Step::Key;
 use crate::source::{ProblemError, Source};
 use crate::structure::matching::match_chains;
 use crate::structure::{
-    Chain, ChainSelection, Residue, ResidueNumber, Structure, StructureError, StructureModel, backbone, peptides,
-    read, select_chain,
+    Chain, ChainSelection, Residue, Structure, StructureError, StructureModel, backbone, parse_range, peptides, read,
+    select_chain,
 };
 
 /// The energy along a motion is computed at steps of this length in the space unless the file says otherwise, radians: a third of
@@ -138,7 +138,13 @@ impl WholeChain<'_> {
         if count > 1 && spec.model.is_none() {
             notes.push(format!("{key}: model {} of {count}, the first", model.number));
         }
-        let range = spec.residues.as_deref().map(range_of).transpose()?;
+        let range = spec.residues.as_deref().map(|text| {
+            parse_range(text).ok_or_else(|| {
+                let expected = "the first and the last residue expected, such as 4-147";
+                StructureError::pathless(format!("residues = {text:?} found; {expected}"))
+            })
+        });
+        let range = range.transpose()?;
         let selection = ChainSelection { chain: spec.chain.as_deref(), range };
         let chain = select_chain(&model, selection).map_err(|error| error.in_file(&path))?;
         if !alternatives.is_empty() {
@@ -176,23 +182,4 @@ fn obstacles_of(
         obstacles.push(chain.residues.clone());
     }
     Ok(obstacles)
-}
-
-/// A range of residues: `4-147`, `-3-10`, `52A-60`.
-pub fn range_of(text: &str) -> Result<(ResidueNumber, ResidueNumber), StructureError> {
-    let wrong = || {
-        let message = format!("residues = {text:?} found; the first and the last residue expected, such as 4-147");
-        StructureError::pathless(message)
-    };
-    // The first character may be the sign of a number.
-    let dash = text.char_indices().skip(1).find(|(_, c)| *c == '-').map(|(at, _)| at);
-    let (first, last) = text.split_at(dash.ok_or_else(wrong)?);
-    Ok((number_of(first).ok_or_else(wrong)?, number_of(&last[1..]).ok_or_else(wrong)?))
-}
-
-/// A residue's number, perhaps with an insertion code: `52`, `-3`, `52A`.
-fn number_of(text: &str) -> Option<ResidueNumber> {
-    let insertion = text.chars().last().filter(char::is_ascii_alphabetic);
-    let digits = text.strip_suffix(|c: char| c.is_ascii_alphabetic()).unwrap_or(text);
-    Some(ResidueNumber { number: digits.parse().ok()?, insertion })
 }
