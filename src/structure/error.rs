@@ -1,4 +1,4 @@
-use crate::source::plain;
+use crate::internal::plain::plain;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
