@@ -41,7 +41,7 @@ fn info_says_what_a_file_holds() {
         &done.stdout,
         &[
             "a.pdb: PDB, models: 1",
-            "model 1: 13 atoms, 4 residues, 1 chains",
+            "model 1: 13 atoms, 4 residues; chains: 1",
             "chain `A`: 3 residues, ALA 1 to MSE 4; 11 atoms, 11 of them heavy; others: 1 water",
             "1 AGM",
             "gaps: GLY 2 and MSE 4 (7.60 Å)",

@@ -2,8 +2,8 @@
 
 use super::{AminoAcid, Chain};
 
-/// The longest distance of two SG, in Å, that counts as a bond: it is 2.03 Å long (Engh & Huber 1991), and sulphurs
-/// without one are 3.5 Å apart or more.
+/// The longest distance of two SG, in Å, that counts as a bond: it is 2.03 Å long (Engh & Huber 1991), and the radii of
+/// sulphurs without one, 1.8 Å (Bondi 1964), keep these 3.6 Å apart.
 pub const DISULPHIDE_MAX: f64 = 2.5;
 
 /// A bond between the sulphurs of two cysteines.

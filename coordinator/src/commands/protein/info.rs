@@ -98,7 +98,7 @@ impl Info {
         let first = &self.models[0];
         line(format_args!("{}: {}, models: {}", Plain(file), self.format, self.models.len()));
         line(format_args!(
-            "model {}: {} atoms, {} residues, {} chains",
+            "model {}: {} atoms, {} residues; chains: {}",
             first.number,
             first.atoms,
             first.residues,
