@@ -9,4 +9,7 @@ mod mixture;
 
 pub use constraints::{Constraint, ConstraintKind, Constraints};
 pub use hydrophobic::Hydrophobic;
-pub use mixture::{Mixing, Mixture};
+pub use mixture::{Mixing, Mixture, smooth_minimum};
+
+#[cfg(test)]
+mod tests;

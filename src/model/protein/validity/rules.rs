@@ -90,7 +90,7 @@ impl Rules {
 
     /// What holds all along a motion, given the longest distance of two CA that follow one another, Å.
     pub fn along_motions(&self, longest_virtual_bond: f64) -> Limits {
-        let uncrossed = longest_virtual_bond * std::f64::consts::FRAC_1_SQRT_2;
+        let uncrossed = longest_virtual_bond / std::f64::consts::SQRT_2;
         let side_chains = self.motion_side_chains.unwrap_or(0.0);
         Limits {
             alpha_carbons: self.motion_alpha_carbons.map_or(0.0, |least| least.max(uncrossed)),
