@@ -14,7 +14,7 @@ impl Limits {
         placed: &Placed,
         obstacles: &Obstacles,
         screen: &mut Screen,
-        each: &mut impl FnMut(Violation) -> Flow,
+        each: &mut dyn FnMut(Violation) -> Flow,
     ) -> Flow {
         let len = placed.len();
         with_lanes!(screen.lanes, simd => simd.vectorize(
@@ -28,12 +28,12 @@ impl Limits {
                 screen.suspects(
                     simd,
                     self,
-                    &mut |pair| self.of_backbones(placed, pair, &mut **each.borrow_mut()),
+                    &mut |pair| self.of_backbones(placed, pair, *each.borrow_mut()),
                     &mut |pair: (usize, usize)| {
                         if pair.1 >= len {
                             return Flow::Continue(());
                         }
-                        self.of_side_chains(placed, pair, &mut **each.borrow_mut())
+                        self.of_side_chains(placed, pair, *each.borrow_mut())
                     },
                 )
             }

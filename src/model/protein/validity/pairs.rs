@@ -113,7 +113,7 @@ impl Limits {
         &self,
         placed: &Placed,
         (i, j): (usize, usize),
-        each: &mut impl FnMut(Violation) -> Flow,
+        each: &mut dyn FnMut(Violation) -> Flow,
     ) -> Flow {
         if j - i < 3 {
             return Flow::Continue(());
@@ -151,7 +151,7 @@ impl Limits {
         &self,
         placed: &Placed,
         (i, j): (usize, usize),
-        each: &mut impl FnMut(Violation) -> Flow,
+        each: &mut dyn FnMut(Violation) -> Flow,
     ) -> Flow {
         let least = self.side_chains;
         if least <= 0.0 || !placed.has_centroid[i] || !placed.has_centroid[j] {
@@ -171,7 +171,7 @@ impl Limits {
         placed: &Placed,
         residue: usize,
         (number, obstacle): (usize, &Point),
-        each: &mut impl FnMut(Violation) -> Flow,
+        each: &mut dyn FnMut(Violation) -> Flow,
     ) -> Flow {
         let mut test = |rule, least: f64, atom, a: &Point| {
             let square = square(a, obstacle);
@@ -200,7 +200,7 @@ impl Limits {
         &self,
         placed: &Placed,
         obstacles: &Obstacles,
-        each: &mut impl FnMut(Violation) -> Flow,
+        each: &mut dyn FnMut(Violation) -> Flow,
     ) -> Flow {
         for i in 0..placed.len() {
             for j in i + 1..placed.len() {
