@@ -5,7 +5,10 @@
 //! bond, d is the distance H···O and d₀ = 2 Å; of a disulphide, d is that of the two side chains' centroids and d₀ is what it
 //! is in the source.
 
-use crate::model::protein::placed::{Coordinates, Placed};
+use crate::lanes::{Lanes, with_lanes};
+use crate::model::protein::placed::Placed;
+use fearless_simd::f64x4;
+use fearless_simd::prelude::*;
 
 /// K, in kJ/(mol·Å).
 const STIFFNESS: f64 = 100.0;
@@ -50,15 +53,22 @@ impl Constraint {
 }
 
 /// The constraints of one native structure.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Constraints {
     list: Vec<Constraint>,
+    lanes: Lanes,
+}
+
+impl Default for Constraints {
+    fn default() -> Constraints {
+        Constraints::new(Vec::new())
+    }
 }
 
 impl Constraints {
     /// These, in this order.
     pub fn new(list: Vec<Constraint>) -> Constraints {
-        Constraints { list }
+        Constraints { list, lanes: Lanes::widest() }
     }
 
     /// All of them.
@@ -66,23 +76,47 @@ impl Constraints {
         &self.list
     }
 
-    /// Their energy, model kJ/mol.
+    /// Their energy, model kJ/mol. Of the terms number k, k + 4, k + 8, … are added up, for k = 0, 1, 2, 3, and then the sums
+    /// for 0 and 1, those for 2 and 3, and these two.
     pub fn energy(&self, placed: &Placed) -> f64 {
-        let distance = |a: &Coordinates, i: usize, b: &Coordinates, j: usize| {
-            let (x, y, z) = (a.x[i] - b.x[j], a.y[i] - b.y[j], a.z[i] - b.z[j]);
-            (x * x + y * y + z * z).sqrt()
-        };
-        let mut sum = 0.0;
-        for Constraint { kind, first, second, distance: native } in &self.list {
-            let d = match kind {
-                ConstraintKind::HydrogenBond => distance(&placed.h, *first, &placed.o, *second),
-                ConstraintKind::Disulphide => {
-                    distance(&placed.centroid, *first, &placed.centroid, *second)
-                }
-            };
-            let stretch = d - native;
-            sum += STIFFNESS * ((stretch * stretch + SOFTNESS * SOFTNESS).sqrt() - SOFTNESS);
+        with_lanes!(self.lanes, simd => simd.vectorize(
+            #[inline(always)]
+            || self.sum(simd, placed)
+        ))
+    }
+
+    #[inline(always)]
+    fn sum<S: Simd>(&self, simd: S, placed: &Placed) -> f64 {
+        let number = f64x4::splat;
+        let mut sums = number(simd, 0.0);
+        for four in self.list.chunks(4) {
+            // What is missing in the last four is at its native distance, and its term is 0.
+            let (mut x, mut y, mut z, mut native) = ([0.0; 4], [0.0; 4], [0.0; 4], [0.0; 4]);
+            for (lane, constraint) in four.iter().enumerate() {
+                let Constraint { kind, first: i, second: j, distance } = *constraint;
+                let (a, b) = match kind {
+                    ConstraintKind::HydrogenBond => (&placed.h, &placed.o),
+                    ConstraintKind::Disulphide => (&placed.centroid, &placed.centroid),
+                };
+                x[lane] = a.x[i] - b.x[j];
+                y[lane] = a.y[i] - b.y[j];
+                z[lane] = a.z[i] - b.z[j];
+                native[lane] = distance;
+            }
+            let load = f64x4::load_array;
+            let (x, y, z) = (load(simd, x), load(simd, y), load(simd, z));
+            let distance = (x * x + y * y + z * z).sqrt();
+            let stretch = distance - load(simd, native);
+            let softness = number(simd, SOFTNESS);
+            let term = (stretch * stretch + softness * softness).sqrt() - softness;
+            sums = sums + number(simd, STIFFNESS) * term;
         }
-        sum
+        (sums[0] + sums[1]) + (sums[2] + sums[3])
+    }
+
+    /// Of these lanes.
+    #[cfg(test)]
+    pub(super) fn set_lanes(&mut self, lanes: Lanes) {
+        self.lanes = lanes;
     }
 }

@@ -11,6 +11,9 @@ mod spec;
 
 pub use constraints::{Constraint, ConstraintKind, Constraints};
 pub use hydrophobic::Hydrophobic;
-pub use mixture::{Mixing, Mixture};
+pub use mixture::{Mixing, Mixture, smooth_minimum};
 pub use native::{carried_over, constraints_of};
 pub use spec::EnergySpec;
+
+#[cfg(test)]
+mod tests;

@@ -3,27 +3,18 @@
 use super::super::atoms::ResidueAtoms;
 use super::super::linkage::{Linkage, TorsionKind};
 use super::super::placed::{Coordinates, Placed};
+use super::four::{Four, FourPoints, Frames, SEGMENTS, Vectors};
 use super::frames::{Frame, Joint, Link, links};
 use crate::math::{self, SIN_COS_WITHIN, sin_cos};
 use crate::structure::Point;
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
-/// As many segments as there are lanes in a vector.
-const SEGMENTS: usize = 4;
-
-/// A number of each segment.
-type Four = [f64; SEGMENTS];
-
-/// A vector of each segment, by coordinate.
-type FourPoints = [Four; 3];
-
 /// Residue number r of each segment; see [`Link`].
 #[derive(Clone, Copy, Debug)]
 struct FourLinks {
-    /// Sines and cosines from phi's axis to psi's, and from psi's to the next phi's.
-    sin: [Four; 2],
-    cos: [Four; 2],
+    /// Sine and cosine of the angle from phi's axis to psi's, and from psi's to the next phi's.
+    tilts: [[Four; 2]; 2],
     n: Four,
     c: Four,
     cb: FourPoints,
@@ -40,23 +31,12 @@ pub(super) struct Chain {
     len: usize,
     /// Before the first torsion.
     first: Frame,
-    /// Where the first residue's hydrogen would be: at its CA, since it has none.
-    first_h: Point,
     /// By the number of a residue in its segment.
     links: Vec<FourLinks>,
     /// For phi and then psi of each of `links`: what is added to torsions.
     offsets: Vec<Four>,
     /// For each degree of freedom: where its torsion is in `offsets`, number and lane.
     slots: Vec<(u32, u32)>,
-}
-
-/// Three orthogonal unit vectors and a CA, of each segment.
-#[derive(Clone, Copy)]
-struct Frames<S: Simd> {
-    x: [f64x4<S>; 3],
-    y: [f64x4<S>; 3],
-    z: [f64x4<S>; 3],
-    ca: [f64x4<S>; 3],
 }
 
 fn four<T>(links: [&Link; SEGMENTS], of: impl Fn(&Link) -> T) -> [T; SEGMENTS] {
@@ -90,8 +70,10 @@ impl Chain {
             let of = [0, 1, 2, 3].map(|lane| own.get(lane * count + number).unwrap_or(&nothing));
             offsets.extend([0, 1].map(|joint| four(of, |link| link.joints[joint].offset)));
             links.push(FourLinks {
-                sin: [0, 1].map(|joint| four(of, |link| link.joints[joint].sin)),
-                cos: [0, 1].map(|joint| four(of, |link| link.joints[joint].cos)),
+                tilts: [0, 1].map(|joint| {
+                    let sin = four(of, |link| link.joints[joint].sin);
+                    [sin, four(of, |link| link.joints[joint].cos)]
+                }),
                 n: four(of, |link| link.n),
                 c: four(of, |link| link.c),
                 cb: four_points(of, |link| link.cb),
@@ -107,8 +89,7 @@ impl Chain {
         };
         let torsions = linkage.torsions.iter();
         let slots = torsions.map(|torsion| slot(torsion.residue, torsion.kind)).collect();
-        let first_h = first.ca;
-        Some(Chain { len: own.len(), first, first_h, links, offsets, slots })
+        Some(Chain { len: own.len(), first, links, offsets, slots })
     }
 
     /// Places all atoms.
@@ -145,25 +126,17 @@ impl Chain {
     /// Where each segment begins.
     #[inline(always)]
     fn begins<S: Simd>(&self, simd: S, turns: &[[Four; 2]]) -> Frames<S> {
-        let same = |point: Point| [0, 1, 2].map(|axis| f64x4::splat(simd, point[axis]));
-        let mut frames = Frames {
-            x: same(Point::x()),
-            y: same(Point::y()),
-            z: same(Point::z()),
-            ca: same(Point::zeros()),
-        };
-        for (links, turns) in self.links.iter().zip(turns.as_chunks().0) {
-            let [phi, psi]: &[[Four; 2]; 2] = turns;
+        let mut frames = Frames::same(simd, &Frame::identity());
+        for (links, [phi, psi]) in self.links.iter().zip(turns.as_chunks().0) {
             frames.turn(simd, phi);
-            frames.tilt(simd, &links.sin[0], &links.cos[0]);
+            frames.tilt(simd, &links.tilts[0]);
             frames.turn(simd, psi);
             frames.ca = frames.at(simd, &links.next_ca);
-            frames.tilt(simd, &links.sin[1], &links.cos[1]);
+            frames.tilt(simd, &links.tilts[1]);
         }
-        let ends = frames.to_frames();
         let mut begins = [self.first; SEGMENTS];
         for segment in 1..SEGMENTS {
-            begins[segment] = begins[segment - 1].then(&ends[segment - 1]);
+            begins[segment] = begins[segment - 1].then(&frames.lane(segment - 1));
         }
         Frames::of(simd, &begins)
     }
@@ -178,103 +151,42 @@ impl Chain {
         out: &mut Placed,
     ) {
         let count = self.links.len();
-        let store = |to: &mut Coordinates, at: usize, [x, y, z]: [f64x4<S>; 3]| {
-            let (x, y, z) = (x.to_array(), y.to_array(), z.to_array());
-            for lane in 0..SEGMENTS {
-                let residue = lane * count + at;
-                let axes = (to.x.get_mut(residue), to.y.get_mut(residue), to.z.get_mut(residue));
-                if let (Some(to_x), Some(to_y), Some(to_z)) = axes {
-                    (*to_x, *to_y, *to_z) = (x[lane], y[lane], z[lane]);
-                }
-            }
-        };
-        out.h.put(0, &self.first_h);
-        for ((number, links), turns) in self.links.iter().enumerate().zip(turns.as_chunks().0) {
-            let [phi, psi]: &[[Four; 2]; 2] = turns;
-            store(&mut out.ca, number, frames.ca);
-            let n = f64x4::load_array(simd, links.n);
-            let back = frames.z.map(|z| z * n);
-            let [x, y, z] = frames.ca;
-            store(&mut out.n, number, [x - back[0], y - back[1], z - back[2]]);
+        out.h.put(0, &self.first.ca);
+        for ((number, links), [phi, psi]) in self.links.iter().enumerate().zip(turns.as_chunks().0)
+        {
+            let ca = frames.ca;
+            store(&mut out.ca, count, number, ca);
+            let n = frames.z * f64x4::load_array_ref(simd, &links.n);
+            store(&mut out.n, count, number, ca - n);
             frames.turn(simd, phi);
-            store(&mut out.cb, number, frames.at(simd, &links.cb));
-            store(&mut out.centroid, number, frames.at(simd, &links.centroid));
-            frames.tilt(simd, &links.sin[0], &links.cos[0]);
-            let c = f64x4::load_array(simd, links.c);
-            let on = frames.z.map(|z| z * c);
-            store(&mut out.c, number, [x + on[0], y + on[1], z + on[2]]);
+            store(&mut out.cb, count, number, frames.at(simd, &links.cb));
+            store(&mut out.centroid, count, number, frames.at(simd, &links.centroid));
+            frames.tilt(simd, &links.tilts[0]);
+            let c = frames.z * f64x4::load_array_ref(simd, &links.c);
+            store(&mut out.c, count, number, ca + c);
             frames.turn(simd, psi);
-            store(&mut out.o, number, frames.at(simd, &links.o));
-            store(&mut out.h, number + 1, frames.at(simd, &links.next_h));
+            store(&mut out.o, count, number, frames.at(simd, &links.o));
+            store(&mut out.h, count, number + 1, frames.at(simd, &links.next_h));
             frames.ca = frames.at(simd, &links.next_ca);
-            frames.tilt(simd, &links.sin[1], &links.cos[1]);
+            frames.tilt(simd, &links.tilts[1]);
         }
     }
 }
 
-impl<S: Simd> Frames<S> {
-    #[inline(always)]
-    fn of(simd: S, frames: &[Frame; SEGMENTS]) -> Frames<S> {
-        let gather = |of: fn(&Frame) -> Point| {
-            [0, 1, 2].map(|axis| f64x4::load_array(simd, frames.map(|frame| of(&frame)[axis])))
-        };
-        Frames {
-            x: gather(|frame| frame.axes[0]),
-            y: gather(|frame| frame.axes[1]),
-            z: gather(|frame| frame.axes[2]),
-            ca: gather(|frame| frame.ca),
+/// Stores positions of residue number `at` of each segment, the segments having `count` residues.
+#[inline(always)]
+fn store<S: Simd>(to: &mut Coordinates, count: usize, at: usize, position: Vectors<S>) {
+    let Vectors { x, y, z } = position;
+    let (x, y, z) = (x.to_array(), y.to_array(), z.to_array());
+    let len = to.len();
+    let (to_x, to_y, to_z) = (&mut to.x[..len], &mut to.y[..len], &mut to.z[..len]);
+    for lane in 0..SEGMENTS {
+        // Behind the end of the chain there is nothing.
+        let residue = lane * count + at;
+        if residue < len {
+            to_x[residue] = x[lane];
+            to_y[residue] = y[lane];
+            to_z[residue] = z[lane];
         }
-    }
-
-    fn to_frames(self) -> [Frame; SEGMENTS] {
-        let point =
-            |of: [f64x4<S>; 3], lane: usize| Point::new(of[0][lane], of[1][lane], of[2][lane]);
-        [0, 1, 2, 3].map(|lane| Frame {
-            axes: [point(self.x, lane), point(self.y, lane), point(self.z, lane)],
-            ca: point(self.ca, lane),
-        })
-    }
-
-    /// Turns about the third vector.
-    #[inline(always)]
-    fn turn(&mut self, simd: S, [sin, cos]: &[Four; 2]) {
-        let (sin, cos) = (f64x4::load_array(simd, *sin), f64x4::load_array(simd, *cos));
-        let (x, y) = (self.x, self.y);
-        self.x = [0, 1, 2].map(
-            #[inline(always)]
-            |k| x[k] * cos + y[k] * sin,
-        );
-        self.y = [0, 1, 2].map(
-            #[inline(always)]
-            |k| y[k] * cos - x[k] * sin,
-        );
-    }
-
-    /// Turns about the first vector.
-    #[inline(always)]
-    fn tilt(&mut self, simd: S, sin: &Four, cos: &Four) {
-        let (sin, cos) = (f64x4::load_array(simd, *sin), f64x4::load_array(simd, *cos));
-        let (y, z) = (self.y, self.z);
-        self.y = [0, 1, 2].map(
-            #[inline(always)]
-            |k| y[k] * cos + z[k] * sin,
-        );
-        self.z = [0, 1, 2].map(
-            #[inline(always)]
-            |k| z[k] * cos - y[k] * sin,
-        );
-    }
-
-    /// Where a position is that is seen from here.
-    #[inline(always)]
-    fn at(&self, simd: S, local: &FourPoints) -> [f64x4<S>; 3] {
-        let local = [0, 1, 2].map(
-            #[inline(always)]
-            |k| f64x4::load_array(simd, local[k]),
-        );
-        [0, 1, 2].map(
-            #[inline(always)]
-            |k| self.ca[k] + (self.x[k] * local[0] + self.y[k] * local[1] + self.z[k] * local[2]),
-        )
     }
 }

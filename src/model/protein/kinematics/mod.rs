@@ -6,6 +6,7 @@
 //! with any lanes, and so are the bits. Linkage of `linkage/` says what is computed, in its plainest form.
 
 mod chain;
+mod four;
 mod frames;
 
 use super::atoms::ResidueAtoms;

@@ -1,6 +1,6 @@
 //! The rules pair by pair: what they say of every pair of atoms, and who violates them.
 
-use super::rules::{Limits, Rules};
+use super::rules::Limits;
 use crate::model::protein::placed::{Coordinates, Placed};
 use crate::structure::Point;
 use std::ops::ControlFlow;
@@ -108,13 +108,16 @@ pub(super) fn backbone(placed: &Placed) -> [(Atom, &Coordinates); 5] {
 pub(super) type Flow = ControlFlow<Violation>;
 
 impl Limits {
-    /// Calls `each` for every violation by two residues i < j.
-    pub(super) fn of_pair(
+    /// Calls `each` for every violation by the backbones of two residues i < j.
+    pub(super) fn of_backbones(
         &self,
         placed: &Placed,
         (i, j): (usize, usize),
-        each: &mut impl FnMut(Violation) -> Flow,
+        each: &mut dyn FnMut(Violation) -> Flow,
     ) -> Flow {
+        if j - i < 3 {
+            return Flow::Continue(());
+        }
         let mut test = |rule, least: f64, one: Atom, a: &Point, other: Atom, b: &Point| {
             // A distance that is no number is a violation, so nothing is asked the other way round.
             let square = square(a, b);
@@ -123,36 +126,43 @@ impl Limits {
             }
             each(Violation { rule, first: (i, one), second: (j, other), distance: square.sqrt() })
         };
-        if j - i > 2 {
-            let (a, b) = (placed.ca.at(i), placed.ca.at(j));
-            test(Rule::AlphaCarbons, self.alpha_carbons, Atom::CA, &a, Atom::CA, &b)?;
-        }
-        if placed.has_centroid[i] && placed.has_centroid[j] {
-            let (a, b) = (placed.centroid.at(i), placed.centroid.at(j));
-            let side = Atom::SideChain;
-            test(Rule::SideChains, self.side_chains, side, &a, side, &b)?;
-        }
-        if j - i < 3 {
-            return Flow::Continue(());
-        }
+        let (a, b) = (placed.ca.at(i), placed.ca.at(j));
+        test(Rule::AlphaCarbons, self.alpha_carbons, Atom::CA, &a, Atom::CA, &b)?;
         let is_lacking = |atom, residue: usize| atom == Atom::CB && !placed.has_cb[residue];
         for (one, a) in backbone(placed) {
             for (other, b) in backbone(placed) {
-                if [(one, i), (other, j)].iter().any(|(atom, residue)| is_lacking(*atom, *residue))
-                {
+                if is_lacking(one, i) || is_lacking(other, j) {
                     continue;
                 }
-                let (a, b) = (a.at(i), b.at(j));
                 let (rule, least) = match (one, other) {
                     (Atom::N, Atom::O) | (Atom::O, Atom::N) => {
                         (Rule::NitrogenOxygen, self.nitrogen_oxygen)
                     }
                     _ => (Rule::Backbone, self.backbone),
                 };
-                test(rule, least, one, &a, other, &b)?;
+                test(rule, least, one, &a.at(i), other, &b.at(j))?;
             }
         }
         Flow::Continue(())
+    }
+
+    /// Calls `each` if the side chains of two residues i < j violate their rule.
+    pub(super) fn of_side_chains(
+        &self,
+        placed: &Placed,
+        (i, j): (usize, usize),
+        each: &mut dyn FnMut(Violation) -> Flow,
+    ) -> Flow {
+        let least = self.side_chains;
+        if least <= 0.0 || !placed.has_centroid[i] || !placed.has_centroid[j] {
+            return Flow::Continue(());
+        }
+        let square = square(&placed.centroid.at(i), &placed.centroid.at(j));
+        if square >= least * least {
+            return Flow::Continue(());
+        }
+        let (first, second) = ((i, Atom::SideChain), (j, Atom::SideChain));
+        each(Violation { rule: Rule::SideChains, first, second, distance: square.sqrt() })
     }
 
     /// Calls `each` for every violation by a residue and an obstacle.
@@ -161,7 +171,7 @@ impl Limits {
         placed: &Placed,
         residue: usize,
         (number, obstacle): (usize, &Point),
-        each: &mut impl FnMut(Violation) -> Flow,
+        each: &mut dyn FnMut(Violation) -> Flow,
     ) -> Flow {
         let mut test = |rule, least: f64, atom, a: &Point| {
             let square = square(a, obstacle);
@@ -184,44 +194,23 @@ impl Limits {
         Flow::Continue(())
     }
 
-    /// Calls `each` for every violation, pair by pair: i, then j, then obstacles; of a pair in the order of [`Rule`].
-    fn of_all(
+    /// Calls `each` for every violation: those of the first residue with every residue after it, of these first the
+    /// backbones and then the side chains, and with every obstacle; then those of the second; and so on.
+    pub(super) fn of_all(
         &self,
         placed: &Placed,
         obstacles: &Obstacles,
-        each: &mut impl FnMut(Violation) -> Flow,
+        each: &mut dyn FnMut(Violation) -> Flow,
     ) -> Flow {
         for i in 0..placed.len() {
             for j in i + 1..placed.len() {
-                self.of_pair(placed, (i, j), each)?;
+                self.of_backbones(placed, (i, j), each)?;
+                self.of_side_chains(placed, (i, j), each)?;
             }
             for obstacle in obstacles.points.iter().enumerate() {
                 self.of_obstacle(placed, i, obstacle, each)?;
             }
         }
         Flow::Continue(())
-    }
-
-    /// The first violation: that of the first residue along the chain, with the first residue after it, or, if it has none of
-    /// these, with the first obstacle.
-    pub fn first_violation(&self, placed: &Placed, obstacles: &Obstacles) -> Option<Violation> {
-        self.of_all(placed, obstacles, &mut Flow::Break).break_value()
-    }
-
-    /// How many pairs violate each rule.
-    pub fn count(&self, placed: &Placed, obstacles: &Obstacles) -> Counts {
-        let mut counts = Counts::default();
-        let _ = self.of_all(placed, obstacles, &mut |violation| {
-            counts.add(violation.rule);
-            Flow::Continue(())
-        });
-        counts
-    }
-}
-
-impl Rules {
-    /// The first violation of a conformation without obstacles.
-    pub fn first_violation(&self, placed: &Placed) -> Option<Violation> {
-        self.at_nodes().first_violation(placed, &Obstacles::default())
     }
 }

@@ -120,7 +120,7 @@ impl Rules {
 
     /// What holds all along a motion, given the longest distance of two CA that follow one another, Å.
     pub fn along_motions(&self, longest_virtual_bond: f64) -> Limits {
-        let uncrossed = longest_virtual_bond * std::f64::consts::FRAC_1_SQRT_2;
+        let uncrossed = longest_virtual_bond / std::f64::consts::SQRT_2;
         let on = |least: f64, instead: f64| if least > 0.0 { instead } else { 0.0 };
         let side_chains = self.motion_side_chains;
         Limits {

@@ -1,0 +1,158 @@
+//! Conformations of proteins per second of CPU and core: placed, all rules run to their end, and the energy.
+//!
+//! ```text
+//! ROADMILL_DATA=FOLDER cargo bench -p roadmill --bench conformations [-- NAME …]
+//! ```
+//!
+//! Of every structure (default 1CFD, 1PGA and 1BDD in `structures` of the folder that `ROADMILL_DATA` names) 256 valid
+//! conformations are drawn beforehand, of half of which the torsions are off the source's by normal deviates of 0.25°, of half by
+//! 0.5°. What is measured begins with torsions. Printed are medians of nine times a fifth of a second: conformations per
+//! second for everything, and microseconds of its parts.
+
+use roadmill::model::protein::energy::{Constraint, Constraints, Hydrophobic, Mixture};
+use roadmill::model::protein::kinematics::Conformer;
+use roadmill::model::protein::linkage::Linkage;
+use roadmill::model::protein::placed::Placed;
+use roadmill::model::protein::validity::{Obstacles, Rules, Screen};
+use roadmill::numbers::Ordinal;
+use roadmill::seed::{Purpose, Seed};
+use roadmill::structure::{AminoAcid, Atom, Point, Residue, ResidueNumber};
+use rustix::time::{ClockId, clock_gettime};
+use std::hint::black_box;
+use std::path::{Path, PathBuf};
+
+const CONFORMATIONS: usize = 256;
+const ROUNDS: usize = 9;
+const SECONDS: f64 = 0.2;
+
+fn main() {
+    let words = std::env::args().skip(1).filter(|word| word != "--bench");
+    let mut names: Vec<String> = words.collect();
+    if names.is_empty() {
+        names = ["1CFD", "1PGA", "1BDD"].map(String::from).to_vec();
+    }
+    let Some(data) = std::env::var_os("ROADMILL_DATA") else {
+        println!("ROADMILL_DATA names no folder");
+        return;
+    };
+    println!(
+        "| chain | residues | torsions | bonds | per second | place µs | rules µs | energy µs |"
+    );
+    println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
+    for name in names {
+        let path = PathBuf::from(&data).join("structures").join(&name).with_extension("pdb");
+        measure(&name, &read(&path));
+    }
+}
+
+fn measure(name: &str, residues: &[Residue]) {
+    let linkage = Linkage::of(residues).expect("a whole chain");
+    let conformer = Conformer::of(residues, &linkage).expect("a whole chain");
+    let bonds = bonds(&conformer);
+    let count = bonds.len();
+    let energy = Mixture::single(Constraints::new(bonds), Some(Hydrophobic::of(conformer.atoms())));
+    let (rules, obstacles) = (Rules::default().at_nodes(), Obstacles::default());
+    let (mut placed, mut screen) = (conformer.placed(), Screen::default());
+
+    let seed = Seed::of_set(1, "conformations", Ordinal(0));
+    let mut stream = seed.stream(Purpose::Sampling);
+    let mut drawn = Vec::new();
+    while drawn.len() < CONFORMATIONS {
+        let width = [0.25f64, 0.5][drawn.len() % 2].to_radians();
+        let source = linkage.source().into_iter();
+        let q: Vec<f64> = source.map(|value| value + width * stream.normal()).collect();
+        conformer.place(&q, &mut placed);
+        if rules.is_valid(&placed, &obstacles, &mut screen) {
+            drawn.push(q);
+        }
+    }
+
+    let place = seconds(&drawn, |q| conformer.place(q, black_box(&mut placed)));
+    let counted = seconds(&drawn, |_| {
+        black_box(rules.count(black_box(&placed), &obstacles, &mut screen));
+    });
+    let valued = seconds(&drawn, |_| {
+        black_box(energy.energy(black_box(&placed)));
+    });
+    let mut total = 0;
+    let all = seconds(&drawn, |q| {
+        conformer.place(q, &mut placed);
+        total += rules.count(&placed, &obstacles, &mut screen).total();
+        black_box(energy.energy(&placed));
+    });
+    assert_eq!(total, 0, "all are valid");
+    let [place, counted, valued] = [place, counted, valued].map(|seconds| seconds * 1e6);
+    println!(
+        "| {name} | {} | {} | {count} | {:.0} | {place:.2} | {counted:.2} | {valued:.2} |",
+        residues.len(),
+        linkage.torsions.len(),
+        1.0 / all
+    );
+}
+
+/// Seconds of CPU for one conformation.
+fn seconds(drawn: &[Vec<f64>], mut of: impl FnMut(&[f64])) -> f64 {
+    let mut each = [0.0; ROUNDS];
+    for each in &mut each {
+        let (begun, mut count) = (cpu_seconds(), 0);
+        while cpu_seconds() - begun < SECONDS {
+            drawn.iter().for_each(|q| of(q));
+            count += drawn.len();
+        }
+        *each = (cpu_seconds() - begun) / count as f64;
+    }
+    each.sort_by(f64::total_cmp);
+    each[ROUNDS / 2]
+}
+
+fn cpu_seconds() -> f64 {
+    let time = clock_gettime(ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
+}
+
+/// The hydrogen bonds of the source by the energy of W. Kabsch and C. Sander (1983).
+fn bonds(conformer: &Conformer) -> Vec<Constraint> {
+    let atoms = conformer.atoms();
+    let mut bonds = Vec::new();
+    for (donor, at) in atoms.iter().enumerate() {
+        let Some(h) = at.hydrogen else { continue };
+        for (acceptor, to) in atoms.iter().enumerate() {
+            let near = |a: &Point, b: &Point| 1.0 / (a - b).norm();
+            let attraction = near(&at.n, &to.o) + near(&h, &to.c);
+            let energy = 27.888 * (attraction - near(&h, &to.o) - near(&at.n, &to.c));
+            if donor.abs_diff(acceptor) >= 2 && energy < -0.5 {
+                bonds.push(Constraint::hydrogen_bond(donor, acceptor));
+            }
+        }
+    }
+    bonds
+}
+
+/// The ATOM records of the first chain.
+fn read(path: &Path) -> Vec<Residue> {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+    let is_end = |line: &&str| line.starts_with("TER") || line.starts_with("ENDMDL");
+    let mut residues: Vec<Residue> = Vec::new();
+    for line in text.lines().take_while(|line| !is_end(line)) {
+        if !line.starts_with("ATOM") || !matches!(line.as_bytes()[16], b' ' | b'A') {
+            continue;
+        }
+        let number = line[22..26].trim().parse().expect("a number");
+        let name = line[17..20].to_string();
+        if residues.last().is_none_or(|residue| residue.number.number != number) {
+            residues.push(Residue {
+                number: ResidueNumber { number, insertion: None },
+                amino_acid: AminoAcid::of_code(&name),
+                name,
+                atoms: Vec::new(),
+            });
+        }
+        let value = |from: usize| line[from..from + 8].trim().parse::<f64>().expect("a number");
+        let name = line[12..16].trim().to_string();
+        let element = name.trim_start_matches(|c: char| c.is_ascii_digit())[..1].to_string();
+        let position = Point::new(value(30), value(38), value(46));
+        let atom = Atom { name, element, position };
+        residues.last_mut().expect("just pushed").atoms.push(atom);
+    }
+    residues
+}

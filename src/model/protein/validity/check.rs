@@ -1,0 +1,85 @@
+//! Whether a conformation keeps the rules: single precision says who may be too close, double precision who is.
+
+use super::pairs::{Counts, Flow, Obstacles, Violation};
+use super::rules::{Limits, Rules};
+use super::screen::Screen;
+use crate::lanes::with_lanes;
+use crate::model::protein::placed::Placed;
+use fearless_simd::prelude::*;
+
+impl Limits {
+    /// Calls `each` for every violation, in an order that is the same everywhere, but no one's wish.
+    fn visit(
+        &self,
+        placed: &Placed,
+        obstacles: &Obstacles,
+        screen: &mut Screen,
+        each: &mut dyn FnMut(Violation) -> Flow,
+    ) -> Flow {
+        let len = placed.len();
+        with_lanes!(screen.lanes, simd => simd.vectorize(
+            #[inline(always)]
+            || {
+                if !screen.take(simd, placed) {
+                    return self.of_all(placed, &Obstacles::default(), each);
+                }
+                // Both closures need `each`; only one of them runs at a time.
+                let each = std::cell::RefCell::new(&mut *each);
+                screen.suspects(
+                    simd,
+                    self,
+                    &mut |pair| self.of_backbones(placed, pair, *each.borrow_mut()),
+                    &mut |pair: (usize, usize)| {
+                        if pair.1 >= len {
+                            return Flow::Continue(());
+                        }
+                        self.of_side_chains(placed, pair, *each.borrow_mut())
+                    },
+                )
+            }
+        ))?;
+        for residue in 0..if obstacles.points.is_empty() { 0 } else { len } {
+            for obstacle in obstacles.points.iter().enumerate() {
+                self.of_obstacle(placed, residue, obstacle, each)?;
+            }
+        }
+        Flow::Continue(())
+    }
+
+    /// Whether no rule is violated.
+    pub fn is_valid(&self, placed: &Placed, obstacles: &Obstacles, screen: &mut Screen) -> bool {
+        self.visit(placed, obstacles, screen, &mut Flow::Break).is_continue()
+    }
+
+    /// How many pairs violate each rule; every rule is run to its end.
+    pub fn count(&self, placed: &Placed, obstacles: &Obstacles, screen: &mut Screen) -> Counts {
+        let mut counts = Counts::default();
+        let _ = self.visit(placed, obstacles, screen, &mut |violation| {
+            counts.add(violation.rule);
+            Flow::Continue(())
+        });
+        counts
+    }
+
+    /// The first violation: that of the first residue along the chain which has any, with the first residue after it, of
+    /// these first the backbones and then the side chains, or else with the first obstacle. It takes many times as long as
+    /// [`is_valid`](Limits::is_valid) where there is one.
+    pub fn first_violation(
+        &self,
+        placed: &Placed,
+        obstacles: &Obstacles,
+        screen: &mut Screen,
+    ) -> Option<Violation> {
+        if self.is_valid(placed, obstacles, screen) {
+            return None;
+        }
+        self.of_all(placed, obstacles, &mut Flow::Break).break_value()
+    }
+}
+
+impl Rules {
+    /// The first violation of a conformation without obstacles.
+    pub fn first_violation(&self, placed: &Placed) -> Option<Violation> {
+        self.at_nodes().first_violation(placed, &Obstacles::default(), &mut Screen::default())
+    }
+}

@@ -1,0 +1,212 @@
+use super::pairs::Flow;
+use super::*;
+use crate::lanes::Lanes;
+use crate::model::protein::chains::{Numbers, crooked, read};
+use crate::model::protein::kinematics::Conformer;
+use crate::model::protein::linkage::Linkage;
+use crate::model::protein::placed::Placed;
+use crate::structure::{Point, Residue};
+
+fn conformer(residues: &[Residue]) -> (Conformer, Linkage) {
+    let linkage = Linkage::of(residues).expect("it is whole");
+    (Conformer::of(residues, &linkage).expect("it is whole"), linkage)
+}
+
+/// What every pair says, without a screen.
+fn plain(limits: &Limits, placed: &Placed, obstacles: &Obstacles) -> Counts {
+    let mut counts = Counts::default();
+    let _ = limits.of_all(placed, obstacles, &mut |violation| {
+        counts.add(violation.rule);
+        Flow::Continue(())
+    });
+    counts
+}
+
+/// A straight chain of this many residues, 10 Å apart, in which nothing is close to anything.
+fn apart(len: usize) -> Placed {
+    let (conformer, _) = conformer(&crooked(len, 1));
+    let mut placed = conformer.placed();
+    for i in 0..len {
+        let x = 10.0 * i as f64;
+        placed.n.put(i, &Point::new(x - 1.4, 0.0, 0.0));
+        placed.ca.put(i, &Point::new(x, 0.0, 0.0));
+        placed.c.put(i, &Point::new(x + 1.4, 0.0, 0.0));
+        placed.o.put(i, &Point::new(x + 1.4, 1.2, 0.0));
+        placed.cb.put(i, &Point::new(x, 0.0, 1.5));
+        placed.centroid.put(i, &Point::new(x, 0.0, 3.0));
+        placed.h.put(i, &Point::new(x - 1.4, -1.0, 0.0));
+    }
+    placed.has_cb.fill(true);
+    placed.has_centroid.fill(true);
+    placed
+}
+
+/// Whether exactly this rule is violated, by these atoms, and by nobody once it is switched off.
+fn violates(placed: &Placed, rule: Rule, pair: [(usize, Atom); 2], off: impl Fn(&mut Rules)) {
+    let rules = Rules::default();
+    let found = rules.first_violation(placed).expect("two atoms are too close");
+    assert_eq!((found.rule, found.first, found.second), (rule, pair[0], pair[1]));
+    let counts = rules.at_nodes().count(placed, &Obstacles::default(), &mut Screen::default());
+    assert_eq!(counts.total(), 1, "{counts:?}");
+    let mut without = rules;
+    off(&mut without);
+    assert_eq!(without.first_violation(placed), None);
+}
+
+#[test]
+fn every_rule_finds_its_pair_and_can_be_switched_off() {
+    assert_eq!(Rules::default().first_violation(&apart(40)), None);
+    let away = Point::new(-50.0, -50.0, -50.0);
+
+    let mut placed = apart(40);
+    placed.ca.put(21, &(placed.ca.at(3) + Point::new(0.0, -2.9, 0.0)));
+    violates(&placed, Rule::AlphaCarbons, [(3, Atom::CA), (21, Atom::CA)], |rules| {
+        rules.alpha_carbons = None;
+    });
+    // Within two residues of one another two CA are as close as they like.
+    placed.ca.put(21, &(placed.ca.at(23) + Point::new(0.0, -2.9, 0.0)));
+    assert_eq!(Rules::default().first_violation(&placed), None);
+
+    let mut placed = apart(40);
+    placed.centroid.put(9, &(placed.centroid.at(8) + Point::new(0.0, 2.3, 0.0)));
+    violates(&placed, Rule::SideChains, [(8, Atom::SideChain), (9, Atom::SideChain)], |rules| {
+        rules.side_chains = None;
+    });
+    placed.has_centroid[9] = false;
+    assert_eq!(Rules::default().first_violation(&placed), None);
+
+    let mut placed = apart(40);
+    placed.o.put(12, &(placed.n.at(30) + Point::new(-2.35, 0.0, 0.0)));
+    violates(&placed, Rule::NitrogenOxygen, [(12, Atom::O), (30, Atom::N)], |rules| {
+        rules.nitrogen_oxygen = None;
+    });
+    placed.o.put(12, &(placed.n.at(30) + Point::new(-2.45, 0.0, 0.0)));
+    assert_eq!(Rules::default().first_violation(&placed), None);
+
+    let mut placed = apart(40);
+    placed.cb.put(39, &(placed.cb.at(0) + Point::new(0.0, -2.5, 0.0)));
+    violates(&placed, Rule::Backbone, [(0, Atom::CB), (39, Atom::CB)], |rules| {
+        rules.backbone = None;
+    });
+    placed.has_cb[39] = false;
+    assert_eq!(Rules::default().first_violation(&placed), None);
+
+    // The rules of motions: side chains at 1 Å, CA at 2.7 Å or L/√2, and nothing else.
+    let limits = Rules::default().along_motions(4.0);
+    assert_eq!((limits.side_chains, limits.alpha_carbons), (1.0, 4.0 / 2.0f64.sqrt()));
+    assert_eq!((limits.nitrogen_oxygen, limits.backbone), (0.0, 0.0));
+    assert_eq!(Rules::default().along_motions(3.8).alpha_carbons, 2.7);
+
+    let limits = Rules::default().at_nodes();
+    let obstacle = |point: Point| Obstacles { points: vec![away, point] };
+    let (placed, screen) = (apart(40), &mut Screen::default());
+    let by_backbone = obstacle(placed.o.at(17) + Point::new(0.0, 2.5, 0.0));
+    let found = limits.first_violation(&placed, &by_backbone, screen).expect("it is close");
+    assert_eq!((found.rule, found.first), (Rule::ObstacleBackbone, (17, Atom::O)));
+    assert_eq!(found.second, (1, Atom::Obstacle));
+    let by_side = obstacle(placed.centroid.at(5) + Point::new(0.0, 0.0, 2.3));
+    let found = limits.first_violation(&placed, &by_side, screen).expect("it is close");
+    assert_eq!((found.rule, found.first), (Rule::ObstacleSideChains, (5, Atom::SideChain)));
+    let none = Rules::none().at_nodes();
+    assert!(
+        none.is_valid(&placed, &by_side, screen) && none.is_valid(&placed, &by_backbone, screen)
+    );
+}
+
+/// Holds counts and verdicts against what every pair says, with all lanes, with a screen that has been used before, and
+/// with one that misleads.
+fn agrees(placed: &Placed, limits: &Limits) {
+    let none = Obstacles::default();
+    let expected = plain(limits, placed, &none);
+    for lanes in Lanes::all() {
+        let mut screen = Screen { lanes, ..Screen::default() };
+        assert_eq!(limits.count(placed, &none, &mut screen), expected, "{lanes:?}");
+        assert_eq!(limits.count(placed, &none, &mut screen), expected, "{lanes:?}, warm");
+        screen.poison();
+        assert_eq!(limits.count(placed, &none, &mut screen), expected, "{lanes:?}, poisoned");
+        assert_eq!(limits.is_valid(placed, &none, &mut screen), expected.total() == 0);
+    }
+}
+
+#[test]
+fn single_precision_overlooks_no_violation() {
+    let mut numbers = Numbers::new(3);
+    let mut violations = 0;
+    for len in [1, 3, 4, 8, 9, 23, 64, 65, 80] {
+        let (conformer, linkage) = conformer(&crooked(len, len as u64));
+        let mut placed = conformer.placed();
+        for trial in 0..12 {
+            let turned = |q: &f64| q + 0.5 * numbers.normal();
+            conformer.place(&linkage.source().iter().map(turned).collect::<Vec<_>>(), &mut placed);
+            let mut rules = Rules::default();
+            match trial % 6 {
+                1 => rules.alpha_carbons = None,
+                2 => rules.backbone = Some(4.5),
+                3 => (rules.backbone, rules.nitrogen_oxygen) = (None, Some(3.3)),
+                4 => rules.side_chains = None,
+                5 => rules = Rules { side_chains: Some(5.0), ..Rules::none() },
+                _ => {}
+            }
+            agrees(&placed, &rules.at_nodes());
+            violations += plain(&rules.at_nodes(), &placed, &Obstacles::default()).total();
+        }
+    }
+    assert!(violations > 1_500, "{violations} are few to try it on");
+}
+
+/// Pairs at the limit to the last bit, far from the origin and near it, in chains of any extent.
+#[test]
+fn limits_hold_to_the_last_bit() {
+    let mut numbers = Numbers::new(4);
+    for stretch in [1.0, 30.0, 1e4] {
+        let limits = Rules::default().at_nodes();
+        for _ in 0..200 {
+            let mut placed = apart(40);
+            for x in [&mut placed.n.x, &mut placed.ca.x, &mut placed.c.x, &mut placed.o.x] {
+                x.iter_mut().for_each(|x| *x *= stretch);
+            }
+            for x in [&mut placed.cb.x, &mut placed.centroid.x] {
+                x.iter_mut().for_each(|x| *x *= stretch);
+            }
+            let direction = Point::from_fn(|_, _| numbers.normal()).normalize();
+            let by = if numbers.next() < 0.5 { 1.0 } else { 1.0 - 1e-15 };
+            placed.ca.put(35, &(placed.ca.at(2) + direction * (3.0 * by)));
+            placed.centroid.put(30, &(placed.centroid.at(6) + direction * (2.4 * by)));
+            agrees(&placed, &limits);
+        }
+    }
+}
+
+#[test]
+fn what_is_no_number_is_invalid() {
+    let limits = Rules::default().at_nodes();
+    for value in [f64::NAN, f64::INFINITY, 1e300, -1e18] {
+        for what in 0..3 {
+            let mut placed = apart(20);
+            let kind = [&mut placed.ca, &mut placed.o, &mut placed.centroid][what].x.as_mut_slice();
+            kind[7] = value;
+            agrees(&placed, &limits);
+            let is_valid = limits.is_valid(&placed, &Obstacles::default(), &mut Screen::default());
+            assert_eq!(is_valid, !value.is_nan(), "{value}");
+        }
+    }
+}
+
+#[test]
+fn native_chains_keep_the_rules_and_noise_is_judged_as_pair_by_pair() {
+    let mut numbers = Numbers::new(5);
+    for name in ["1CFD.pdb", "1PGA.pdb", "1BDD.pdb", "1CLL.pdb", "1MI0.pdb"] {
+        let Some(residues) = read(name) else { return };
+        let (conformer, linkage) = conformer(&residues);
+        let mut placed = conformer.placed();
+        conformer.place(&linkage.source(), &mut placed);
+        let found = Rules::default().first_violation(&placed);
+        assert_eq!(found, None, "{name}");
+        for width in [0.002, 0.01, 0.05, 0.5] {
+            let noisy = |q: &f64| q + width * numbers.normal();
+            conformer.place(&linkage.source().iter().map(noisy).collect::<Vec<_>>(), &mut placed);
+            agrees(&placed, &Rules::default().at_nodes());
+            agrees(&placed, &Rules::default().along_motions(3.9));
+        }
+    }
+}
