@@ -5,7 +5,7 @@ use super::energy::{ConstraintKind, Constraints, Hydrophobic, Mixture, carried_o
 use super::kinematics::Conformer;
 use super::motion::{Limits as MotionLimits, MotionScratch, MotionValidity, Profile, profile};
 use super::placed::Placed;
-use super::validity::{Counts, Limits, Obstacles, Violation};
+use super::validity::{Counts, Limits, Obstacles, Screen, Violation};
 use super::{ENERGY, Protein};
 use crate::model::{Cost, Directed, Model, ModelScratch, NodeValue, Scratch, Validity};
 use crate::space::Space;
@@ -31,6 +31,7 @@ pub(super) struct ChainInEnergy {
 #[derive(Default)]
 pub(super) struct ProteinScratch {
     placed: Option<Placed>,
+    screen: Screen,
     motion: MotionScratch,
     between: Vec<f64>,
 }
@@ -46,6 +47,7 @@ impl ModelScratch for ProteinScratch {
                 }
             }
         }
+        self.screen.poison();
         self.motion.poison(rubbish);
     }
 }
@@ -112,12 +114,14 @@ impl ChainInEnergy {
 
     /// How many pairs violate each rule at `q`.
     pub fn counts(&self, q: &[f64]) -> Counts {
-        self.limits.count(self.placed(q, &mut None), &self.obstacles)
+        let screen = &mut Screen::default();
+        self.limits.count(self.placed(q, &mut None), &self.obstacles, screen)
     }
 
     /// The first violation at `q`.
     pub fn first_violation(&self, q: &[f64]) -> Option<Violation> {
-        self.limits.first_violation(self.placed(q, &mut None), &self.obstacles)
+        let screen = &mut Screen::default();
+        self.limits.first_violation(self.placed(q, &mut None), &self.obstacles, screen)
     }
 
     fn is_allowed(&self, energy: f64) -> bool {
@@ -181,14 +185,14 @@ impl Model for ChainInEnergy {
             return Validity::OutOfBounds;
         }
         let placed = self.placed(q, &mut scratch.placed);
-        let is_valid = self.limits.first_violation(placed, &self.obstacles).is_none()
+        let is_valid = self.limits.first_violation(placed, &self.obstacles, &mut scratch.screen).is_none()
             && (self.highest.is_none() || self.is_allowed(self.energy.energy(placed)));
         if is_valid { Validity::Valid } else { Validity::Invalid }
     }
 
     /// The costs are the climbs in units of kT: −ln of the probability of every step (Amato and Song 2002).
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> Option<Cost> {
-        let ProteinScratch { placed, motion, between } = scratch.for_motion();
+        let ProteinScratch { placed, motion, between, .. } = scratch.for_motion();
         if !(self.space.within_bounds(a) && self.space.within_bounds(b)) {
             return None;
         }

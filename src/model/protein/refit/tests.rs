@@ -1,7 +1,7 @@
 use super::least_squares::SumOfSquares;
 use super::*;
 use crate::model::protein::chains::{Numbers, crooked, read};
-use crate::model::protein::validity::Obstacles;
+use crate::model::protein::validity::{Obstacles, Screen};
 use crate::structure::{AminoAcid, ResidueNumber};
 
 /// A chain with every torsion turned by up to `amount` radians.
@@ -103,10 +103,10 @@ fn derivatives_are_those_of_differences() {
 fn contacts_are_what_the_rules_count() {
     // Wider than usual, since these chains are stretched.
     let rules = Rules {
-        alpha_carbons: Some(7.0),
-        side_chains: Some(5.0),
-        nitrogen_oxygen: Some(5.5),
-        backbone: Some(6.0),
+        alpha_carbons: 7.0,
+        side_chains: 5.0,
+        nitrogen_oxygen: 5.5,
+        backbone: 6.0,
         ..Rules::default()
     };
     let limits = rules.at_nodes();
@@ -124,7 +124,7 @@ fn contacts_are_what_the_rules_count() {
         let twice = found.iter().filter(is_twice).count();
         let mut placed = conformer.placed();
         conformer.place(&linkage.source(), &mut placed);
-        let counts = limits.count(&placed, &Obstacles::default());
+        let counts = limits.count(&placed, &Obstacles::default(), &mut Screen::default());
         assert!(found.len() > 10);
         assert_eq!(found.len() + twice, counts.total(), "{counts:?}");
     }

@@ -161,8 +161,7 @@ impl Screen {
     }
 
     /// Fills it with what could mislead.
-    #[cfg(test)]
-    pub(super) fn poison(&mut self) {
+    pub(in crate::model::protein) fn poison(&mut self) {
         let nonsense = Block { middles: [[0.0; BLOCK]; 4], sides: [[f32::NAN; BLOCK]; 4] };
         self.blocks.fill(nonsense);
         self.atoms.fill(Atoms([[0.0; BLOCK]; 4]));

@@ -61,7 +61,7 @@ fn every_rule_finds_its_pair_and_can_be_switched_off() {
     let mut placed = apart(40);
     placed.ca.put(21, &(placed.ca.at(3) + Point::new(0.0, -2.9, 0.0)));
     violates(&placed, Rule::AlphaCarbons, [(3, Atom::CA), (21, Atom::CA)], |rules| {
-        rules.alpha_carbons = None;
+        rules.alpha_carbons = 0.0;
     });
     // Within two residues of one another two CA are as close as they like.
     placed.ca.put(21, &(placed.ca.at(23) + Point::new(0.0, -2.9, 0.0)));
@@ -70,7 +70,7 @@ fn every_rule_finds_its_pair_and_can_be_switched_off() {
     let mut placed = apart(40);
     placed.centroid.put(9, &(placed.centroid.at(8) + Point::new(0.0, 2.3, 0.0)));
     violates(&placed, Rule::SideChains, [(8, Atom::SideChain), (9, Atom::SideChain)], |rules| {
-        rules.side_chains = None;
+        rules.side_chains = 0.0;
     });
     placed.has_centroid[9] = false;
     assert_eq!(Rules::default().first_violation(&placed), None);
@@ -78,7 +78,7 @@ fn every_rule_finds_its_pair_and_can_be_switched_off() {
     let mut placed = apart(40);
     placed.o.put(12, &(placed.n.at(30) + Point::new(-2.35, 0.0, 0.0)));
     violates(&placed, Rule::NitrogenOxygen, [(12, Atom::O), (30, Atom::N)], |rules| {
-        rules.nitrogen_oxygen = None;
+        rules.nitrogen_oxygen = 0.0;
     });
     placed.o.put(12, &(placed.n.at(30) + Point::new(-2.45, 0.0, 0.0)));
     assert_eq!(Rules::default().first_violation(&placed), None);
@@ -86,7 +86,7 @@ fn every_rule_finds_its_pair_and_can_be_switched_off() {
     let mut placed = apart(40);
     placed.cb.put(39, &(placed.cb.at(0) + Point::new(0.0, -2.5, 0.0)));
     violates(&placed, Rule::Backbone, [(0, Atom::CB), (39, Atom::CB)], |rules| {
-        rules.backbone = None;
+        rules.backbone = 0.0;
     });
     placed.has_cb[39] = false;
     assert_eq!(Rules::default().first_violation(&placed), None);
@@ -140,11 +140,11 @@ fn single_precision_overlooks_no_violation() {
             conformer.place(&linkage.source().iter().map(turned).collect::<Vec<_>>(), &mut placed);
             let mut rules = Rules::default();
             match trial % 6 {
-                1 => rules.alpha_carbons = None,
-                2 => rules.backbone = Some(4.5),
-                3 => (rules.backbone, rules.nitrogen_oxygen) = (None, Some(3.3)),
-                4 => rules.side_chains = None,
-                5 => rules = Rules { side_chains: Some(5.0), ..Rules::none() },
+                1 => rules.alpha_carbons = 0.0,
+                2 => rules.backbone = 4.5,
+                3 => (rules.backbone, rules.nitrogen_oxygen) = (0.0, 3.3),
+                4 => rules.side_chains = 0.0,
+                5 => rules = Rules { side_chains: 5.0, ..Rules::none() },
                 _ => {}
             }
             agrees(&placed, &rules.at_nodes());
