@@ -200,3 +200,6 @@ impl Description for Protein {
         Some(self)
     }
 }
+
+#[cfg(test)]
+mod tests;
