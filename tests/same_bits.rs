@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// The digests that each problem of `problems/` has always had. Whoever changes one bumps
 /// `BITS_VERSION`.
-const GOLDEN: [(&str, &str); 12] = [
+const GOLDEN: [(&str, &str); 13] = [
     ("adaptive", "47c69b7eedb39ad8f97cbe55c0771c9143d54d38b914f198d73f2dd5806e7698"),
     ("settled", "e237813a24ad6d78c4dcb301cff52da2071c63d2af6896d9d6e0d33f7ddd62fd"),
     ("judged", "faedef6a7a14a1df3b42c366b26c17d7eeab044718077417821f9b2f9ecc676c"),
@@ -24,6 +24,7 @@ const GOLDEN: [(&str, &str); 12] = [
     ("sampled", "cafaae13b7019499f54da8674e8419136745526686c6fd1b1cce9386d94293ed"),
     ("axis", "9373e425458fd8636d91045c6b1b6ee5a138de3e8c2df540f7ca6271ab5b9729"),
     ("landscape", "9c3bec9789090a1b24857f03b7ca2a072255d02e4b63f0c0a9cecb256c239085"),
+    ("peptide", "efaa9aeb80dba46d7252b786e271cabf1b15cc28b8a8f57856e84acbdbeec6cd"),
     ("expansion", "4d0e0bb681474cbc341bb3f195f6996a18a51c2ab5449756370fc6c3a8cd2151"),
 ];
 
