@@ -12,7 +12,6 @@
 use roadmill::model::protein::energy::{Constraint, Constraints, Hydrophobic, Mixture};
 use roadmill::model::protein::kinematics::Conformer;
 use roadmill::model::protein::linkage::Linkage;
-use roadmill::model::protein::placed::Placed;
 use roadmill::model::protein::validity::{Obstacles, Rules, Screen};
 use roadmill::numbers::Ordinal;
 use roadmill::seed::{Purpose, Seed};

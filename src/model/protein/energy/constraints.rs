@@ -109,7 +109,7 @@ impl Constraints {
             let stretch = distance - load(simd, native);
             let softness = number(simd, SOFTNESS);
             let term = (stretch * stretch + softness * softness).sqrt() - softness;
-            sums = sums + number(simd, STIFFNESS) * term;
+            sums += number(simd, STIFFNESS) * term;
         }
         (sums[0] + sums[1]) + (sums[2] + sums[3])
     }

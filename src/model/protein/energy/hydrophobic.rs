@@ -64,7 +64,7 @@ impl Hydrophobic {
             // Of its own four those behind it, and not the neighbour along the chain.
             let is_neighbour = self.residues.get(number + 1) == Some(&(residue + 1));
             let skipped = lane + 1 + usize::from(is_neighbour);
-            count += (close(simd, one, &at[four]) & 0xF << skipped & 0xF).count_ones();
+            count += (close(simd, one, &at[four]) & (0xF << skipped) & 0xF).count_ones();
             let mut rest = &at[four + 1..];
             if let [first, others @ ..] = rest
                 && skipped > LANES

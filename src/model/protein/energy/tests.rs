@@ -80,7 +80,10 @@ fn the_smooth_minimum_is_below_both_and_near_the_lower() {
             let mixed = smooth_minimum(a, b, kt);
             assert_eq!(mixed.to_bits(), smooth_minimum(b, a, kt).to_bits());
             let low = f64::min(a, b);
-            assert!(mixed <= low && mixed >= low - kt * 0.693_147_180_6 - 1e-9, "{a} {b} {kt}");
+            assert!(
+                mixed <= low && mixed >= low - kt * std::f64::consts::LN_2 - 1e-9,
+                "{a} {b} {kt}"
+            );
         }
     }
     assert_eq!(smooth_minimum(1.0, 1.0, 2.0), 1.0 - 2.0 * math::ln(2.0));
@@ -150,11 +153,17 @@ fn native_chains_are_told_from_helices_and_from_stretched_ones() {
             conformer.place(q, &mut placed);
             [bonds.energy(&placed), hydrophobic.energy(&placed)]
         };
-        println!("{name} {} residues, {} bonds", residues.len(), bonds.list().len());
-        println!("  native {:?} of {native:?}", energies(&linkage.source()));
-        println!("  helix {:?} of {helix:?}", energies(&regular(&linkage, -57.0, -47.0)));
-        println!("  extended {:?} of {extended:?}", energies(&regular(&linkage, -139.0, 135.0)));
-        let _ = (len, count);
+        assert_eq!((residues.len(), bonds.list().len()), (len, count), "{name}");
+        let states = [
+            (linkage.source(), native, 4.0),
+            (regular(&linkage, -57.0, -47.0), helix, 60.0),
+            (regular(&linkage, -139.0, 135.0), extended, 0.05 * extended[0]),
+        ];
+        for (q, expected, within) in states {
+            let found = energies(&q);
+            assert!((found[0] - expected[0]).abs() <= within, "{name}: {found:?}, {expected:?}");
+            assert_eq!(found[1], expected[1], "{name}");
+        }
     }
 }
 

@@ -13,7 +13,7 @@ const SET_BITS: [[u8; 8]; 256] = {
     while bits < 256 {
         let (mut bit, mut count) = (0, 0);
         while bit < 8 {
-            if bits >> bit & 1 == 1 {
+            if (bits >> bit) & 1 == 1 {
                 numbers[bits][count] = bit as u8;
                 count += 1;
             }
@@ -158,7 +158,7 @@ impl Screen {
             let close = others.closeness(simd, ones, lane).simd_gt(threshold).to_bitmask();
             let allowed = 0xFF << (lane + 3).saturating_sub(apart).min(BLOCK);
             let close = (close & allowed & 0xFF) as u8;
-            let base = ((first * BLOCK + lane) << 16 | second * BLOCK) as u32;
+            let base = (((first * BLOCK + lane) << 16) | (second * BLOCK)) as u32;
             let to = &mut near[len..len + BLOCK];
             let bits = &SET_BITS[usize::from(close)];
             for number in 0..BLOCK {

@@ -202,7 +202,7 @@ impl Screen {
             extent = extent.max(n.half).max(ca.half).max(c.half);
             extent = extent.max(o.half).max(cb.half).max(side.half);
             // A maximum may pass over what is no number; a sum does not.
-            sum = sum + ((n.half + ca.half) + (c.half + o.half) + (cb.half + side.half));
+            sum += (n.half + ca.half) + (c.half + o.half) + (cb.half + side.half);
 
             let atoms = &mut self.atoms[number * BLOCK..][..BLOCK];
             deal(simd, atoms, 0, [n.x, ca.x, c.x, o.x, cb.x]);
