@@ -160,9 +160,17 @@ impl Chain {
         (before < self.side_chains_before[residue + 1]).then(|| self.links.len() + before)
     }
 
-    /// Whether the distance of two Cα atoms, `i` before `j`, is one of those that have to be kept.
-    pub fn keeps_apart(&self, i: usize, j: usize) -> bool {
-        j > i + 2 || j == i + 2 && self.links[i].folds
+    /// The points of some residues' side chains.
+    pub fn side_chains_of(&self, residues: &Range<usize>) -> Range<usize> {
+        let point = |residue: usize| self.links.len() + self.side_chains_before[residue];
+        point(residues.start)..point(residues.end)
+    }
+
+    /// Whether nothing is asked of the distance of two points of a kind, `first` before `second`: Cα atoms that are nearly
+    /// neighbours.
+    pub fn leaves_alone(&self, first: usize, second: usize) -> bool {
+        second < self.links.len()
+            && (second < first + 2 || second == first + 2 && !self.links[first].folds)
     }
 }
 

@@ -22,11 +22,6 @@ pub(super) enum Verdict {
     Between,
 }
 
-/// The cubic that has these values and derivatives at the times 0 and 1.
-pub(super) fn hermite(from: Point, leaving: Point, to: Point, arriving: Point) -> Cubic {
-    [from, from + leaving / 3.0, to - arriving / 3.0, to]
-}
-
 /// Holds the distance of the curve from the origin against `greater` and `lesser`, in Å.
 pub(super) fn verdict(curve: &Cubic, greater: f64, lesser: f64) -> Verdict {
     piece(curve, greater, lesser, 0)

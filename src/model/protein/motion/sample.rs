@@ -1,33 +1,61 @@
 //! Where a chain is at one time of a motion, and how fast.
 
 use super::chain::{Chain, STRIDE, Turning};
+use super::points::{Four, Points, cross, dot, minus, same};
 use super::straight::Straight;
 use crate::math;
 use crate::structure::Point;
+use fearless_simd::prelude::*;
 use nalgebra::Matrix3;
-
-/// A position with its derivative by the time of the motion, which runs from 0 to 1. Å.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Moving {
-    pub at: Point,
-    pub velocity: Point,
-}
 
 /// A frame that moves: its origin is a residue's Cα, and it turns with the bonds before that residue's phi.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     rotation: Matrix3<f64>,
-    origin: Moving,
+    origin: Point,
+    /// The origin's velocity by the time of the motion, which runs from 0 to 1. Å.
+    velocity: Point,
     /// The angular velocity, in radians.
     spin: Point,
 }
 
+/// A frame in all lanes.
+pub(super) struct Frames<S: Simd> {
+    axes: [Four<S>; 3],
+    origin: Four<S>,
+    velocity: Four<S>,
+    spin: Four<S>,
+}
+
 impl Frame {
     /// A point as seen from the frame.
-    pub fn sees(&self, point: &Moving) -> Moving {
-        let away = point.at - self.origin.at;
-        let drift = point.velocity - self.origin.velocity - self.spin.cross(&away);
-        Moving { at: self.rotation.tr_mul(&away), velocity: self.rotation.tr_mul(&drift) }
+    #[cfg(test)]
+    pub fn sees(&self, point: &Point) -> Point {
+        self.rotation.tr_mul(&(point - self.origin))
+    }
+
+    #[inline(always)]
+    pub fn in_lanes<S: Simd>(&self, simd: S) -> Frames<S> {
+        Frames {
+            axes: [0, 1, 2].map(
+                #[inline(always)]
+                |axis| same(simd, &self.rotation.column(axis).into()),
+            ),
+            origin: same(simd, &self.origin),
+            velocity: same(simd, &self.velocity),
+            spin: same(simd, &self.spin),
+        }
+    }
+}
+
+impl<S: Simd> Frames<S> {
+    /// Points and their velocities as seen from the frame.
+    #[inline(always)]
+    pub fn see(&self, points: &Four<S>, velocities: &Four<S>) -> [Four<S>; 2] {
+        let away = minus(points, &self.origin);
+        let drift = minus(&minus(velocities, &self.velocity), &cross(&self.spin, &away));
+        let [x, y, z] = &self.axes;
+        [[dot(x, &away), dot(y, &away), dot(z, &away)], [dot(x, &drift), dot(y, &drift), dot(z, &drift)]]
     }
 }
 
@@ -35,7 +63,9 @@ impl Frame {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sample {
     /// The points, Cα atoms first, as seen from the bonds before the first torsion.
-    pub points: Vec<Moving>,
+    pub points: Points,
+    /// Their velocities.
+    pub velocities: Points,
     /// The frames of the residues that are multiples of [`STRIDE`].
     frames: Vec<Frame>,
 }
@@ -49,9 +79,10 @@ struct Body {
 }
 
 impl Body {
-    fn carry(&self, point: &Point) -> Moving {
+    /// Where a point is carried to, and its velocity.
+    fn carry(&self, point: &Point) -> [Point; 2] {
         let at = self.rotation * point + self.shift;
-        Moving { at, velocity: self.spin.cross(&at) + self.drift }
+        [at, self.spin.cross(&at) + self.drift]
     }
 
     /// Passes a torsion that has turned by `angle` and turns by `rate`.
@@ -92,16 +123,16 @@ impl Sample {
             spin: Point::zeros(),
             drift: Point::zeros(),
         };
-        let nowhere = Moving { at: Point::zeros(), velocity: Point::zeros() };
-        self.points.clear();
-        self.points.resize(chain.points(), nowhere);
+        self.points.resize(chain.points());
+        self.velocities.resize(chain.points());
         self.frames.clear();
         for (residue, link) in chain.links.iter().enumerate() {
             let alpha = body.carry(&link.alpha);
-            self.points[residue] = alpha;
+            self.put(residue, alpha);
             if residue % STRIDE == 0 {
                 let Body { rotation, spin, .. } = body;
-                self.frames.push(Frame { rotation, origin: alpha, spin });
+                let [origin, velocity] = alpha;
+                self.frames.push(Frame { rotation, origin, velocity, spin });
             }
             let pass = |body: &mut Body, turning: &Turning| {
                 let angle = motion.torsion(turning.number, time) - turning.source;
@@ -111,12 +142,17 @@ impl Sample {
                 pass(&mut body, phi);
             }
             if let (Some(side_chain), Some(point)) = (&link.side_chain, chain.side_chain(residue)) {
-                self.points[point] = body.carry(side_chain);
+                self.put(point, body.carry(side_chain));
             }
             if let Some(psi) = &link.psi {
                 pass(&mut body, psi);
             }
         }
+    }
+
+    fn put(&mut self, point: usize, [at, velocity]: [Point; 2]) {
+        self.points.put(point, at);
+        self.velocities.put(point, velocity);
     }
 
     /// The frame of a residue, a multiple of [`STRIDE`].

@@ -2,10 +2,11 @@
 
 use super::chain::{Chain, Pairs};
 use super::cubic::{self, Verdict};
-use super::curves::{self, Part, TURN_MAX, Way};
+use super::curves::{self, Part, TURN_MAX, Ways};
 use super::sample::Sample;
 use super::straight::Straight;
 use super::*;
+use crate::lanes::Lanes;
 use crate::math;
 use crate::structure::{AminoAcid, Atom, ResidueNumber};
 
@@ -239,8 +240,9 @@ fn ways_keep_to_their_cubics_as_bounded_and_bounds_are_not_idle() {
             from.place(&chain, &motion, start);
             to.place(&chain, &motion, start + length);
             let part = Part { length, from, to };
-            let mut ways = vec![Way { cubic: [Point::zeros(); 4], fourth: 0.0 }; chain.points()];
-            curves::find(&chain, segment, &motion, &part, &mut ways);
+            let mut ways = Ways::default();
+            ways.resize(chain.points());
+            curves::find(Lanes::widest(), &chain, segment, &motion, &part, &mut ways);
             for k in 1..4 {
                 let s = k as f64 / 4.0;
                 between.place(&chain, &motion, start + s * length);
@@ -249,15 +251,15 @@ fn ways_keep_to_their_cubics_as_bounded_and_bounds_are_not_idle() {
                     [Some(residue), chain.side_chain(residue)].into_iter().flatten()
                 });
                 for point in points {
-                    let seen = frame.sees(&between.points[point]).at;
-                    let Way { cubic: c, fourth } = &ways[point];
+                    let seen = frame.sees(&between.points.at(point));
+                    let (c, fourth) = (ways.cubic(point), ways.fourth(point));
                     let r = 1.0 - s;
                     let expected = c[0] * (r * r * r)
                         + c[1] * (3.0 * r * r * s)
                         + c[2] * (3.0 * r * s * s)
                         + c[3] * (s * s * s);
                     let (off, bound) =
-                        ((seen - expected).norm(), curves::leaves_cubic(*fourth, length));
+                        ((seen - expected).norm(), curves::leaves_cubic(fourth, length));
                     assert!(off <= bound + 1e-10, "{off} {bound} {segment:?}");
                     if bound > 1e-6 {
                         nearest_to_bound = nearest_to_bound.max(off / bound);
