@@ -5,7 +5,9 @@
 //! bit of up to 14 % of values, so this module, over the `libm` crate, is their only door
 //! (`clippy.toml` forbids the others).
 
-use std::f64::consts::PI;
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x4, u64x4};
+use std::f64::consts::{FRAC_2_PI, PI};
 
 /// One full turn, in radians.
 pub const TURN: f64 = 2.0 * PI;
@@ -43,6 +45,61 @@ pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
 
+/// The largest angle, in radians, that [`sin_cos`] takes.
+pub(crate) const SIN_COS_WITHIN: f64 = 2048.0;
+
+/// Sines and cosines of four angles in radians at once, for angles of at most [`SIN_COS_WITHIN`]; beyond, and for what is
+/// no number, they are any numbers. The same bits with any lanes; other bits than [`sin`] and [`cos`] give, in the
+/// last place.
+///
+/// The angle is n π/2 + r with |r| ≤ π/4 (and a little). π/2 is taken off in two parts: the first has 41 bits, so that n times
+/// it is exact, n having at most 12; its difference to the angle is exact too. The second is rounded where it cannot be
+/// seen. So r is rounded once. Then sine and cosine of r are the polynomials of FreeBSD's msun (k_sin.c, k_cos.c: minimax
+/// over |r| ≤ π/4, off by less than 2⁻⁵⁸), and n says which of the two, and which sign. The error is below 1 unit in the last
+/// place, and below 2⁻⁹⁰ n near zeros, where units are smaller than that.
+#[inline(always)]
+pub(crate) fn sin_cos<S: Simd>(simd: S, angle: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
+    // Added to a small number, this puts the nearest integer into the last bits.
+    const LAST_BITS: f64 = 6_755_399_441_055_744.0;
+    const HALF_PI_FIRST: f64 = 1.570_796_326_794_152_3;
+    const HALF_PI_REST: f64 = 7.443_547_480_486_623e-13;
+    let number = |value: f64| f64x4::splat(simd, value);
+
+    let shifted = angle * number(FRAC_2_PI) + number(LAST_BITS);
+    let n = shifted - number(LAST_BITS);
+    let r = (angle - n * number(HALF_PI_FIRST)) - n * number(HALF_PI_REST);
+
+    let z = r * r;
+    let s = number(1.589_690_995_211_55e-10);
+    let s = s * z + number(-2.505_076_025_340_686_3e-8);
+    let s = s * z + number(2.755_731_370_707_006_8e-6);
+    let s = s * z + number(-0.000_198_412_698_298_579_5);
+    let s = s * z + number(0.008_333_333_333_322_49);
+    let s = s * z + number(-0.166_666_666_666_666_32);
+    let sine = r + (z * r) * s;
+
+    let c = number(-1.135_964_755_778_819_5e-11);
+    let c = c * z + number(2.087_572_321_298_175e-9);
+    let c = c * z + number(-2.755_731_435_139_066_3e-7);
+    let c = c * z + number(2.480_158_728_947_673e-5);
+    let c = c * z + number(-0.001_388_888_888_887_411);
+    let c = c * z + number(0.041_666_666_666_666_6);
+    // 1 − z/2 is rounded; what was lost comes back.
+    let half = z * number(0.5);
+    let most = number(1.0) - half;
+    let cosine = most + (((number(1.0) - most) - half) + (z * z) * c);
+
+    let quarter = shifted.to_bits();
+    let one = u64x4::splat(simd, 1);
+    let two = u64x4::splat(simd, 2);
+    let is_odd = (quarter & one).simd_eq(one);
+    let sine_sign = (quarter & two) << 62;
+    let cosine_sign = ((quarter + one) & two) << 62;
+    let sines = f64x4::from_bits(is_odd.select(cosine, sine).to_bits() ^ sine_sign);
+    let cosines = f64x4::from_bits(is_odd.select(sine, cosine).to_bits() ^ cosine_sign);
+    (sines, cosines)
+}
+
 /// The same angle in `[-π, π)`.
 pub fn wrap_angle(angle: f64) -> f64 {
     if (-PI..PI).contains(&angle) {
@@ -68,6 +125,8 @@ pub fn angle_between(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::{Lanes, with_lanes};
+    use fearless_simd::Fallback;
     use proptest::prelude::*;
 
     #[test]
@@ -77,6 +136,41 @@ mod tests {
         assert!(
             (-PI..PI).contains(&wrap_angle(f64::MAX)) && (-PI..PI).contains(&wrap_angle(f64::MIN))
         );
+    }
+
+    #[test]
+    fn sines_in_lanes_are_those_of_libm_but_for_a_last_bit_and_the_same_in_all_lanes() {
+        let units = |value: f64, exact: f64| (value - exact).abs() / (exact.abs() * f64::EPSILON);
+        let mut worst = 0.0f64;
+        let mut look = |angle: f64| {
+            let plain = Fallback::new();
+            let (sine, cosine) = sin_cos(plain, f64x4::splat(plain, angle));
+            let (sine, cosine) = (sine[0], cosine[0]);
+            // Near zeros the error is in units of numbers that are not as small.
+            for (value, exact) in [(sine, sin(angle)), (cosine, cos(angle))] {
+                assert!((value - exact).abs() < 1.3e-16, "{angle}: {value}, {exact}");
+                if exact.abs() > 1e-6 {
+                    worst = worst.max(units(value, exact));
+                }
+            }
+            for lanes in Lanes::all() {
+                with_lanes!(lanes, simd => {
+                    let angles = f64x4::load_array(simd, [0.1, angle, 0.2, angle]);
+                    let (sines, cosines) = sin_cos(simd, angles);
+                    assert_eq!(sines[1].to_bits(), sine.to_bits(), "{lanes:?}");
+                    assert_eq!(cosines[3].to_bits(), cosine.to_bits(), "{lanes:?}");
+                });
+            }
+        };
+        for step in -40_000..=40_000 {
+            let step = f64::from(step);
+            look(step * 1e-3);
+            look(step * 0.051_199);
+            look(step / 40.0 * std::f64::consts::FRAC_PI_4);
+            look(step * 1e-13);
+        }
+        assert!(worst < 1.0, "{worst} units");
+        println!("at most {worst} units in the last place from libm");
     }
 
     proptest! {
