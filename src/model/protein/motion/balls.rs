@@ -24,16 +24,23 @@ impl Ball {
         !((other.centre - self.centre).norm_squared() >= reach * reach)
     }
 
-    /// A ball that holds some others.
-    fn around(balls: &Balls, which: Range<usize>) -> Option<Ball> {
+    /// A ball that holds some others: around the one in their middle.
+    #[inline(always)]
+    fn around<S: Simd>(simd: S, balls: &Balls, which: Range<usize>) -> Option<Ball> {
         if which.is_empty() {
             return None;
         }
-        let [low, high] = balls.centres.box_around(which.clone());
-        let centre = (low + high) * 0.5;
-        let radius = which.fold(0.0, |radius: f64, ball| {
-            radius.max((balls.centres.at(ball) - centre).norm() + balls.radii[ball])
-        });
+        let centre = balls.centres.at(which.start + which.len() / 2);
+        let middle = same(simd, &centre);
+        let mut radius: f64 = 0.0;
+        for four in which.clone().step_by(LANES) {
+            let between = minus(&balls.centres.load(simd, four), &middle);
+            let reach = dot(&between, &between).sqrt() + points::load(simd, balls.radii, four);
+            for reach in &reach.to_array()[..LANES.min(which.end - four)] {
+                // Written so that what is no number holds everything.
+                radius = if *reach <= radius { radius } else { *reach };
+            }
+        }
         Some(Ball { centre, radius })
     }
 }
@@ -96,11 +103,24 @@ fn points_of(chain: &Chain, block: usize) -> [Range<usize>; 2] {
 }
 
 /// Puts balls around the blocks of some residues.
-pub(super) fn gather(chain: &Chain, balls: &Balls, residues: &Range<usize>, blocks: &mut Blocks) {
+pub(super) fn gather(
+    lanes: Lanes,
+    chain: &Chain,
+    balls: &Balls,
+    residues: &Range<usize>,
+    blocks: &mut Blocks,
+) {
     blocks.resize(chain.links.len().div_ceil(BLOCK), [None; 2]);
-    for block in residues.start / BLOCK..residues.end.div_ceil(BLOCK) {
-        blocks[block] = points_of(chain, block).map(|points| Ball::around(balls, points));
-    }
+    with_lanes!(lanes, simd => simd.vectorize(
+        #[inline(always)]
+        || {
+            for block in residues.start / BLOCK..residues.end.div_ceil(BLOCK) {
+                let [alphas, side_chains] = points_of(chain, block);
+                let around = Ball::around(simd, balls, side_chains);
+                blocks[block] = [Ball::around(simd, balls, alphas), around];
+            }
+        },
+    ));
 }
 
 /// Finds the pairs of points of two ranges of blocks, the second after the first, that may be too near.
@@ -217,9 +237,11 @@ impl Obstacles {
         of.iter().enumerate().for_each(|(number, point)| points.put(number, *point));
         let balls = Balls { centres: &points, radii: &radii };
         let groups = (0..of.len()).step_by(BLOCK);
-        let groups = groups
-            .filter_map(|from| Ball::around(&balls, from..(from + BLOCK).min(of.len())))
-            .collect();
+        let around = |from: usize| {
+            let which = from..(from + BLOCK).min(of.len());
+            with_lanes!(Lanes::widest(), simd => Ball::around(simd, &balls, which))
+        };
+        let groups = groups.filter_map(around).collect();
         Obstacles { groups, count: of.len(), points, radii }
     }
 }

@@ -6,7 +6,7 @@
 
 use super::chain::{Chain, Pairs, Segment};
 use super::cubic::Cubic;
-use super::points::{self, Points, dot, minus, plus, times};
+use super::points::{self, Four, Points, dot, minus, plus, times};
 use super::sample::{Frame, Sample};
 use super::straight::Straight;
 use crate::lanes::{Lanes, with_lanes};
@@ -57,7 +57,7 @@ impl Ways {
         self.fourths[point]
     }
 
-    #[cfg(test)]
+    /// Fills all with a number.
     pub fn poison(&mut self, rubbish: f64) {
         self.controls.iter_mut().for_each(|points| points.fill(rubbish));
         self.centres.fill(rubbish);
@@ -68,38 +68,27 @@ impl Ways {
 
     /// The cubics of some points over a part, and of up to three behind them.
     #[inline(always)]
-    fn cubics<S: Simd>(
-        &mut self,
-        simd: S,
-        part: &Part,
-        frames: [&Frame; 2],
-        which: Range<usize>,
-    ) {
+    fn cubics<S: Simd>(&mut self, simd: S, part: &Part, frames: [&Frame; 2], which: Range<usize>) {
         let [from, to] = [frames[0].in_lanes(simd), frames[1].in_lanes(simd)];
         let third = f64x4::splat(simd, part.length / 3.0);
         let half = f64x4::splat(simd, 0.5);
         for point in which.step_by(points::LANES) {
-            let [first, leaving] = from.see(
-                &part.from.points.load(simd, point),
-                &part.from.velocities.load(simd, point),
-            );
+            let [first, leaving] = from
+                .see(&part.from.points.load(simd, point), &part.from.velocities.load(simd, point));
             let [last, arriving] =
                 to.see(&part.to.points.load(simd, point), &part.to.velocities.load(simd, point));
             let second = plus(&first, &times(&leaving, third));
             let next = minus(&last, &times(&arriving, third));
             let centre = times(&plus(&first, &last), half);
-            let reach = [&last, &second, &next].map(
-                #[inline(always)]
-                |control| {
-                    let away = minus(control, &centre);
-                    dot(&away, &away)
-                },
-            );
-            let reach = reach[0].max(reach[1]).max(reach[2]).sqrt();
+            let reach = square_distance(&last, &centre)
+                .max(square_distance(&second, &centre))
+                .max(square_distance(&next, &centre))
+                .sqrt();
             let ends = dot(&first, &first).max(dot(&last, &last)).sqrt();
-            for (points, control) in self.controls.iter_mut().zip([first, second, next, last]) {
-                points.store(point, &control);
-            }
+            self.controls[0].store(point, &first);
+            self.controls[1].store(point, &second);
+            self.controls[2].store(point, &next);
+            self.controls[3].store(point, &last);
             self.centres.store(point, &centre);
             points::store(&mut self.radii, point, reach);
             points::store(&mut self.ends, point, ends);
@@ -162,43 +151,70 @@ pub(super) fn find(
     bound(chain, segment, motion, part.length, ways);
 }
 
+#[inline(always)]
+fn square_distance<S: Simd>(a: &Four<S>, b: &Four<S>) -> f64x4<S> {
+    let between = minus(a, b);
+    dot(&between, &between)
+}
+
 /// Bounds the fourth derivatives, and so how far ways come.
 fn bound(chain: &Chain, segment: &Segment, motion: &Straight, length: f64, ways: &mut Ways) {
     let middle = motion.sums[chain.links[segment.frame].before[0]];
-    let eighth = length * length / 8.0;
-    // One side of the frame after the other. Of a residue, the torsions that come first are nearer to the frame.
-    let mut side = |residues: &mut dyn Iterator<Item = usize>, order: [usize; 3]| {
+    let mut side = Side { chain, motion, length, middle, ways };
+    // Of a residue, the torsions that come first are nearer to the frame.
+    side.bound(segment.frame..segment.residues.end, [0, 1, 2]);
+    if segment.pairs != Pairs::Obstacles {
+        side.bound((segment.residues.start..segment.frame).rev(), [2, 1, 0]);
+    }
+}
+
+/// What is on one side of a frame.
+struct Side<'a> {
+    chain: &'a Chain,
+    motion: &'a Straight,
+    length: f64,
+    /// The sum of turns at the frame.
+    middle: f64,
+    ways: &'a mut Ways,
+}
+
+impl Side<'_> {
+    /// Bounds the ways of the points of residues, the frame's neighbour first; `order` is that in which the places between
+    /// torsions are passed.
+    #[inline(always)]
+    fn bound(&mut self, residues: impl Iterator<Item = usize>, order: [usize; 3]) {
         // Sums over the torsions that were passed: how far the Cα on the axis is from the origin at most, times by how much
         // the second (fourth) power of the turn grew with the torsion.
         let (mut second, mut fourth) = (0.0, 0.0);
-        let mut put = |point: usize, square: f64, second: f64, fourth: f64| {
-            // The point leaves its chord by h²/8 times its second derivative, whose levers are at most the point's
-            // distance from the origin and the axis' added.
-            let distance = (ways.ends[point] + eighth * second) / (1.0 - eighth * square);
-            let fourth = distance * (square * square) + fourth;
-            ways.fourths[point] = fourth;
-            ways.radii[point] += leaves_cubic(fourth, length) + chain.rounding;
-            distance
-        };
         for residue in residues {
-            let before = &chain.links[residue].before;
-            let squares = order.map(|which| {
-                let turn = motion.sums[before[which]] - middle;
+            let before = &self.chain.links[residue].before;
+            let square = |place: usize| {
+                let turn = self.motion.sums[before[order[place]]] - self.middle;
                 turn * turn
-            });
-            let [s0, s1, s2] = squares;
-            let distance = put(residue, s0, second, fourth);
+            };
+            let (s0, s1, s2) = (square(0), square(1), square(2));
+            let distance = self.put(residue, s0, second, fourth);
             second += distance * (s1 - s0);
             fourth += distance * (s1 * s1 - s0 * s0);
-            if let Some(point) = chain.side_chain(residue) {
-                put(point, s1, second, fourth);
+            if let Some(point) = self.chain.side_chain(residue) {
+                self.put(point, s1, second, fourth);
             }
             second += distance * (s2 - s1);
             fourth += distance * (s2 * s2 - s1 * s1);
         }
-    };
-    side(&mut (segment.frame..segment.residues.end), [0, 1, 2]);
-    if segment.pairs != Pairs::Obstacles {
-        side(&mut (segment.residues.start..segment.frame).rev(), [2, 1, 0]);
+    }
+
+    /// Bounds the way of one point, where the turn between it and the frame has this square. Returns a bound on its distance
+    /// from the origin.
+    #[inline(always)]
+    fn put(&mut self, point: usize, square: f64, second: f64, fourth: f64) -> f64 {
+        let eighth = self.length * self.length / 8.0;
+        // The point leaves its chord by h²/8 times its second derivative, whose levers are at most the point's distance
+        // from the origin and the axis' added. 1/(1 − x) is at most 1 + 1.25 x for x up to 0.2, and x is.
+        let distance = (self.ways.ends[point] + eighth * second) * (1.0 + 1.25 * (eighth * square));
+        let fourth = distance * (square * square) + fourth;
+        self.ways.fourths[point] = fourth;
+        self.ways.radii[point] += leaves_cubic(fourth, self.length) + self.chain.rounding;
+        distance
     }
 }

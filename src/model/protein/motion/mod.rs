@@ -34,7 +34,7 @@ pub struct MotionValidity {
 
 impl MotionValidity {
     /// Prepares the chain of a linkage and of the residues that it was made of. `obstacles` are points that stand still, in
-    /// the frame of the source. `None` where a residue has no Cα.
+    /// the frame of the source. `None` where a residue lacks N, CA, C or O.
     pub fn new(
         linkage: &Linkage,
         residues: &[Residue],
@@ -42,7 +42,9 @@ impl MotionValidity {
         limits: Limits,
     ) -> Option<MotionValidity> {
         let chain = chain::Chain::of(linkage, residues, obstacles, limits)?;
-        Some(MotionValidity { obstacles: balls::Obstacles::new(&chain.obstacles), chain })
+        let obstacles: Vec<Point> =
+            obstacles.iter().map(|obstacle| obstacle - chain.origin).collect();
+        Some(MotionValidity { obstacles: balls::Obstacles::new(&obstacles), chain })
     }
 
     /// Whether the motion from `a` to `b`, torsions in radians, keeps all limits at all times. Its reverse has the same

@@ -5,7 +5,6 @@
 use crate::structure::Point;
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
-use std::ops::Range;
 
 /// Numbers in a lane each.
 pub(super) const LANES: usize = 4;
@@ -43,23 +42,12 @@ impl Points {
     /// Puts the point and the three behind it.
     #[inline(always)]
     pub fn store<S: Simd>(&mut self, point: usize, value: &Four<S>) {
-        for (axis, value) in self.0.iter_mut().zip(value) {
-            store(axis, point, *value);
-        }
+        let [x, y, z] = &mut self.0;
+        store(x, point, value[0]);
+        store(y, point, value[1]);
+        store(z, point, value[2]);
     }
 
-    /// The least and the largest coordinates of some points.
-    pub fn box_around(&self, points: Range<usize>) -> [Point; 2] {
-        let bounds = |axis: &Vec<f64>| {
-            axis[points.clone()].iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-                [if *x < low { *x } else { low }, if *x > high { *x } else { high }]
-            })
-        };
-        let [x, y, z] = [0, 1, 2].map(|axis| bounds(&self.0[axis]));
-        [0, 1].map(|side| Point::new(x[side], y[side], z[side]))
-    }
-
-    #[cfg(test)]
     pub fn fill(&mut self, value: f64) {
         self.0.iter_mut().for_each(|axis| axis.fill(value));
     }
@@ -83,10 +71,7 @@ pub(super) fn store<S: Simd>(numbers: &mut [f64], at: usize, value: f64x4<S>) {
 
 #[inline(always)]
 pub(super) fn same<S: Simd>(simd: S, value: &Point) -> Four<S> {
-    [value.x, value.y, value.z].map(
-        #[inline(always)]
-        |x| f64x4::splat(simd, x),
-    )
+    [f64x4::splat(simd, value.x), f64x4::splat(simd, value.y), f64x4::splat(simd, value.z)]
 }
 
 #[inline(always)]

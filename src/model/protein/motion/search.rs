@@ -5,7 +5,7 @@ use super::chain::{BLOCK, Chain, Pairs, Segment};
 use super::cubic::{self, Cubic, Verdict};
 use super::curves::{self, Part, TURN_MAX, Ways};
 use super::points;
-use super::sample::Sample;
+use super::sample::{Sample, Stage};
 use super::straight::Straight;
 use crate::lanes::Lanes;
 use crate::structure::Point;
@@ -34,6 +34,7 @@ pub struct MotionScratch {
     motion: Straight,
     /// The chain at the motion's ends, then at the middle of every part that is being looked at.
     samples: Vec<Sample>,
+    stage: Stage,
     ways: Ways,
     /// The radii of points at one time.
     nothing: Vec<f64>,
@@ -44,11 +45,11 @@ pub struct MotionScratch {
     open: Vec<Open>,
 }
 
-#[cfg(test)]
 impl MotionScratch {
     /// Fills it with what could mislead.
-    pub fn poison(&mut self, seed: u64) {
-        let rubbish = if seed % 2 == 0 { f64::NAN } else { seed as f64 };
+    pub(crate) fn poison(&mut self, rubbish: u64) {
+        let seed = rubbish as usize % 97;
+        let rubbish = if rubbish.is_multiple_of(2) { f64::NAN } else { rubbish as f64 };
         for values in [&mut self.motion.first, &mut self.motion.turns, &mut self.motion.sums] {
             values.fill(rubbish);
             values.push(rubbish);
@@ -57,13 +58,14 @@ impl MotionScratch {
             sample.points.fill(rubbish);
             sample.velocities.fill(rubbish);
         }
-        self.samples.truncate(1 + seed as usize % 4);
+        self.stage.poison();
+        self.samples.truncate(1 + seed % 4);
         self.ways.poison(rubbish);
         self.nothing.push(rubbish);
-        self.blocks.truncate(seed as usize % 3);
+        self.blocks.truncate(seed % 3);
         let near = Near { first: 1 << 40, second: 1 << 40, limit: rubbish };
         self.near.push(near);
-        self.segments.push(seed as usize);
+        self.segments.push(seed);
         self.open.push(Open { segment: 1 << 40, near, fourth: rubbish });
     }
 }
@@ -145,7 +147,8 @@ impl Search<'_> {
         if scratch.samples.len() <= sample {
             scratch.samples.resize_with(sample + 1, Sample::default);
         }
-        scratch.samples[sample].place(self.chain, &scratch.motion, time);
+        let stage = &mut scratch.stage;
+        scratch.samples[sample].place(self.chain, &scratch.motion, time, stage);
     }
 
     /// Whether the points of a sample keep apart.
@@ -156,7 +159,7 @@ impl Search<'_> {
         scratch.nothing.clear();
         points::resize(&mut scratch.nothing, chain.points());
         let balls = Balls { centres: points, radii: &scratch.nothing };
-        balls::gather(chain, &balls, &(0..chain.links.len()), &mut scratch.blocks);
+        balls::gather(lanes, chain, &balls, &(0..chain.links.len()), &mut scratch.blocks);
         let (found, blocks) = (&mut scratch.near, &scratch.blocks);
         let far = |first: Point, second: Point, limit: f64| {
             let least = limit - 2.0 * chain.rounding;
@@ -177,9 +180,8 @@ impl Search<'_> {
             found.clear();
         }
         balls::obstacles(lanes, chain, (&balls, blocks), obstacles, found);
-        let keeps = |near: &Near| {
-            far(points.at(near.first), obstacles.points.at(near.second), near.limit)
-        };
+        let keeps =
+            |near: &Near| far(points.at(near.first), obstacles.points.at(near.second), near.limit);
         found.iter().all(keeps)
     }
 
@@ -227,7 +229,7 @@ impl Search<'_> {
             if segment.pairs == Pairs::Within {
                 balls::within(lanes, chain, &balls, blocks.start, found);
             } else {
-                balls::gather(chain, &balls, residues, &mut scratch.blocks);
+                balls::gather(lanes, chain, &balls, residues, &mut scratch.blocks);
                 let both = (&balls, &scratch.blocks);
                 if segment.pairs == Pairs::Across {
                     let middle = segment.frame / BLOCK;
