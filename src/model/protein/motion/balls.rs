@@ -20,8 +20,9 @@ impl Ball {
     /// Whether it is nearer to another than a distance.
     fn is_near(&self, other: &Ball, distance: f64) -> bool {
         let reach = self.radius + other.radius + distance;
-        // Written so that what is no number is near.
-        !((other.centre - self.centre).norm_squared() >= reach * reach)
+        // What is no number is not far.
+        let is_far = (other.centre - self.centre).norm_squared() >= reach * reach;
+        !is_far
     }
 
     /// A ball that holds some others: around the one in their middle.
@@ -114,10 +115,11 @@ pub(super) fn gather(
     with_lanes!(lanes, simd => simd.vectorize(
         #[inline(always)]
         || {
-            for block in residues.start / BLOCK..residues.end.div_ceil(BLOCK) {
+            let which = residues.start / BLOCK..residues.end.div_ceil(BLOCK);
+            for (block, around) in which.clone().zip(&mut blocks[which]) {
                 let [alphas, side_chains] = points_of(chain, block);
-                let around = Ball::around(simd, balls, side_chains);
-                blocks[block] = [Ball::around(simd, balls, alphas), around];
+                let around_alphas = Ball::around(simd, balls, alphas);
+                *around = [around_alphas, Ball::around(simd, balls, side_chains)];
             }
         },
     ));

@@ -39,7 +39,8 @@ pub(super) struct Link {
 pub(super) struct Segment {
     /// Its residues.
     pub residues: Range<usize>,
-    /// The frame's residue, a multiple of [`STRIDE`]: the frame moves with the bonds before that residue's phi, and its origin is the Cα.
+    /// The frame's residue, a multiple of [`STRIDE`]: the frame moves with the bonds before that residue's
+    /// phi, and its origin is the Cα.
     pub frame: usize,
     pub pairs: Pairs,
 }

@@ -38,8 +38,9 @@ fn piece(curve: &Cubic, greater: f64, lesser: f64, halvings: u32) -> Verdict {
     if lesser > 0.0 && ends < lesser * lesser {
         return Verdict::Close;
     }
-    // Written so that what is no number is refused.
-    if !(ends >= greater * greater) || halvings == HALVINGS_MAX {
+    // What is no number does not keep.
+    let ends_keep = ends >= greater * greater;
+    if !ends_keep || halvings == HALVINGS_MAX {
         return Verdict::Between;
     }
     let [first, second] = halves(curve);

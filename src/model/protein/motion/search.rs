@@ -47,7 +47,7 @@ pub struct MotionScratch {
 
 impl MotionScratch {
     /// Fills it with what could mislead.
-    pub(crate) fn poison(&mut self, rubbish: u64) {
+    pub fn poison(&mut self, rubbish: u64) {
         let seed = rubbish as usize % 97;
         let rubbish = if rubbish.is_multiple_of(2) { f64::NAN } else { rubbish as f64 };
         for values in [&mut self.motion.first, &mut self.motion.turns, &mut self.motion.sums] {
@@ -208,8 +208,10 @@ impl Search<'_> {
             match held(&first, &second, near.limit, error) {
                 Verdict::Apart => {}
                 Verdict::Close => return false,
-                Verdict::Between if !(error > KNOWN) => return false,
-                Verdict::Between => scratch.open.push(Open { segment, near, fourth }),
+                Verdict::Between if error > KNOWN => {
+                    scratch.open.push(Open { segment, near, fourth });
+                }
+                Verdict::Between => return false,
             }
         }
         for place in first_segment..segments_end {
@@ -250,10 +252,10 @@ impl Search<'_> {
                 match held(&ways.cubic(near.first), &second, near.limit, error) {
                     Verdict::Apart => {}
                     Verdict::Close => return false,
-                    Verdict::Between if !(error > KNOWN) => return false,
-                    Verdict::Between => {
+                    Verdict::Between if error > KNOWN => {
                         scratch.open.push(Open { segment: number, near: *near, fourth });
                     }
+                    Verdict::Between => return false,
                 }
             }
         }

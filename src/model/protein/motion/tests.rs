@@ -124,7 +124,7 @@ impl Judge {
         spare
     }
 
-    /// The least of that at the ends of equal steps, and about twice the least that a step may have missed.
+    /// The least of that at the ends of equal steps.
     fn spare_along(&self, a: &[f64], b: &[f64], steps: usize) -> f64 {
         (0..=steps)
             .map(|step| self.spare(&at(a, b, step as f64 / steps as f64)))
