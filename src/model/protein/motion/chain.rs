@@ -1,6 +1,8 @@
 //! A chain as motions see it: points that torsions carry, in blocks of residues, and segments of blocks.
 
 use super::limits::Limits;
+use crate::model::protein::atoms::ResidueAtoms;
+use crate::model::protein::kinematics::Conformer;
 use crate::model::protein::linkage::{Linkage, TorsionKind};
 use crate::structure::{Point, Residue};
 use std::ops::Range;
@@ -12,25 +14,17 @@ pub(super) const BLOCK: usize = 8;
 pub(super) const STRIDE: usize = BLOCK / 2;
 
 /// A torsion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Turning {
     /// Which degree of freedom.
     pub number: usize,
-    /// The axis in the source, of unit length.
-    pub axis: Point,
-    /// A point of the axis in the source, Å.
-    pub through: Point,
-    /// The source's value, in radians.
-    pub source: f64,
+    /// The inverse of the length of the bond that it turns about, 1/Å.
+    pub inverse: f64,
 }
 
 /// A residue: its Cα stands on the axes of both torsions, its side chain is between them.
 #[derive(Clone, Debug)]
 pub(super) struct Link {
-    /// The Cα in the source, Å from the first residue's.
-    pub alpha: Point,
-    /// The side chain's centroid in the source.
-    pub side_chain: Option<Point>,
     pub phi: Option<Turning>,
     pub psi: Option<Turning>,
     /// The numbers of torsions before phi, before psi and after psi.
@@ -45,7 +39,8 @@ pub(super) struct Link {
 pub(super) struct Segment {
     /// Its residues.
     pub residues: Range<usize>,
-    /// The frame's residue, a multiple of [`STRIDE`]: the frame moves with the bonds before that residue's phi, and its origin is the Cα.
+    /// The frame's residue, a multiple of [`STRIDE`]: the frame moves with the bonds before that residue's
+    /// phi, and its origin is the Cα.
     pub frame: usize,
     pub pairs: Pairs,
 }
@@ -64,6 +59,9 @@ pub(super) enum Pairs {
 /// A chain.
 #[derive(Clone, Debug)]
 pub(super) struct Chain {
+    pub conformer: Conformer,
+    /// The first residue's Cα, which stands still: all positions are seen from it, Å.
+    pub origin: Point,
     pub links: Vec<Link>,
     /// For each residue, and at the end: how many side chains there are before it.
     pub side_chains_before: Vec<usize>,
@@ -71,67 +69,61 @@ pub(super) struct Chain {
     pub side_chain_residues: Vec<usize>,
     pub segments: Vec<Segment>,
     pub torsions: usize,
-    /// Points that stand still with the bonds before the first torsion, Å from the first residue's Cα in the source.
-    pub obstacles: Vec<Point>,
     pub limits: Limits,
     /// Allowed for the rounding of distances, Å.
     pub rounding: f64,
 }
 
-/// Rounding errors of a position, as a share of the chain's length by torsion: a few units in the last place each.
+/// Rounding errors of a position for every torsion, as a share of the largest coordinates: a few units in the last place.
 const ROUNDING: f64 = 1e-15;
+/// More than a side chain's centroid is away from the Cα, Å.
+const SIDE_CHAIN: f64 = 20.0;
+/// Outweighs the rounding of the least distance of Cα atoms that are neighbours but one, Å.
+const FOLDS_MARGIN: f64 = 1e-6;
 
 impl Chain {
-    /// The chain of a linkage and the residues that it was made of. `None` where a residue has no Cα.
+    /// The chain of a linkage and the residues that it was made of. `None` where a residue lacks N, CA, C or O.
     pub fn of(
         linkage: &Linkage,
         residues: &[Residue],
         obstacles: &[Point],
         limits: Limits,
     ) -> Option<Chain> {
-        let origin = residues.first()?.position("CA")?;
-        let mut links: Vec<Link> = Vec::with_capacity(residues.len());
+        let conformer = Conformer::of(residues, linkage)?;
+        let atoms = conformer.atoms();
+        let mut links: Vec<Link> = Vec::with_capacity(atoms.len());
         let mut turnings = linkage.torsions.iter().enumerate().peekable();
         let mut before = 0;
-        for (number, residue) in residues.iter().enumerate() {
-            let mut turning = |kind| {
-                let (number, torsion) =
+        for (number, atoms) in atoms.iter().enumerate() {
+            let mut turning = |kind, bond: Point| {
+                let (number, _) =
                     turnings.next_if(|(_, next)| next.residue == number && next.kind == kind)?;
-                let through = torsion.through - origin;
-                let axis = torsion.axis.into_inner();
-                Some(Turning { number, axis, through, source: torsion.source })
+                Some(Turning { number, inverse: 1.0 / bond.norm() })
             };
-            let phi = turning(TorsionKind::Phi);
-            let psi = turning(TorsionKind::Psi);
+            let phi = turning(TorsionKind::Phi, atoms.ca - atoms.n);
+            let psi = turning(TorsionKind::Psi, atoms.c - atoms.ca);
             let first = before + usize::from(phi.is_some());
             let second = first + usize::from(psi.is_some());
-            links.push(Link {
-                alpha: residue.position("CA")? - origin,
-                side_chain: residue.side_chain_centroid().map(|centroid| centroid - origin),
-                phi,
-                psi,
-                before: [before, first, second],
-                folds: false,
-            });
+            links.push(Link { phi, psi, before: [before, first, second], folds: false });
             before = second;
         }
-        for next in 1..links.len().saturating_sub(1) {
-            let nearest = nearest_beyond(&links[next - 1], &links[next], &links[next + 1]);
-            links[next - 1].folds = nearest < limits.alpha + 1e-6;
+        for first in 0..links.len().saturating_sub(2) {
+            let Link { phi, psi, .. } = links[first + 1];
+            let nearest = nearest_beyond(&atoms[first..first + 3], [phi, psi]);
+            links[first].folds = nearest < limits.alpha + FOLDS_MARGIN;
         }
         let mut side_chains_before = vec![0];
         let mut side_chain_residues = Vec::new();
-        for (number, link) in links.iter().enumerate() {
-            if link.side_chain.is_some() {
+        for (number, atoms) in atoms.iter().enumerate() {
+            if atoms.centroid.is_some() {
                 side_chain_residues.push(number);
             }
             side_chains_before.push(side_chain_residues.len());
         }
-        let bonds = links.windows(2).map(|pair| (pair[1].alpha - pair[0].alpha).norm());
-        let reach = bonds.sum::<f64>()
-            + 10.0
-            + obstacles.iter().map(|obstacle| (obstacle - origin).norm()).fold(0.0, f64::max);
-        let obstacles: Vec<Point> = obstacles.iter().map(|obstacle| obstacle - origin).collect();
+        let bonds = atoms.windows(2).map(|pair| (pair[1].ca - pair[0].ca).norm());
+        let obstacles_reach = obstacles.iter().map(|obstacle| obstacle.norm()).fold(0.0, f64::max);
+        let origin = atoms.first()?.ca;
+        let reach = SIDE_CHAIN + origin.norm() + bonds.sum::<f64>() + obstacles_reach;
         let mut segments = Vec::new();
         split(0..links.len().div_ceil(BLOCK), links.len(), &mut segments);
         if !obstacles.is_empty() {
@@ -142,10 +134,11 @@ impl Chain {
             side_chain_residues,
             segments,
             torsions: linkage.torsions.len(),
-            obstacles,
             limits,
             rounding: ROUNDING * reach * (before + 10) as f64,
             links,
+            origin,
+            conformer,
         })
     }
 
@@ -160,20 +153,29 @@ impl Chain {
         (before < self.side_chains_before[residue + 1]).then(|| self.links.len() + before)
     }
 
-    /// Whether the distance of two Cα atoms, `i` before `j`, is one of those that have to be kept.
-    pub fn keeps_apart(&self, i: usize, j: usize) -> bool {
-        j > i + 2 || j == i + 2 && self.links[i].folds
+    /// The points of some residues' side chains.
+    pub fn side_chains_of(&self, residues: &Range<usize>) -> Range<usize> {
+        let point = |residue: usize| self.links.len() + self.side_chains_before[residue];
+        point(residues.start)..point(residues.end)
+    }
+
+    /// Whether nothing is asked of the distance of two points of a kind, `first` before `second`: Cα atoms that are nearly
+    /// neighbours.
+    pub fn leaves_alone(&self, first: usize, second: usize) -> bool {
+        second < self.links.len()
+            && (second < first + 2 || second == first + 2 && !self.links[first].folds)
     }
 }
 
-/// The least distance, whatever the torsions, of the Cα atoms on either side of a residue, Å.
+/// The least distance, whatever phi and psi of the middle one of three residues, of the outer ones' Cα atoms, Å.
 ///
 /// The bond back lies on a cone about the axis of phi, that forth on a cone about the axis of psi.
-fn nearest_beyond(before: &Link, link: &Link, after: &Link) -> f64 {
-    let (back, forth) = (before.alpha - link.alpha, after.alpha - link.alpha);
+fn nearest_beyond(atoms: &[ResidueAtoms], [phi, psi]: [Option<Turning>; 2]) -> f64 {
+    let middle = atoms[1];
+    let (back, forth) = (atoms[0].ca - middle.ca, atoms[2].ca - middle.ca);
     // A bond that nothing turns is a cone about itself.
-    let to_n = link.phi.as_ref().map_or(back, |phi| -phi.axis);
-    let to_c = link.psi.as_ref().map_or(forth, |psi| psi.axis);
+    let to_n = if phi.is_some() { middle.n - middle.ca } else { back };
+    let to_c = if psi.is_some() { middle.c - middle.ca } else { forth };
     let (between, one, other) = (angle(&to_n, &to_c), angle(&back, &to_n), angle(&forth, &to_c));
     let least = (between - one - other).max(one - between - other).max(other - between - one);
     let (a, b) = (back.norm(), forth.norm());

@@ -22,11 +22,6 @@ pub(super) enum Verdict {
     Between,
 }
 
-/// The cubic that has these values and derivatives at the times 0 and 1.
-pub(super) fn hermite(from: Point, leaving: Point, to: Point, arriving: Point) -> Cubic {
-    [from, from + leaving / 3.0, to - arriving / 3.0, to]
-}
-
 /// Holds the distance of the curve from the origin against `greater` and `lesser`, in Å.
 pub(super) fn verdict(curve: &Cubic, greater: f64, lesser: f64) -> Verdict {
     piece(curve, greater, lesser, 0)
@@ -43,8 +38,9 @@ fn piece(curve: &Cubic, greater: f64, lesser: f64, halvings: u32) -> Verdict {
     if lesser > 0.0 && ends < lesser * lesser {
         return Verdict::Close;
     }
-    // Written so that what is no number is refused.
-    if !(ends >= greater * greater) || halvings == HALVINGS_MAX {
+    // What is no number does not keep.
+    let ends_keep = ends >= greater * greater;
+    if !ends_keep || halvings == HALVINGS_MAX {
         return Verdict::Between;
     }
     let [first, second] = halves(curve);

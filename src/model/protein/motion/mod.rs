@@ -9,6 +9,7 @@ mod chain;
 mod cubic;
 mod curves;
 mod limits;
+mod points;
 mod profile;
 mod sample;
 mod search;
@@ -28,13 +29,12 @@ use crate::structure::{Point, Residue};
 #[derive(Clone, Debug)]
 pub struct MotionValidity {
     chain: chain::Chain,
-    /// The obstacles, group by group.
-    obstacle_groups: Vec<balls::Ball>,
+    obstacles: balls::Obstacles,
 }
 
 impl MotionValidity {
     /// Prepares the chain of a linkage and of the residues that it was made of. `obstacles` are points that stand still, in
-    /// the frame of the source. `None` where a residue has no Cα.
+    /// the frame of the source. `None` where a residue lacks N, CA, C or O.
     pub fn new(
         linkage: &Linkage,
         residues: &[Residue],
@@ -42,13 +42,15 @@ impl MotionValidity {
         limits: Limits,
     ) -> Option<MotionValidity> {
         let chain = chain::Chain::of(linkage, residues, obstacles, limits)?;
-        Some(MotionValidity { obstacle_groups: balls::groups(&chain.obstacles), chain })
+        let obstacles: Vec<Point> =
+            obstacles.iter().map(|obstacle| obstacle - chain.origin).collect();
+        Some(MotionValidity { obstacles: balls::Obstacles::new(&obstacles), chain })
     }
 
     /// Whether the motion from `a` to `b`, torsions in radians, keeps all limits at all times. Its reverse has the same
     /// verdict. Numbers that are not finite, or not as many as there are torsions, are refused.
     pub fn is_valid(&self, a: &[f64], b: &[f64], scratch: &mut MotionScratch) -> bool {
-        search::is_valid(&self.chain, &self.obstacle_groups, a, b, scratch)
+        search::is_valid(&self.chain, &self.obstacles, a, b, scratch)
     }
 
     /// Whether the limits are kept at the times k/`steps` of that motion, the ends among them, for `steps` from 1 on. What
@@ -59,6 +61,6 @@ impl MotionValidity {
         steps: usize,
         scratch: &mut MotionScratch,
     ) -> bool {
-        search::is_valid_at(&self.chain, &self.obstacle_groups, (a, b), steps.max(1), scratch)
+        search::is_valid_at(&self.chain, &self.obstacles, (a, b), steps.max(1), scratch)
     }
 }

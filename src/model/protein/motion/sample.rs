@@ -1,126 +1,171 @@
 //! Where a chain is at one time of a motion, and how fast.
 
 use super::chain::{Chain, STRIDE, Turning};
+use super::points::{Four, Points, cross, dot, minus, same};
 use super::straight::Straight;
-use crate::math;
+use crate::model::protein::placed::{Coordinates, Placed};
 use crate::structure::Point;
+use fearless_simd::prelude::*;
 use nalgebra::Matrix3;
-
-/// A position with its derivative by the time of the motion, which runs from 0 to 1. Å.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Moving {
-    pub at: Point,
-    pub velocity: Point,
-}
 
 /// A frame that moves: its origin is a residue's Cα, and it turns with the bonds before that residue's phi.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     rotation: Matrix3<f64>,
-    origin: Moving,
+    origin: Point,
+    /// The origin's velocity by the time of the motion, which runs from 0 to 1. Å.
+    velocity: Point,
     /// The angular velocity, in radians.
     spin: Point,
 }
 
+/// A frame in all lanes.
+pub(super) struct Frames<S: Simd> {
+    axes: [Four<S>; 3],
+    origin: Four<S>,
+    velocity: Four<S>,
+    spin: Four<S>,
+}
+
 impl Frame {
     /// A point as seen from the frame.
-    pub fn sees(&self, point: &Moving) -> Moving {
-        let away = point.at - self.origin.at;
-        let drift = point.velocity - self.origin.velocity - self.spin.cross(&away);
-        Moving { at: self.rotation.tr_mul(&away), velocity: self.rotation.tr_mul(&drift) }
+    #[cfg(test)]
+    pub fn sees(&self, point: &Point) -> Point {
+        self.rotation.tr_mul(&(point - self.origin))
+    }
+
+    #[inline(always)]
+    pub fn in_lanes<S: Simd>(&self, simd: S) -> Frames<S> {
+        Frames {
+            axes: [
+                same(simd, &self.rotation.column(0).into()),
+                same(simd, &self.rotation.column(1).into()),
+                same(simd, &self.rotation.column(2).into()),
+            ],
+            origin: same(simd, &self.origin),
+            velocity: same(simd, &self.velocity),
+            spin: same(simd, &self.spin),
+        }
+    }
+}
+
+impl<S: Simd> Frames<S> {
+    /// Points and their velocities as seen from the frame.
+    #[inline(always)]
+    pub fn see(&self, points: &Four<S>, velocities: &Four<S>) -> [Four<S>; 2] {
+        let away = minus(points, &self.origin);
+        let drift = minus(&minus(velocities, &self.velocity), &cross(&self.spin, &away));
+        let [x, y, z] = &self.axes;
+        [
+            [dot(x, &away), dot(y, &away), dot(z, &away)],
+            [dot(x, &drift), dot(y, &drift), dot(z, &drift)],
+        ]
     }
 }
 
 /// A chain at one time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sample {
-    /// The points, Cα atoms first, as seen from the bonds before the first torsion.
-    pub points: Vec<Moving>,
+    /// The points, Cα atoms first, in the source's frame but from the chain's origin.
+    pub points: Points,
+    /// Their velocities.
+    pub velocities: Points,
     /// The frames of the residues that are multiples of [`STRIDE`].
     frames: Vec<Frame>,
 }
 
-/// A body on its way: x ↦ rotation · x + shift, with the velocity spin × x + drift of what it carries to x.
-struct Body {
-    rotation: Matrix3<f64>,
-    shift: Point,
+/// Working memory for placing.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Stage {
+    torsions: Vec<f64>,
+    placed: Option<Placed>,
+}
+
+impl Stage {
+    /// Fills it with what could mislead.
+    pub fn poison(&mut self) {
+        self.torsions.push(f64::NAN);
+        self.placed.iter_mut().for_each(Placed::poison);
+    }
+}
+
+/// How what is carried moves: a point at x has the velocity spin × x + drift.
+#[derive(Clone, Copy)]
+struct Twist {
     spin: Point,
     drift: Point,
 }
 
-impl Body {
-    fn carry(&self, point: &Point) -> Moving {
-        let at = self.rotation * point + self.shift;
-        Moving { at, velocity: self.spin.cross(&at) + self.drift }
+impl Twist {
+    fn velocity(&self, at: &Point) -> Point {
+        self.spin.cross(at) + self.drift
     }
 
-    /// Passes a torsion that has turned by `angle` and turns by `rate`.
-    fn pass(&mut self, turning: &Turning, angle: f64, rate: f64) {
-        let axis = self.rotation * turning.axis;
-        let through = self.rotation * turning.through + self.shift;
-        self.rotation *= rotation(&turning.axis, math::sin(angle), math::cos(angle));
-        self.shift = through - self.rotation * turning.through;
-        let spin = axis * rate;
+    /// Passes a torsion about a bond that begins or ends at `through`.
+    fn pass(&mut self, turning: &Option<Turning>, motion: &Straight, bond: Point, through: &Point) {
+        let Some(Turning { number, inverse }) = turning else { return };
+        let spin = bond * (inverse * motion.turns[*number]);
         self.spin += spin;
-        self.drift -= spin.cross(&through);
+        self.drift -= spin.cross(through);
     }
-}
-
-/// Rotation about a vector of unit length by the angle that has this sine and cosine (Rodrigues).
-fn rotation(axis: &Point, sin: f64, cos: f64) -> Matrix3<f64> {
-    let (x, y, z) = (axis.x, axis.y, axis.z);
-    let t = 1.0 - cos;
-    Matrix3::new(
-        cos + t * x * x,
-        t * x * y - sin * z,
-        t * x * z + sin * y,
-        t * x * y + sin * z,
-        cos + t * y * y,
-        t * y * z - sin * x,
-        t * x * z - sin * y,
-        t * y * z + sin * x,
-        cos + t * z * z,
-    )
 }
 
 impl Sample {
     /// Places the chain at a time of a motion.
-    pub fn place(&mut self, chain: &Chain, motion: &Straight, time: f64) {
-        let mut body = Body {
-            rotation: Matrix3::identity(),
-            shift: Point::zeros(),
-            spin: Point::zeros(),
-            drift: Point::zeros(),
-        };
-        let nowhere = Moving { at: Point::zeros(), velocity: Point::zeros() };
-        self.points.clear();
-        self.points.resize(chain.points(), nowhere);
-        self.frames.clear();
-        for (residue, link) in chain.links.iter().enumerate() {
-            let alpha = body.carry(&link.alpha);
-            self.points[residue] = alpha;
-            if residue % STRIDE == 0 {
-                let Body { rotation, spin, .. } = body;
-                self.frames.push(Frame { rotation, origin: alpha, spin });
-            }
-            let pass = |body: &mut Body, turning: &Turning| {
-                let angle = motion.torsion(turning.number, time) - turning.source;
-                body.pass(turning, angle, motion.turns[turning.number]);
-            };
-            if let Some(phi) = &link.phi {
-                pass(&mut body, phi);
-            }
-            if let (Some(side_chain), Some(point)) = (&link.side_chain, chain.side_chain(residue)) {
-                self.points[point] = body.carry(side_chain);
-            }
-            if let Some(psi) = &link.psi {
-                pass(&mut body, psi);
-            }
+    pub fn place(&mut self, chain: &Chain, motion: &Straight, time: f64, stage: &mut Stage) {
+        stage.torsions.clear();
+        stage.torsions.extend(motion.torsions(time));
+        let mut placed = stage.placed.take();
+        // Memory of another chain is no use.
+        if placed.as_ref().is_none_or(|placed| placed.len() != chain.links.len()) {
+            placed = None;
         }
+        let mut placed = placed.unwrap_or_else(|| chain.conformer.placed());
+        chain.conformer.place(&stage.torsions, &mut placed);
+        self.points.resize(chain.points());
+        self.velocities.resize(chain.points());
+        self.frames.clear();
+        let mut twist = Twist { spin: Point::zeros(), drift: Point::zeros() };
+        for (residue, link) in chain.links.iter().enumerate() {
+            let at = |atoms: &Coordinates, residue| atoms.at(residue) - chain.origin;
+            let (n, alpha) = (at(&placed.n, residue), at(&placed.ca, residue));
+            let c = at(&placed.c, residue);
+            let velocity = twist.velocity(&alpha);
+            self.put(residue, alpha, velocity);
+            if residue % STRIDE == 0 {
+                let rotation = match residue.checked_sub(1) {
+                    // What is before the first torsion stands still.
+                    None => Matrix3::identity(),
+                    Some(before) => axes(&(alpha - n), &(at(&placed.c, before) - n)),
+                };
+                let spin = twist.spin;
+                self.frames.push(Frame { rotation, origin: alpha, velocity, spin });
+            }
+            twist.pass(&link.phi, motion, alpha - n, &alpha);
+            if let Some(point) = chain.side_chain(residue) {
+                let centroid = at(&placed.centroid, residue);
+                self.put(point, centroid, twist.velocity(&centroid));
+            }
+            twist.pass(&link.psi, motion, c - alpha, &alpha);
+        }
+        stage.placed = Some(placed);
+    }
+
+    fn put(&mut self, point: usize, at: Point, velocity: Point) {
+        self.points.put(point, at);
+        self.velocities.put(point, velocity);
     }
 
     /// The frame of a residue, a multiple of [`STRIDE`].
     pub fn frame(&self, residue: usize) -> &Frame {
         &self.frames[residue / STRIDE]
     }
+}
+
+/// The axes of a frame in which two vectors stand still: the columns.
+fn axes(one: &Point, other: &Point) -> Matrix3<f64> {
+    let x = one / one.norm();
+    let z = one.cross(other);
+    let z = z / z.norm();
+    Matrix3::from_columns(&[x, z.cross(&x), z])
 }

@@ -1,11 +1,13 @@
 //! The search for a time at which two points are too near.
 
-use super::balls::{Ball, Balls, Near};
-use super::chain::{BLOCK, Chain, Pairs};
+use super::balls::{self, Balls, Blocks, Near, Obstacles};
+use super::chain::{BLOCK, Chain, Pairs, Segment};
 use super::cubic::{self, Cubic, Verdict};
-use super::curves::{self, Part, TURN_MAX, Way};
-use super::sample::Sample;
+use super::curves::{self, Part, TURN_MAX, Ways};
+use super::points;
+use super::sample::{Sample, Stage};
 use super::straight::Straight;
+use crate::lanes::Lanes;
 use crate::structure::Point;
 
 /// A motion is refused if points come nearer than their limit and this, Å.
@@ -32,32 +34,38 @@ pub struct MotionScratch {
     motion: Straight,
     /// The chain at the motion's ends, then at the middle of every part that is being looked at.
     samples: Vec<Sample>,
-    ways: Vec<Way>,
-    balls: Balls,
+    stage: Stage,
+    ways: Ways,
+    /// The radii of points at one time.
+    nothing: Vec<f64>,
+    blocks: Blocks,
+    near: Vec<Near>,
     /// Segments that are still to be looked at, and pairs: those of the part at hand are the last.
     segments: Vec<usize>,
     open: Vec<Open>,
 }
 
 impl MotionScratch {
-    /// Fills it with what could mislead: for tests of the law that it never does.
-    pub fn poison(&mut self, seed: u64) {
-        let rubbish = if seed % 2 == 0 { f64::NAN } else { seed as f64 };
-        let point = Point::new(rubbish, 1.0, -rubbish);
+    /// Fills it with what could mislead.
+    pub fn poison(&mut self, rubbish: u64) {
+        let seed = rubbish as usize % 97;
+        let rubbish = if rubbish.is_multiple_of(2) { f64::NAN } else { rubbish as f64 };
         for values in [&mut self.motion.first, &mut self.motion.turns, &mut self.motion.sums] {
             values.fill(rubbish);
             values.push(rubbish);
         }
-        for moving in self.samples.iter_mut().flat_map(|sample| &mut sample.points) {
-            (moving.at, moving.velocity) = (point, point);
+        for sample in &mut self.samples {
+            sample.points.fill(rubbish);
+            sample.velocities.fill(rubbish);
         }
-        self.samples.truncate(1 + seed as usize % 4);
-        self.ways.fill(Way { cubic: [point; 4], fourth: rubbish });
-        self.ways.truncate(seed as usize % 50);
-        self.balls.of_points.fill(Ball { centre: point, radius: rubbish });
-        self.balls.of_points.extend([Ball { centre: point, radius: rubbish }; 7]);
-        self.segments.push(seed as usize);
+        self.stage.poison();
+        self.samples.truncate(1 + seed % 4);
+        self.ways.poison(rubbish);
+        self.nothing.push(rubbish);
+        self.blocks.truncate(seed % 3);
         let near = Near { first: 1 << 40, second: 1 << 40, limit: rubbish };
+        self.near.push(near);
+        self.segments.push(seed);
         self.open.push(Open { segment: 1 << 40, near, fourth: rubbish });
     }
 }
@@ -75,7 +83,7 @@ struct Stretch {
 /// Whether the chain keeps its limits during the whole of the motion from `a` to `b`.
 pub(super) fn is_valid(
     chain: &Chain,
-    obstacle_groups: &[Ball],
+    obstacles: &Obstacles,
     a: &[f64],
     b: &[f64],
     scratch: &mut MotionScratch,
@@ -83,7 +91,7 @@ pub(super) fn is_valid(
     if a.len() != chain.torsions || b.len() != chain.torsions || !scratch.motion.set(a, b) {
         return false;
     }
-    let mut search = Search { chain, obstacle_groups, scratch };
+    let mut search = Search { chain, obstacles, lanes: Lanes::widest(), scratch };
     search.place(2, 0.5);
     if !search.keeps_apart(2) {
         return false;
@@ -93,8 +101,7 @@ pub(super) fn is_valid(
     search.scratch.segments.clear();
     search.scratch.open.clear();
     search.scratch.segments.extend(0..chain.segments.len());
-    let nowhere = Way { cubic: [Point::zeros(); 4], fourth: 0.0 };
-    search.scratch.ways.resize(chain.points(), nowhere);
+    search.scratch.ways.resize(chain.points());
     let whole = Stretch { from: 0, to: 1, start: 0.0, length: 1.0, halvings: 0 };
     search.part(whole, 0, 0)
 }
@@ -102,7 +109,7 @@ pub(super) fn is_valid(
 /// Whether the chain keeps its limits at the times k/`steps` of that motion, the ends among them.
 pub(super) fn is_valid_at(
     chain: &Chain,
-    obstacle_groups: &[Ball],
+    obstacles: &Obstacles,
     (a, b): (&[f64], &[f64]),
     steps: usize,
     scratch: &mut MotionScratch,
@@ -110,7 +117,7 @@ pub(super) fn is_valid_at(
     if a.len() != chain.torsions || b.len() != chain.torsions || !scratch.motion.set(a, b) {
         return false;
     }
-    let mut search = Search { chain, obstacle_groups, scratch };
+    let mut search = Search { chain, obstacles, lanes: Lanes::widest(), scratch };
     let mut keeps_at = |step: usize| {
         search.place(2, step as f64 / steps as f64);
         search.keeps_apart(2)
@@ -128,7 +135,8 @@ pub(super) fn is_valid_at(
 
 struct Search<'a> {
     chain: &'a Chain,
-    obstacle_groups: &'a [Ball],
+    obstacles: &'a Obstacles,
+    lanes: Lanes,
     scratch: &'a mut MotionScratch,
 }
 
@@ -139,34 +147,48 @@ impl Search<'_> {
         if scratch.samples.len() <= sample {
             scratch.samples.resize_with(sample + 1, Sample::default);
         }
-        scratch.samples[sample].place(self.chain, &scratch.motion, time);
+        let stage = &mut scratch.stage;
+        scratch.samples[sample].place(self.chain, &scratch.motion, time, stage);
     }
 
     /// Whether the points of a sample keep apart.
     fn keeps_apart(&mut self, sample: usize) -> bool {
-        let (chain, balls) = (self.chain, &mut self.scratch.balls);
-        let points = &self.scratch.samples[sample].points;
-        balls.of_points.clear();
-        balls.of_points.extend(points.iter().map(|point| Ball { centre: point.at, radius: 0.0 }));
-        balls.gather(chain, &(0..chain.links.len()));
+        let Search { chain, lanes, obstacles, .. } = *self;
+        let scratch = &mut *self.scratch;
+        let points = &scratch.samples[sample].points;
+        scratch.nothing.clear();
+        points::resize(&mut scratch.nothing, chain.points());
+        let balls = Balls { centres: points, radii: &scratch.nothing };
+        balls::gather(lanes, chain, &balls, &(0..chain.links.len()), &mut scratch.blocks);
+        let (found, blocks) = (&mut scratch.near, &scratch.blocks);
         let far = |first: Point, second: Point, limit: f64| {
             let least = limit - 2.0 * chain.rounding;
             (second - first).norm_squared() >= least * least
         };
-        let mut keeps = |near: Near| far(points[near.first].at, points[near.second].at, near.limit);
-        let blocks = chain.links.len().div_ceil(BLOCK);
-        (0..blocks).all(|block| {
-            balls.within(chain, block, &mut keeps)
-                && balls.across(chain, [block..block + 1, block + 1..blocks], &mut keeps)
-        }) && balls.obstacles(chain, &chain.obstacles, self.obstacle_groups, &mut |near| {
-            far(points[near.first].at, chain.obstacles[near.second], near.limit)
-        })
+        found.clear();
+        for block in 0..blocks.len() {
+            balls::within(lanes, chain, &balls, block, found);
+            let others = [block..block + 1, block + 1..blocks.len()];
+            balls::across(lanes, chain, (&balls, blocks), others, found);
+            let keeps = |near: &Near| {
+                chain.leaves_alone(near.first, near.second)
+                    || far(points.at(near.first), points.at(near.second), near.limit)
+            };
+            if !found.iter().all(keeps) {
+                return false;
+            }
+            found.clear();
+        }
+        balls::obstacles(lanes, chain, (&balls, blocks), obstacles, found);
+        let keeps =
+            |near: &Near| far(points.at(near.first), obstacles.points.at(near.second), near.limit);
+        found.iter().all(keeps)
     }
 
     /// Whether all keep apart during a part, of the segments and pairs from these places of the lists on. The lists are
     /// left as long as they were up to there.
     fn part(&mut self, stretch: Stretch, first_segment: usize, first_open: usize) -> bool {
-        let chain = self.chain;
+        let Search { chain, lanes, obstacles, .. } = *self;
         let scratch = &mut *self.scratch;
         let samples = [stretch.from, stretch.to].map(|sample| &scratch.samples[sample]);
         let part = Part { length: stretch.length, from: samples[0], to: samples[1] };
@@ -174,19 +196,22 @@ impl Search<'_> {
         let (segments_end, open_end) = (scratch.segments.len(), scratch.open.len());
         for place in first_open..open_end {
             let Open { segment, near, fourth } = scratch.open[place];
-            let frame = chain.segments[segment].frame;
+            let Segment { frame, pairs, .. } = chain.segments[segment];
             let frames = samples.map(|sample| sample.frame(frame));
-            let first = curves::cubic(&part, frames, near.first);
-            let second = match chain.segments[segment].pairs {
-                Pairs::Obstacles => [chain.obstacles[near.second]; 4],
-                _ => curves::cubic(&part, frames, near.second),
+            let mut way = |point| scratch.ways.cubic_of(lanes, &part, frames, point);
+            let first = way(near.first);
+            let second = match pairs {
+                Pairs::Obstacles => [obstacles.points.at(near.second); 4],
+                _ => way(near.second),
             };
             let error = curves::leaves_cubic(fourth, stretch.length) + chain.rounding;
             match held(&first, &second, near.limit, error) {
                 Verdict::Apart => {}
                 Verdict::Close => return false,
-                Verdict::Between if !(error > KNOWN) => return false,
-                Verdict::Between => scratch.open.push(Open { segment, near, fourth }),
+                Verdict::Between if error > KNOWN => {
+                    scratch.open.push(Open { segment, near, fourth });
+                }
+                Verdict::Between => return false,
             }
         }
         for place in first_segment..segments_end {
@@ -196,51 +221,42 @@ impl Search<'_> {
                 scratch.segments.push(number);
                 continue;
             }
-            curves::find(chain, segment, &scratch.motion, &part, &mut scratch.ways);
-            let ways = &scratch.ways;
-            let of_points = &mut scratch.balls.of_points;
-            let nothing = Ball { centre: Point::zeros(), radius: 0.0 };
-            of_points.resize(chain.points(), nothing);
-            let side_chain = |residue: usize| chain.links.len() + chain.side_chains_before[residue];
+            let ways = &mut scratch.ways;
+            curves::find(lanes, chain, segment, &scratch.motion, &part, ways);
+            let found = &mut scratch.near;
+            found.clear();
+            let balls = Balls { centres: &ways.centres, radii: &ways.radii };
             let residues = &segment.residues;
-            let side_chains = side_chain(residues.start)..side_chain(residues.end);
-            for point in residues.clone().chain(side_chains) {
-                of_points[point] = ball(&ways[point], stretch.length, chain.rounding);
-            }
-            scratch.balls.gather(chain, residues);
-            let open = &mut scratch.open;
-            let mut look = |near: Near, second: &Cubic, fourth: f64| {
-                let fourth = fourth + ways[near.first].fourth;
-                let error = curves::leaves_cubic(fourth, stretch.length) + chain.rounding;
-                match held(&ways[near.first].cubic, second, near.limit, error) {
-                    Verdict::Apart => true,
-                    Verdict::Close => false,
-                    Verdict::Between if !(error > KNOWN) => false,
-                    Verdict::Between => {
-                        open.push(Open { segment: number, near, fourth });
-                        true
-                    }
-                }
-            };
-            let mut look_at_points =
-                |near: Near| look(near, &ways[near.second].cubic, ways[near.second].fourth);
             let blocks = residues.start / BLOCK..residues.end.div_ceil(BLOCK);
-            let middle = segment.frame / BLOCK;
-            let keeps = match segment.pairs {
-                Pairs::Within => scratch.balls.within(chain, blocks.start, &mut look_at_points),
-                Pairs::Across => {
+            if segment.pairs == Pairs::Within {
+                balls::within(lanes, chain, &balls, blocks.start, found);
+            } else {
+                balls::gather(lanes, chain, &balls, residues, &mut scratch.blocks);
+                let both = (&balls, &scratch.blocks);
+                if segment.pairs == Pairs::Across {
+                    let middle = segment.frame / BLOCK;
                     let sides = [blocks.start..middle, middle..blocks.end];
-                    scratch.balls.across(chain, sides, &mut look_at_points)
+                    balls::across(lanes, chain, both, sides, found);
+                } else {
+                    balls::obstacles(lanes, chain, both, obstacles, found);
                 }
-                Pairs::Obstacles => scratch.balls.obstacles(
-                    chain,
-                    &chain.obstacles,
-                    self.obstacle_groups,
-                    &mut |near| look(near, &[chain.obstacles[near.second]; 4], 0.0),
-                ),
-            };
-            if !keeps {
-                return false;
+            }
+            for near in found {
+                let (second, own) = match segment.pairs {
+                    Pairs::Obstacles => ([obstacles.points.at(near.second); 4], 0.0),
+                    _ if chain.leaves_alone(near.first, near.second) => continue,
+                    _ => (ways.cubic(near.second), ways.fourth(near.second)),
+                };
+                let fourth = ways.fourth(near.first) + own;
+                let error = curves::leaves_cubic(fourth, stretch.length) + chain.rounding;
+                match held(&ways.cubic(near.first), &second, near.limit, error) {
+                    Verdict::Apart => {}
+                    Verdict::Close => return false,
+                    Verdict::Between if error > KNOWN => {
+                        scratch.open.push(Open { segment: number, near: *near, fourth });
+                    }
+                    Verdict::Between => return false,
+                }
             }
         }
         let keeps = self.halves(stretch, segments_end, open_end);
@@ -271,14 +287,6 @@ impl Search<'_> {
         let order = if middle < 0.5 { [late, early] } else { [early, late] };
         order.into_iter().all(|half| self.part(half, first_segment, first_open))
     }
-}
-
-/// The ball around a way.
-fn ball(way: &Way, length: f64, rounding: f64) -> Ball {
-    let cubic = &way.cubic;
-    let centre = (cubic[0] + cubic[3]) * 0.5;
-    let reach = cubic.iter().map(|point| (point - centre).norm_squared()).fold(0.0, f64::max);
-    Ball { centre, radius: reach.sqrt() + curves::leaves_cubic(way.fourth, length) + rounding }
 }
 
 /// Holds the ways of two points against their limit: each leaves its cubic so that together they err by `error`.

@@ -40,8 +40,8 @@ impl Straight {
         sum.is_finite() && self.first.iter().all(|value| value.is_finite())
     }
 
-    /// A torsion at a time.
-    pub fn torsion(&self, number: usize, time: f64) -> f64 {
-        self.first[number] + time * self.turns[number]
+    /// The torsions at a time.
+    pub fn torsions(&self, time: f64) -> impl Iterator<Item = f64> {
+        self.first.iter().zip(&self.turns).map(move |(first, turn)| first + time * turn)
     }
 }

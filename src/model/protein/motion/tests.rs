@@ -2,10 +2,11 @@
 
 use super::chain::{Chain, Pairs};
 use super::cubic::{self, Verdict};
-use super::curves::{self, Part, TURN_MAX, Way};
-use super::sample::Sample;
+use super::curves::{self, Part, TURN_MAX, Ways};
+use super::sample::{Sample, Stage};
 use super::straight::Straight;
 use super::*;
+use crate::lanes::Lanes;
 use crate::math;
 use crate::structure::{AminoAcid, Atom, ResidueNumber};
 
@@ -59,7 +60,13 @@ fn alanines(torsions: &[[f64; 3]]) -> Vec<Residue> {
             number: ResidueNumber { number: number as i32 + 1, insertion: None },
             name: "ALA".into(),
             amino_acid: Some(AminoAcid::Alanine),
-            atoms: vec![atom("N", n), atom("CA", alpha), atom("C", c), atom("CB", beta)],
+            atoms: vec![
+                atom("N", n),
+                atom("CA", alpha),
+                atom("C", c),
+                atom("O", beyond([n, alpha, c], 1.231, 120.1, psi + 180.0)),
+                atom("CB", beta),
+            ],
         });
         let next = beyond([n, alpha, c], 1.329, 117.2, *psi);
         let next_alpha = beyond([alpha, c, next], 1.458, 121.7, *omega);
@@ -117,7 +124,7 @@ impl Judge {
         spare
     }
 
-    /// The least of that at the ends of equal steps, and about twice the least that a step may have missed.
+    /// The least of that at the ends of equal steps.
     fn spare_along(&self, a: &[f64], b: &[f64], steps: usize) -> f64 {
         (0..=steps)
             .map(|step| self.spare(&at(a, b, step as f64 / steps as f64)))
@@ -186,6 +193,53 @@ fn bonds_that_cross_have_ends_that_are_near() {
     }
 }
 
+/// A hairpin whose turn swings one strand through the other: both ends keep the rules of nodes, Cα atoms 3.0 Å and side
+/// chains 2.4 Å apart, and half way a bond of one strand goes through a bond of the other.
+#[test]
+fn strands_are_not_pulled_through_one_another() {
+    let mut torsions = vec![[-120.0, 130.0, 180.0]; 21];
+    torsions[9] = [160.0, 70.0, 180.0];
+    torsions[10] = [100.0, 5.0, 180.0];
+    torsions[11] = [125.0, 15.0, 180.0];
+    let residues = alanines(&torsions);
+    let limits = Limits::of(&alphas(&residues));
+    let nodes = Limits { alpha: 3.0, side_chain: 2.4, ..limits };
+    let judge = Judge::of(&residues, &[], nodes);
+    // Psi of the turn's middle residue.
+    let source = judge.linkage.source();
+    let ends = [-40.0f64, 40.0].map(|swing| {
+        let mut q = source.clone();
+        q[20] = math::wrap_angle(q[20] + swing.to_radians());
+        q
+    });
+    // On which side of the bond from residue 6 that from residue 13 passes, as a volume, and how near.
+    let passes = |q: &[f64]| {
+        let motions = judge.linkage.motions(q);
+        let at = |residue: usize| {
+            let (_, _, point, body) = judge
+                .points
+                .iter()
+                .find(|(is_alpha, number, ..)| *is_alpha && *number == residue)
+                .unwrap();
+            motions[*body].apply(point)
+        };
+        let (one, other) = (at(7) - at(6), at(14) - at(13));
+        let normal = one.cross(&other);
+        (at(13) - at(6)).dot(&normal) / normal.norm()
+    };
+    let [a, b] = &ends;
+    assert!(judge.spare(a) > 0.0 && judge.spare(b) > 0.0);
+    assert!(passes(a) * passes(b) < 0.0 && passes(&source).abs() < 0.1);
+    let scratch = &mut MotionScratch::default();
+    // Also where side chains do not count.
+    for limits in [limits, Limits { side_chain: 0.0, ..limits }] {
+        let judge = Judge::of(&residues, &[], limits);
+        let validity = judge.validity(&residues);
+        assert!(validity.is_valid_at((a, b), 1, scratch), "both ends are valid");
+        assert!(!validity.is_valid(a, b, scratch) && !validity.is_valid(b, a, scratch));
+    }
+}
+
 #[test]
 fn cubics_are_held_against_distances() {
     let numbers = &mut Numbers(2);
@@ -232,32 +286,44 @@ fn ways_keep_to_their_cubics_as_bounded_and_bounds_are_not_idle() {
         let mut motion = Straight::default();
         assert!(motion.set(&a, &b));
         let mut samples = [(); 3].map(|()| Sample::default());
+        let stage = &mut Stage::default();
         for segment in &chain.segments {
             let length = (TURN_MAX / curves::turn(&chain, segment, &motion)).min(1.0);
             let start = 0.5 * (1.0 - length) * (1.0 + numbers.signed());
             let [from, to, between] = &mut samples;
-            from.place(&chain, &motion, start);
-            to.place(&chain, &motion, start + length);
+            from.place(&chain, &motion, start, stage);
+            to.place(&chain, &motion, start + length, stage);
             let part = Part { length, from, to };
-            let mut ways = vec![Way { cubic: [Point::zeros(); 4], fourth: 0.0 }; chain.points()];
-            curves::find(&chain, segment, &motion, &part, &mut ways);
+            let mut ways = Ways::default();
+            ways.resize(chain.points());
+            curves::find(Lanes::widest(), &chain, segment, &motion, &part, &mut ways);
+            for lanes in Lanes::all() {
+                let mut same = Ways::default();
+                same.resize(chain.points());
+                curves::find(lanes, &chain, segment, &motion, &part, &mut same);
+                for point in segment.residues.clone() {
+                    assert_eq!(same.cubic(point), ways.cubic(point), "{lanes:?}");
+                    assert_eq!(same.fourth(point), ways.fourth(point), "{lanes:?}");
+                    assert_eq!(same.radii[point], ways.radii[point], "{lanes:?}");
+                }
+            }
             for k in 1..4 {
                 let s = k as f64 / 4.0;
-                between.place(&chain, &motion, start + s * length);
+                between.place(&chain, &motion, start + s * length, stage);
                 let frame = between.frame(segment.frame);
                 let points = segment.residues.clone().flat_map(|residue| {
                     [Some(residue), chain.side_chain(residue)].into_iter().flatten()
                 });
                 for point in points {
-                    let seen = frame.sees(&between.points[point]).at;
-                    let Way { cubic: c, fourth } = &ways[point];
+                    let seen = frame.sees(&between.points.at(point));
+                    let (c, fourth) = (ways.cubic(point), ways.fourth(point));
                     let r = 1.0 - s;
                     let expected = c[0] * (r * r * r)
                         + c[1] * (3.0 * r * r * s)
                         + c[2] * (3.0 * r * s * s)
                         + c[3] * (s * s * s);
                     let (off, bound) =
-                        ((seen - expected).norm(), curves::leaves_cubic(*fourth, length));
+                        ((seen - expected).norm(), curves::leaves_cubic(fourth, length));
                     assert!(off <= bound + 1e-10, "{off} {bound} {segment:?}");
                     if bound > 1e-6 {
                         nearest_to_bound = nearest_to_bound.max(off / bound);
