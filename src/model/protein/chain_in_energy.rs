@@ -3,6 +3,7 @@
 use super::atoms::ResidueAtoms;
 use super::energy::{ConstraintKind, Constraints, Hydrophobic, Mixture, carried_over, constraints_of};
 use super::kinematics::Conformer;
+use super::linkage::Linkage;
 use super::motion::{Limits as MotionLimits, MotionScratch, MotionValidity, Profile, profile};
 use super::placed::Placed;
 use super::validity::{Counts, Limits, Obstacles, Screen, Violation};
@@ -62,7 +63,7 @@ impl ChainInEnergy {
         let heavy = atoms.filter(|atom| atom.is_heavy());
         let obstacles = Obstacles { points: heavy.map(|atom| atom.position).collect() };
         let limits = protein.rules.at_nodes();
-        let along = motion_limits(protein);
+        let along = motion_limits(protein, &linkage);
         let motions = MotionValidity::new(&linkage, &protein.source, &obstacles.points, along)
             .expect("a sound description has all Cα");
         ChainInEnergy {
@@ -129,12 +130,13 @@ impl ChainInEnergy {
     }
 }
 
-/// What holds along motions.
-fn motion_limits(protein: &Protein) -> MotionLimits {
+/// What holds along motions. Across a gap there is no virtual bond.
+fn motion_limits(protein: &Protein, linkage: &Linkage) -> MotionLimits {
     let alphas: Vec<Point> =
         protein.source.iter().filter_map(|residue| residue.position("CA")).collect();
-    let bonds = alphas.windows(2).map(|pair| (pair[1] - pair[0]).norm());
-    let limits = protein.rules.along_motions(bonds.fold(0.0, f64::max));
+    let bonds = alphas.windows(2).enumerate().filter(|(at, _)| !linkage.gaps.contains(at));
+    let lengths = bonds.map(|(_, pair)| (pair[1] - pair[0]).norm());
+    let limits = protein.rules.along_motions(lengths.fold(0.0, f64::max));
     MotionLimits {
         alpha: limits.alpha_carbons,
         side_chain: limits.side_chains,
@@ -185,7 +187,7 @@ impl Model for ChainInEnergy {
             return Validity::OutOfBounds;
         }
         let placed = self.placed(q, &mut scratch.placed);
-        let is_valid = self.limits.first_violation(placed, &self.obstacles, &mut scratch.screen).is_none()
+        let is_valid = self.limits.is_valid(placed, &self.obstacles, &mut scratch.screen)
             && (self.highest.is_none() || self.is_allowed(self.energy.energy(placed)));
         if is_valid { Validity::Valid } else { Validity::Invalid }
     }
