@@ -22,7 +22,9 @@ use std::collections::BTreeSet;
 ///    are not joined; the `cycles` nearest of each node are tried in any case, so that the roadmap gets ways around.
 /// 2. Each new component, by its smallest node id, and the `components` components of the roadmap whose centres are
 ///    nearest, then as many of the round's earlier sets: while the two are not joined, their `pairs` closest
-///    pairs of nodes.
+///    pairs of nodes. A component of at most [`SMALL`] nodes that step 1 has joined to anything is passed over: where
+///    sets fall into many such components, as in narrow mazes, half of the time would go into motions between closest
+///    pairs, which are long and mostly blocked.
 ///
 /// What counts as joined is what this increment's own edges join, directly or by way of others, since a join's
 /// inputs are frozen.
@@ -45,6 +47,9 @@ pub struct NodesAndComponents {
     #[serde(default = "default_planners")]
     pub planners: Vec<Planner>,
 }
+
+/// The most nodes of a component that looks at no components once its nearest nodes have joined it to the roadmap.
+pub const SMALL: usize = 3;
 
 fn default_cycles() -> u32 {
     1
@@ -83,8 +88,13 @@ impl Among for NodesAndComponents {
         }
         for component in candidates.new_components() {
             let count = self.components as usize;
+            let own = candidates.new.first + component.name.0;
+            // What is united is named by its smallest node id, so that a smaller name is that of something older.
+            if component.members.len() <= SMALL && joined.root(own) < candidates.new.first {
+                continue;
+            }
             for old in candidates.nearest_components(cx, component, count) {
-                let sides = [old, candidates.new.first + component.name.0];
+                let sides = [old, own];
                 if joined.same(sides) {
                     continue;
                 }
