@@ -81,7 +81,9 @@ fn main() {
         let names = ["1PGA.pdb", "1MI0.pdb", "1BDD.pdb", "1CFD.pdb", "1CLL.pdb"];
         files = names.map(|name| data.join("structures").join(name).display().to_string()).into();
     }
-    println!("| structure | noise | kT above native, 5 %, 50 %, 95 % | without E_hp | keep all rules |");
+    println!(
+        "| structure | noise | kT above native, 5 %, 50 %, 95 % | without E_hp | keep all rules |"
+    );
     println!("| --- | --- | --- | --- | --- |");
     for file in &files {
         let (path, residues) = match file.split_once(".pdb:") {
@@ -103,7 +105,8 @@ fn table(name: &str, pair: &Pair, draws: usize) {
         let mut energies = [Vec::new(), Vec::new()];
         let mut valid = 0;
         for _ in 0..draws {
-            let turn = |value: &f64| math::wrap_angle(value + stream.normal() * degrees * PI / 180.0);
+            let turn =
+                |value: &f64| math::wrap_angle(value + stream.normal() * degrees * PI / 180.0);
             let q: Vec<f64> = native.iter().map(turn).collect();
             let (above, is_valid) = pair.judge(&q, scratch);
             energies.iter_mut().zip(above).for_each(|(all, one)| all.push(one));

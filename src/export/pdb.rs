@@ -27,14 +27,17 @@ impl RoadmapFormat for Pdb {
     fn files(&self, exported: &Exported) -> Result<Vec<ExportFile>, CannotExport> {
         let Exported { problem, roadmap, path } = *exported;
         let molecule = problem.model.description().molecule();
-        let molecule = molecule.ok_or_else(|| CannotExport("this model is no molecule".to_owned()))?;
+        let molecule =
+            molecule.ok_or_else(|| CannotExport("this model is no molecule".to_owned()))?;
         let configs: Vec<&[f64]> = match path {
             Some(path) => path.configs.iter().collect(),
             None => roadmap.configs().iter().collect(),
         };
         if configs.len() > MODELS_MAX {
             let found = configs.len();
-            return Err(CannotExport(format!("{found} models found; at most {MODELS_MAX} fit into a PDB file")));
+            return Err(CannotExport(format!(
+                "{found} models found; at most {MODELS_MAX} fit into a PDB file"
+            )));
         }
         let mut out = String::new();
         for (index, q) in configs.into_iter().enumerate() {
@@ -52,7 +55,8 @@ fn model(chains: &[Vec<Residue>], out: &mut String) -> Result<(), CannotExport> 
     let mut serial = 0;
     for (chain, residues) in (b'A'..=b'Z').map(char::from).zip(chains) {
         for residue in residues {
-            let (number, insertion) = (residue.number.number, residue.number.insertion.unwrap_or(' '));
+            let (number, insertion) =
+                (residue.number.number, residue.number.insertion.unwrap_or(' '));
             for atom in &residue.atoms {
                 serial += 1;
                 let [x, y, z] = atom.position.into();
@@ -63,7 +67,10 @@ fn model(chains: &[Vec<Residue>], out: &mut String) -> Result<(), CannotExport> 
                     && NUMBERS.contains(&number)
                     && [x, y, z].iter().all(|value| COORDINATES.contains(value));
                 if !fits {
-                    return Err(CannotExport(format!("{residue} {} does not fit into the columns of a PDB file", atom.name)));
+                    return Err(CannotExport(format!(
+                        "{residue} {} does not fit into the columns of a PDB file",
+                        atom.name
+                    )));
                 }
                 // Elements of one letter begin in the second column of the name.
                 let name = match (atom.element.len(), atom.name.len()) {

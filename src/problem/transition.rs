@@ -50,7 +50,9 @@ pub fn transition(
     let (start, goal) = (protein.linkage().source(), refit.q.clone());
     for (end, q) in [("start", &start), ("goal", &goal)] {
         if let Some(message) = protein.broken_rule(q) {
-            return Err(ProblemError::pathless(format!("the {end} breaks a rule: {message}; rules that both ends keep expected")));
+            return Err(ProblemError::pathless(format!(
+                "the {end} breaks a rule: {message}; rules that both ends keep expected"
+            )));
         }
     }
     let noise = TorsionNoise { about: About::Ends, ..TorsionNoise::default() };
@@ -63,7 +65,11 @@ pub fn transition(
 ///
 /// # Errors
 /// What is wrong with the structure.
-pub fn about_native(name: &str, folder: &Path, spec: &ProteinSpec) -> Result<Problem, ProblemError> {
+pub fn about_native(
+    name: &str,
+    folder: &Path,
+    spec: &ProteinSpec,
+) -> Result<Problem, ProblemError> {
     let noise = SamplerKind::TorsionNoise(TorsionNoise::default());
     let strategy = StrategySpec::sampled("noise", noise).nodes(NODES);
     Problem::builder(name, spec.clone()).folder(folder).strategy(strategy).build()

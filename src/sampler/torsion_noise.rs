@@ -171,7 +171,8 @@ impl Sampler for TorsionNoise {
             return Some(Complaint::new("degrees", self.degrees.len(), "1 to 1000 widths"));
         }
         // Written so that NaN fails it.
-        if let Some(width) = self.degrees.iter().find(|width| !(**width > 0.0 && **width <= 360.0)) {
+        if let Some(width) = self.degrees.iter().find(|width| !(**width > 0.0 && **width <= 360.0))
+        {
             return Some(Complaint::new("degrees", width, "more than 0, at most 360"));
         }
         let sound = |window: &&[f64; 2]| {
@@ -186,13 +187,17 @@ impl Sampler for TorsionNoise {
 
     fn suits(&self, cx: &Context) -> Result<(), String> {
         if cx.space.factors().iter().any(|factor| factor.kind != FactorKind::Angle) {
-            return Err("torsion noise found, a model all of whose values are angles expected".to_owned());
+            return Err(
+                "torsion noise found, a model all of whose values are angles expected".to_owned()
+            );
         }
         if self.about == About::Ends && cx.query.is_none() {
             return Err("torsion noise about the ends of a query found, but no [query]".to_owned());
         }
         let Some(centre) = self.centres(cx).first().copied() else {
-            return Err("torsion noise found, a model with a native configuration expected".to_owned());
+            return Err(
+                "torsion noise found, a model with a native configuration expected".to_owned()
+            );
         };
         if cx.model.energy(centre, &mut Scratch::new()).is_none() {
             return Err("torsion noise found, a model with energies expected".to_owned());

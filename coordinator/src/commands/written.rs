@@ -161,7 +161,8 @@ impl Destination {
                 return Err(Failure::usage(message));
             }
         }
-        let replaceable = fs::symlink_metadata(&companions).is_err() || self.has_companions_only(&companions);
+        let replaceable =
+            fs::symlink_metadata(&companions).is_err() || self.has_companions_only(&companions);
         if replaceable && !self.file().is_dir() {
             return Ok(());
         }

@@ -1,7 +1,9 @@
 //! The model: a chain made ready for work.
 
 use super::atoms::ResidueAtoms;
-use super::energy::{ConstraintKind, Constraints, Hydrophobic, Mixture, carried_over, constraints_of};
+use super::energy::{
+    ConstraintKind, Constraints, Hydrophobic, Mixture, carried_over, constraints_of,
+};
 use super::kinematics::Conformer;
 use super::linkage::Linkage;
 use super::motion::{Limits as MotionLimits, MotionScratch, MotionValidity, Profile, profile};

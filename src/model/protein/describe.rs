@@ -15,9 +15,14 @@ const SEQUENCE_LINE: usize = 60;
 pub(super) fn describe(protein: &Protein, out: &mut String) -> Result {
     let Protein { source, target, gaps, obstacles, rules, energy, highest, step } = protein;
     let linkage = protein.linkage();
-    let fixed = source.iter().filter(|residue| residue.amino_acid == Some(AminoAcid::Proline)).count();
+    let fixed =
+        source.iter().filter(|residue| residue.amino_acid == Some(AminoAcid::Proline)).count();
     let (first, last) = (&source[0], &source[source.len() - 1]);
-    writeln!(out, "                 phi and psi: {} torsions; radians, in [-pi, pi)", linkage.torsions.len())?;
+    writeln!(
+        out,
+        "                 phi and psi: {} torsions; radians, in [-pi, pi)",
+        linkage.torsions.len()
+    )?;
     writeln!(
         out,
         "chain            {} residues, {first} to {last}; phi of the first, psi of the last and phi of {fixed} prolines fixed",
@@ -42,24 +47,39 @@ pub(super) fn describe(protein: &Protein, out: &mut String) -> Result {
     }
     if let Some(target) = target {
         let count = target.matches.len();
-        writeln!(out, "target           {} residues, {count} of them the source's", target.residues.len())?;
+        writeln!(
+            out,
+            "target           {} residues, {count} of them the source's",
+            target.residues.len()
+        )?;
         writeln!(out, "ends             {}", crate::source::value(&energy.ends))?;
     }
     if energy.hydrophobic {
-        writeln!(out, "hydrophobic      -20 per pair of A V I L M F W C P Y within 6 Å, our choice")?;
+        writeln!(
+            out,
+            "hydrophobic      -20 per pair of A V I L M F W C P Y within 6 Å, our choice"
+        )?;
     }
-    writeln!(out, "rules            least distances in Å, 0 for none: {}", crate::source::value(rules))?;
+    writeln!(
+        out,
+        "rules            least distances in Å, 0 for none: {}",
+        crate::source::value(rules)
+    )?;
     match highest {
         None => writeln!(out, "energy           model kJ/mol; any is valid")?,
         Some(highest) => writeln!(out, "energy           model kJ/mol; up to {highest} is valid")?,
     }
-    writeln!(out, "costs            climbs in kT = {KT} kJ/mol, by the energy at every {step} radians of a motion")?;
+    writeln!(
+        out,
+        "costs            climbs in kT = {KT} kJ/mol, by the energy at every {step} radians of a motion"
+    )?;
     describe_end(protein, "native", &linkage.source(), out)
 }
 
 /// "88 hydrogen bonds, 0 disulphides".
 fn counts_of(constraints: &Constraints) -> String {
-    let count = |kind| constraints.list().iter().filter(|constraint| constraint.kind == kind).count();
+    let count =
+        |kind| constraints.list().iter().filter(|constraint| constraint.kind == kind).count();
     let bonds = count(ConstraintKind::HydrogenBond);
     format!("{bonds} hydrogen bonds, {} disulphides", count(ConstraintKind::Disulphide))
 }
@@ -75,10 +95,17 @@ pub(super) fn describe_end(protein: &Protein, name: &str, q: &[f64], out: &mut S
     writeln!(out)?;
     let alphas = model.alphas(q);
     let to_source = all_alphas(protein.source());
-    write!(out, "                 Cα RMSD {:.3} Å to the source", superpose(&alphas, &to_source).rmsd)?;
+    write!(
+        out,
+        "                 Cα RMSD {:.3} Å to the source",
+        superpose(&alphas, &to_source).rmsd
+    )?;
     if let Some(target) = &protein.target {
         let there = all_alphas(&target.residues);
-        let pairs = target.matches.iter().map(|[here, there_at]| (alphas[*here as usize], there[*there_at as usize]));
+        let pairs = target
+            .matches
+            .iter()
+            .map(|[here, there_at]| (alphas[*here as usize], there[*there_at as usize]));
         let (here, there): (Vec<Point>, Vec<Point>) = pairs.unzip();
         if here.len() >= 3 {
             write!(out, ", {:.3} Å to the target", superpose(&here, &there).rmsd)?;
@@ -90,7 +117,11 @@ pub(super) fn describe_end(protein: &Protein, name: &str, q: &[f64], out: &mut S
         None => writeln!(out, "                 keeps all rules"),
         Some(violation) => {
             let count = model.counts(q).total();
-            writeln!(out, "                 breaks rules at {count} pairs, first {}", text_of(protein, &violation))
+            writeln!(
+                out,
+                "                 breaks rules at {count} pairs, first {}",
+                text_of(protein, &violation)
+            )
         }
     }
 }
@@ -124,5 +155,6 @@ fn positive_phis(protein: &Protein, q: &[f64]) -> (usize, usize) {
         let amino_acid = protein.source[torsion.residue].amino_acid;
         torsion.kind == TorsionKind::Phi && amino_acid != Some(AminoAcid::Glycine)
     });
-    of_others.fold((0, 0), |(positive, all), (_, phi)| (positive + usize::from(*phi > 0.0), all + 1))
+    of_others
+        .fold((0, 0), |(positive, all), (_, phi)| (positive + usize::from(*phi > 0.0), all + 1))
 }

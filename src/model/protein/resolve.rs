@@ -5,8 +5,8 @@ use crate::source::Step::Key;
 use crate::source::{ProblemError, Source};
 use crate::structure::matching::match_chains;
 use crate::structure::{
-    Chain, ChainSelection, Residue, Structure, StructureError, StructureModel, backbone, parse_range, peptides, read,
-    select_chain,
+    Chain, ChainSelection, Residue, Structure, StructureError, StructureModel, backbone,
+    parse_range, peptides, read, select_chain,
 };
 
 /// The energy along a motion is computed at steps of this length in the space unless the file says otherwise, radians: a third of
@@ -35,11 +35,15 @@ pub(super) fn resolve(
             }
             if matching.pairs.iter().any(|pair| pair.differs) {
                 let count = matching.pairs.iter().filter(|pair| pair.differs).count();
-                notes.push(format!("the ends differ in {count} amino acids: the source's are taken"));
+                notes.push(format!(
+                    "the ends differ in {count} amino acids: the source's are taken"
+                ));
             }
             let unmatched = matching.only_first.len();
             if unmatched > 0 {
-                notes.push(format!("{unmatched} residues of the source have no counterpart in the target"));
+                notes.push(format!(
+                    "{unmatched} residues of the source have no counterpart in the target"
+                ));
             }
             let matches = matching.pairs.iter().map(|pair| [pair.first as u32, pair.second as u32]);
             Some(Target { matches: matches.collect(), residues: other.residues })
@@ -89,7 +93,8 @@ impl WholeChain<'_> {
                 (Chain { name: String::new(), residues, others: Vec::new() }, None)
             }
             ChainSpec::File(file) => {
-                let (chain, model) = self.in_file(file, key, notes).map_err(|error| fail(&error))?;
+                let (chain, model) =
+                    self.in_file(file, key, notes).map_err(|error| fail(&error))?;
                 (chain, Some(model))
             }
         };
@@ -100,7 +105,9 @@ impl WholeChain<'_> {
         let found = found.map_err(|error| fail(&error))?;
         for gap in &found.gaps {
             let [before, after] = [gap.before, gap.before + 1].map(|at| &chain.residues[at]);
-            notes.push(format!("{key}: the gap between {before} and {after} is bridged: both sides move as one"));
+            notes.push(format!(
+                "{key}: the gap between {before} and {after} is bridged: both sides move as one"
+            ));
         }
         if let [first, ..] = found.without_side_chain[..] {
             let count = found.without_side_chain.len();
@@ -109,7 +116,9 @@ impl WholeChain<'_> {
         }
         for cis in peptides::cis_peptides(&chain.residues) {
             let [before, after] = [cis.before, cis.before + 1].map(|at| &chain.residues[at]);
-            notes.push(format!("{key}: the peptide bond between {before} and {after} is cis, and stays so"));
+            notes.push(format!(
+                "{key}: the peptide bond between {before} and {after} is cis, and stays so"
+            ));
         }
         Ok((chain, model))
     }
@@ -129,11 +138,15 @@ impl WholeChain<'_> {
         let Structure { models, alternatives, .. } = structure;
         let count = models.len();
         let numbers: Vec<String> = models.iter().map(|model| model.number.to_string()).collect();
-        let model = models.into_iter().find(|model| spec.model.is_none_or(|number| number == model.number));
+        let model =
+            models.into_iter().find(|model| spec.model.is_none_or(|number| number == model.number));
         let model = model.ok_or_else(|| {
             let number = spec.model.unwrap_or_default();
             let numbers = numbers.join(", ");
-            StructureError::file(&path, format!("no model {number} found; one of {numbers} expected"))
+            StructureError::file(
+                &path,
+                format!("no model {number} found; one of {numbers} expected"),
+            )
         })?;
         if count > 1 && spec.model.is_none() {
             notes.push(format!("{key}: model {} of {count}, the first", model.number));
@@ -176,7 +189,8 @@ fn obstacles_of(
         }
         let chains = model.map_or(&[][..], |model| &model.chains);
         let Some(chain) = chains.iter().find(|chain| chain.name == *name) else {
-            let known: Vec<String> = chains.iter().map(|chain| format!("`{}`", chain.name)).collect();
+            let known: Vec<String> =
+                chains.iter().map(|chain| format!("`{}`", chain.name)).collect();
             return fail(format!("no chain `{name}` found; one of {} expected", known.join(", ")));
         };
         obstacles.push(chain.residues.clone());

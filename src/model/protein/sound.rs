@@ -28,7 +28,10 @@ impl Protein {
             return Some(("source", message.to_owned()));
         };
         if linkage.torsions.is_empty() {
-            return Some(("source", "no torsion that turns found; at least one expected".to_owned()));
+            return Some((
+                "source",
+                "no torsion that turns found; at least one expected".to_owned(),
+            ));
         }
         if let (Gaps::Error, Some(gap)) = (gaps, linkage.gaps.first()) {
             let (before, after) = (&source[*gap], &source[gap + 1]);
@@ -63,9 +66,8 @@ impl Protein {
             return Some(("highest", format!("{highest} found; a finite energy expected")));
         }
         let is_step = (STEP_MIN..=STEP_MAX).contains(step);
-        (!is_step).then(|| {
-            ("step", format!("{step} found; {STEP_MIN} to {STEP_MAX} radians expected"))
-        })
+        (!is_step)
+            .then(|| ("step", format!("{step} found; {STEP_MIN} to {STEP_MAX} radians expected")))
     }
 }
 
@@ -75,8 +77,13 @@ fn complaint_of_chain(residues: &[Residue]) -> Option<String> {
         return Some(format!("{} residues found; 1 to {RESIDUES_MAX} expected", residues.len()));
     }
     for residue in residues {
-        if !is_name(&residue.name) || residue.number.insertion.is_some_and(|c| !c.is_ascii_graphic()) {
-            return Some(format!("the residue {:?} found; a name of letters and digits expected", residue.name));
+        if !is_name(&residue.name)
+            || residue.number.insertion.is_some_and(|c| !c.is_ascii_graphic())
+        {
+            return Some(format!(
+                "the residue {:?} found; a name of letters and digits expected",
+                residue.name
+            ));
         }
         if residue.atoms.len() > ATOMS_MAX {
             let found = residue.atoms.len();
@@ -86,12 +93,16 @@ fn complaint_of_chain(residues: &[Residue]) -> Option<String> {
             let is_twice = residue.atoms[..index].iter().any(|other| other.name == atom.name);
             if !is_name(&atom.name) || !is_name(&atom.element) || is_twice {
                 let name = &atom.name;
-                return Some(format!("{residue}: the atom {name:?} found; a name that no other atom has expected"));
+                return Some(format!(
+                    "{residue}: the atom {name:?} found; a name that no other atom has expected"
+                ));
             }
             // Written so that NaN fails it.
             if !atom.position.iter().all(|value| value.abs() <= COORDINATE_MAX) {
                 let (name, at) = (&atom.name, &atom.position);
-                return Some(format!("{residue} {name}: a position {at:?} found; finite coordinates expected"));
+                return Some(format!(
+                    "{residue} {name}: a position {at:?} found; finite coordinates expected"
+                ));
             }
         }
     }

@@ -38,7 +38,11 @@ fn torsions_are_those_of_the_peptide() {
 #[test]
 fn a_protein_is_written_and_read_again() {
     let scratch = tempfile::tempdir().unwrap();
-    for table in ["", TWO_ENDS, "rules = { backbone = 0.0 }\nenergy = { ends = { union = {} } }\nhighest = 500.0\nstep = 0.3\n"] {
+    for table in [
+        "",
+        TWO_ENDS,
+        "rules = { backbone = 0.0 }\nenergy = { ends = { union = {} } }\nhighest = 500.0\nstep = 0.3\n",
+    ] {
         let problem = parse(table).unwrap();
         let written = problem.to_toml("p-structures");
         std::fs::create_dir_all(scratch.path().join("p-structures")).unwrap();
@@ -61,7 +65,10 @@ fn wrong_tables_are_refused_by_their_keys() {
         ("energy = { ends = { smooth-minimum = { kt = 0.0 } } }\n", "protein.energy: kt = 0 found"),
         ("obstacles = [\"B\"]\n", "protein.obstacles: no chain `B` found"),
         ("target = { file = \"structures/none.pdb\" }\n", "protein.target"),
-        ("target = { file = \"structures/1UAO.pdb\", residues = \"2-99\" }\n", "no residue 99 found"),
+        (
+            "target = { file = \"structures/1UAO.pdb\", residues = \"2-99\" }\n",
+            "no residue 99 found",
+        ),
         ("target = { file = \"structures/1UAO.pdb\", residues = \"all\" }\n", "such as 4-147"),
         ("target = { file = \"structures/1UAO.pdb\", model = 7 }\n", "no model 7 found"),
         ("gaps = \"bridge\"\n", "p.toml:3"),
@@ -90,7 +97,9 @@ fn unsound_descriptions_are_refused() {
         |p| p.target.as_mut().unwrap().matches.swap(0, 1),
         |p| p.rules.side_chains = f64::INFINITY,
         |p| p.step = f64::NAN,
-        |p| p.source.iter_mut().skip(5).flat_map(|r| &mut r.atoms).for_each(|a| a.position.x += 9.0),
+        |p| {
+            p.source.iter_mut().skip(5).flat_map(|r| &mut r.atoms).for_each(|a| a.position.x += 9.0)
+        },
     ];
     for (index, spoil) in spoil.into_iter().enumerate() {
         let mut unsound = sound.clone();
@@ -113,7 +122,8 @@ fn differences_are_named() {
 fn draws(model: &dyn Model, degrees: f64, count: usize) -> Vec<Vec<f64>> {
     let mut stream = Seed::of_set(3, "draws", Ordinal(0)).stream(Purpose::Sampling);
     let native = model.native().unwrap().to_vec();
-    let mut turn = |value: &f64| crate::math::wrap_angle(value + stream.normal() * degrees.to_radians());
+    let mut turn =
+        |value: &f64| crate::math::wrap_angle(value + stream.normal() * degrees.to_radians());
     (0..count).map(|_| native.iter().map(&mut turn).collect()).collect()
 }
 
@@ -145,7 +155,10 @@ fn answers_are_pure_and_costs_are_climbs() {
             continue;
         };
         let Some(Cost::Directed(back)) = back else { panic!("free one way only") };
-        assert_eq!((there.forward, there.backward, there.peak), (back.backward, back.forward, back.peak));
+        assert_eq!(
+            (there.forward, there.backward, there.peak),
+            (back.backward, back.forward, back.peak)
+        );
         let ends = [pair[0], pair[1]].map(|q| model.energy(q, scratch).unwrap());
         // The climbs there less those back are the difference of the ends' energies, in kT.
         let rise = (ends[1] - ends[0]) / chain_in_energy::KT;

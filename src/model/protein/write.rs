@@ -9,7 +9,8 @@ use crate::structure::{Residue, mmcif};
 pub(super) fn write(protein: &Protein, documents: &mut Documents) {
     let Protein { source, target, gaps, obstacles, rules, energy, highest, step } = protein;
     let folder = documents.folder.clone();
-    let file = |name: &str| if folder.is_empty() { name.to_owned() } else { format!("{folder}/{name}") };
+    let file =
+        |name: &str| if folder.is_empty() { name.to_owned() } else { format!("{folder}/{name}") };
     let names: Vec<String> = (0..=obstacles.len()).map(chain_name).collect();
     let residues = std::iter::once(source).chain(obstacles);
     let chains: Vec<(&str, &[Residue])> =
@@ -22,7 +23,9 @@ pub(super) fn write(protein: &Protein, documents: &mut Documents) {
         value(&names[0])
     );
     if let Some(target) = target {
-        documents.files.push(("target.cif".to_owned(), mmcif("target", &[("A", &target.residues)])));
+        documents
+            .files
+            .push(("target.cif".to_owned(), mmcif("target", &[("A", &target.residues)])));
         text += &format!("target = {{ file = {}, chain = \"A\" }}\n", value(&file("target.cif")));
     }
     if *gaps != Gaps::Error {

@@ -59,7 +59,8 @@ fn conformations_are_kept_by_their_energies() {
         all.iter().map(|q| cx.model.energy(q, scratch).expect("a protein has one")).collect();
     energies.sort_by(f64::total_cmp);
     let (always, never) = (energies[500], energies[1500]);
-    let text = format!("torsion-noise = {{ degrees = [10.0], windows = [[{always:?}, {never:?}]] }}");
+    let text =
+        format!("torsion-noise = {{ degrees = [10.0], windows = [[{always:?}, {never:?}]] }}");
     let kept = sets(&cx, &sampler(&text), 100..120, 100, scratch);
     // Cells of a quarter of what was drawn without a window.
     let ends = [energies[500], energies[1000], energies[1500]];
@@ -74,7 +75,8 @@ fn conformations_are_kept_by_their_energies() {
     }
     assert_eq!(counts[3], 0, "{counts:?}");
     // The expected shares are themselves of 2000 draws, so that only large differences count.
-    let (kept, expected): (f64, f64) = (counts.iter().map(|c| f64::from(*c)).sum(), shares.iter().sum());
+    let (kept, expected): (f64, f64) =
+        (counts.iter().map(|c| f64::from(*c)).sum(), shares.iter().sum());
     for (count, share) in counts.iter().zip(&shares) {
         let (found, wanted) = (f64::from(*count) / kept, share / expected);
         assert!((found - wanted).abs() < 0.05, "{counts:?} {shares:?}");
@@ -112,7 +114,9 @@ fn what_it_cannot_work_with_is_refused() {
         assert!(refused.contains(expected), "{refused}");
     }
     assert!(open("[2.0]", 1).method().suits(&cx).is_ok());
-    assert!(open("[2.0]", 1).method().suits(&context(SCENE)).unwrap_err().contains("angles expected"));
+    assert!(
+        open("[2.0]", 1).method().suits(&context(SCENE)).unwrap_err().contains("angles expected")
+    );
     for (text, key) in [
         ("torsion-noise = { degrees = [] }", "degrees"),
         ("torsion-noise = { degrees = [nan] }", "degrees"),

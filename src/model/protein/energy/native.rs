@@ -1,8 +1,8 @@
 //! The constraints that a known structure gives.
 
 use super::constraints::Constraint;
-use crate::structure::measure::hydrogen_bonds;
 use crate::structure::disulphides::disulphides;
+use crate::structure::measure::hydrogen_bonds;
 use crate::structure::{Chain, Residue};
 
 /// The hydrogen bonds of a structure (W. Kabsch and C. Sander, Biopolymers 22, 1983: below −0.5 kcal/mol), and its

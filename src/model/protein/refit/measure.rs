@@ -8,9 +8,9 @@ use super::sites::{FITTED, Kind, Sites};
 use crate::math;
 use crate::model::protein::energy::{Constraint, Constraints};
 use crate::model::protein::kinematics::Conformer;
-use crate::structure::torsion;
 use crate::structure::Point;
 use crate::structure::measure::{HydrogenBond, WEAKEST_HYDROGEN_BOND, superpose};
+use crate::structure::torsion;
 use std::f64::consts::FRAC_PI_2;
 
 /// What is measured, and against what.

@@ -103,7 +103,9 @@ impl Rules {
             ("motion-side-chains", motion_side_chains),
         ];
         let wrong = all.into_iter().find(|(_, least)| !(0.0..=LEAST_MAX).contains(least));
-        wrong.map(|(key, least)| Complaint::new(key, least, "a distance from 0, which switches the rule off, to 10 Å"))
+        wrong.map(|(key, least)| {
+            Complaint::new(key, least, "a distance from 0, which switches the rule off, to 10 Å")
+        })
     }
 
     /// What holds at the ends of motions.
