@@ -294,9 +294,13 @@ fn joints_of_one_name_have_values_of_their_own() {
         ARM.replace("name=\"free\" type=\"spherical\">", "name=\"shoulder\" type=\"continuous\">");
     let path = folder.path().join("robots/arm/arm.urdf");
     fs::write(&path, text).unwrap();
-    let space = Problem::load(&path).unwrap_or_else(|error| panic!("{error}")).space();
+    let problem = Problem::load(&path).unwrap_or_else(|error| panic!("{error}"));
+    let (space, told) = (problem.space(), problem.describe());
     let names: Vec<&str> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
     assert_eq!(names, ["shoulder", "shoulder-2"]);
+    for name in names {
+        assert!(told.contains(&format!("  {name}: turns")), "{told}");
+    }
 }
 
 #[test]

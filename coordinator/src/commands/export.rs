@@ -3,6 +3,7 @@ use crate::exit::{Code, Failure};
 use crate::files::write_whole;
 use crate::run::Ledger;
 use roadmill::export::{Exported, FORMATS};
+use std::fs;
 
 /// Writes a roadmap in a format that other programs read.
 pub fn export(arguments: &ExportArguments) -> Result<Code, Failure> {
@@ -11,11 +12,21 @@ pub fn export(arguments: &ExportArguments) -> Result<Code, Failure> {
     let format = format.expect("the command line knows the formats");
     let exported = Exported { problem: &problem, roadmap: &roadmap, path: path.as_ref() };
     let files = format.files(&exported);
-    let out = &arguments.out;
-    for file in files.map_err(|error| Failure::usage(format!("--format: {error}")))? {
-        match file.extension {
-            None => write_whole(out, file.contents)?,
-            Some(extension) => write_whole(&out.with_extension(extension), file.contents)?,
+    let files = files.map_err(|error| Failure::usage(format!("--format: {error}")))?;
+    let mut written = Vec::new();
+    for file in files {
+        let out = match file.extension {
+            None => arguments.out.clone(),
+            Some(extension) => arguments.out.with_extension(extension),
+        };
+        let is_new = !out.exists();
+        if let Err(failure) = write_whole(&out, file.contents) {
+            // Half of an export is none.
+            written.iter().for_each(|path| drop(fs::remove_file(path)));
+            return Err(failure);
+        }
+        if is_new {
+            written.push(out);
         }
     }
     Ok(Code::Done)

@@ -4,9 +4,30 @@ use super::Bodies;
 use super::robot::{JointKind, Limits};
 use super::validity::{BoundsMeaning, MotionChecking, TOLERANCE};
 use crate::internal::plain::plain;
+use crate::model::Description;
 use crate::scene::{Body, Shape};
 use crate::space::BaseJoint;
 use std::fmt::Write;
+
+/// The names by which the values of moving joints are known, which tell joints of one name apart; in the order of the links.
+fn joint_names(bodies: &Bodies) -> Vec<String> {
+    let space = bodies.space();
+    let joints = bodies.robot.links.iter().filter_map(|link| link.joint.as_ref());
+    let values = joints.map(|joint| match joint.kind {
+        JointKind::Fixed => 0,
+        JointKind::Revolute { .. } | JointKind::Prismatic { .. } => 1,
+        JointKind::Spherical => 4,
+    });
+    let values: Vec<usize> = values.filter(|values| *values > 0).collect();
+    let mut at = space.len() - values.iter().sum::<usize>();
+    let mut names = Vec::new();
+    for count in values {
+        let name = &space.dofs()[at].name;
+        names.push(if count == 4 { name.replace("-qw", "") } else { name.clone() });
+        at += count;
+    }
+    names
+}
 
 pub(super) fn describe(bodies: &Bodies, out: &mut String) -> std::fmt::Result {
     let bounds = &bodies.bounds;
@@ -20,8 +41,12 @@ pub(super) fn describe(bodies: &Bodies, out: &mut String) -> std::fmt::Result {
         BaseJoint::Rigid3d => "x y z qw qx qy qz: the base's pose; a unit quaternion, w first",
     };
     writeln!(out, "                 {base}, its frame in the world's")?;
+    let mut names = joint_names(bodies).into_iter();
     for joint in bodies.robot.links.iter().filter_map(|link| link.joint.as_ref()) {
-        let name = plain(&joint.name);
+        let name = match joint.kind {
+            JointKind::Fixed => String::new(),
+            _ => plain(&names.next().unwrap_or_default()).into_owned(),
+        };
         match joint.kind {
             JointKind::Fixed => {}
             JointKind::Revolute { limits: None, .. } => {

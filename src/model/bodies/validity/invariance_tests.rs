@@ -91,6 +91,17 @@ impl Scene {
         scene
     }
 
+    /// The scene with every body larger or smaller, where it stands.
+    fn grown(&self, share: f64) -> BodyValidity {
+        let mut scene = self.clone();
+        for body in scene.robot.links[0].bodies.iter_mut().chain(&mut scene.obstacles) {
+            let translation = body.pose.translation;
+            *body = scaled_body(body, share);
+            body.pose.translation = translation;
+        }
+        scene.ready().1
+    }
+
     fn ready(&self) -> (Space, BodyValidity) {
         let Scene { robot, obstacles, bounds, resolution } = self;
         let space = robot.space(bounds.min, bounds.max, 1.0);
@@ -160,29 +171,44 @@ proptest! {
         }
     }
 
-    /// Other units round, which may only matter where a millionth part of the size does.
+    /// Other units round, which may only matter where a hundred-millionth part of the size does.
     #[test]
     fn a_change_of_unit_changes_no_verdict(ordinal in any::<u64>(), power in -6i32..=6) {
         let mut stream = Seed::of_set(5, "decimals", Ordinal(ordinal)).stream(Purpose::Sampling);
         let factor = format!("1e{power}").parse().unwrap();
         let scratch = &mut Scratch::new();
         for scene in pairs(&mut stream) {
-            let grown = |share: f64| {
-                let mut scene = scene.clone();
-                for body in scene.robot.links[0].bodies.iter_mut().chain(&mut scene.obstacles) {
-                    let translation = body.pose.translation;
-                    *body = scaled_body(body, share);
-                    body.pose.translation = translation;
-                }
-                scene.ready().1
-            };
-            let (less, more) = (grown(1.0 - 1e-6), grown(1.0 + 1e-6));
+            let (less, more) = (scene.grown(1.0 - 1e-8), scene.grown(1.0 + 1e-8));
             let (_, other) = scene.scaled(factor).ready();
             for _ in 0..4 {
                 let q = drawn_configuration(&mut stream);
                 let expected = less.validity(&q, scratch);
                 if more.validity(&q, scratch) == expected {
                     prop_assert_eq!(other.validity(&in_unit(&q, factor), scratch), expected);
+                }
+            }
+        }
+    }
+
+    /// So does another place, by half a unit in the last place of every coordinate, which a size of 1 is told from by 1e-8.
+    #[test]
+    fn another_place_changes_no_verdict(ordinal in any::<u64>(), power in 0i32..=6) {
+        let mut stream = Seed::of_set(5, "places", Ordinal(ordinal)).stream(Purpose::Sampling);
+        let far: f64 = format!("1e{power}").parse().unwrap();
+        let scratch = &mut Scratch::new();
+        for mut scene in pairs(&mut stream) {
+            scene.bounds.meaning = BoundsMeaning::Reference;
+            let by = [0; 3].map(|_| (2.0 * stream.unit() - 1.0) * far);
+            let share = 1e-8 + 16.0 * f64::EPSILON * far;
+            let (less, more) = (scene.grown(1.0 - share), scene.grown(1.0 + share));
+            let (_, other) = scene.moved(by, false).ready();
+            for _ in 0..4 {
+                let q = drawn_configuration(&mut stream);
+                let expected = less.validity(&q, scratch);
+                if more.validity(&q, scratch) == expected {
+                    let moved: Vec<f64> =
+                        q.iter().enumerate().map(|(i, x)| if i < 3 { x + by[i] } else { *x }).collect();
+                    prop_assert_eq!(other.validity(&moved, scratch), expected);
                 }
             }
         }
