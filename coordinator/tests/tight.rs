@@ -155,16 +155,23 @@ fn a_full_disk_is_the_systems_failure_and_nothing_is_left_on_it() {
          done
          dd if=/dev/zero of=small/filler bs=1k 2> /dev/null || true
          $roadmill query run --start '{pose}' --goal '{pose}' --out small/path.csv || echo code $?
-         rm small/filler; echo left $(ls -A small)"
+         rm small/filler; echo left $(ls -A small)
+         # Room for the nodes of a table, and not for its edges.
+         $roadmill export run --format csv --out all.csv
+         mkdir half; mount -t tmpfs -o size=$(($(stat -c %s all.csv) / 1024 + 8))k tmpfs half
+         $roadmill export run --format csv --out half/out.csv || echo code $?
+         echo left $(ls -A half)"
     );
     let done = run(&scratch, &script);
     done.assert_code(0);
     let codes: Vec<&str> = done.stdout.lines().filter(|line| line.starts_with("code")).collect();
     let is_right = codes.iter().all(|code| ["code 1", "code 0"].contains(code));
-    assert!(is_right && codes.len() >= 3, "{}\n{}", done.stdout, done.stderr);
+    assert!(is_right && codes.len() >= 4, "{}\n{}", done.stdout, done.stderr);
     done.assert_stderr(&["out.graphml: cannot write: No space left on device", "path.csv"]);
     let left: Vec<&str> =
         done.stdout.lines().filter_map(|line| line.strip_prefix("left")).collect();
     let is_whole = |name: &str| ["in.toml", "path.csv"].contains(&name);
     assert!(left[0].split_whitespace().all(is_whole), "{left:?}");
+    assert_eq!(left[1].trim(), "", "{}", done.stderr);
+    done.assert_stderr(&["out.edges.csv: cannot write"]);
 }
