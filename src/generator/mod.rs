@@ -90,6 +90,11 @@ pub trait Generator {
         None
     }
 
+    /// Whether sets depend on the problem's query, see [`Sampler::reads_query`](crate::sampler::Sampler::reads_query).
+    fn reads_query(&self) -> bool {
+        false
+    }
+
     /// Finds the settings that the problem leaves open and that depend on the model. `seed` is for this alone.
     /// What it finds is part of the problem from then on.
     fn calibrate(&mut self, _cx: &Context, _seed: &Seed) {}

@@ -42,6 +42,10 @@ impl Generator for Sample {
         Ok(Increment { configs, edges, ..Increment::empty(cx.space.len()) })
     }
 
+    fn reads_query(&self) -> bool {
+        self.sampler.method().reads_query()
+    }
+
     fn calibrate(&mut self, cx: &Context, seed: &Seed) {
         self.sampler.method_mut().calibrate(cx, seed);
     }

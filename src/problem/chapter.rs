@@ -43,6 +43,14 @@ impl Problem {
                     strategy.label
                 ));
             }
+            let reads = strategy.generator.method().reads_query();
+            if known.is_some() && reads && self.query != changed.query {
+                return Err(format!(
+                    "the strategy `{}` draws about the ends of the query, which are not what they were; a strategy with a label \
+                     of its own expected",
+                    strategy.label
+                ));
+            }
             index.push(StrategyIndex(known.unwrap_or(strategies.len()) as u32));
             if known.is_none() {
                 strategies.push(strategy.clone());

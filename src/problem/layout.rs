@@ -242,7 +242,13 @@ pub(super) fn digest(problem: &Problem) -> Digest {
             let strategies = second_strategies(&problem.strategies);
             // No first layout begins with this text.
             let name = "roadmill problem 2";
-            wire::encode(&(name, BITS_VERSION, problem.seed, &problem.model, strategies, schedule))
+            let whole = (name, BITS_VERSION, problem.seed, &problem.model, strategies, schedule);
+            let reads = |strategy: &Strategy| strategy.generator.method().reads_query();
+            // Where no strategy reads it, the query determines no set.
+            match problem.strategies.iter().any(reads) {
+                true => wire::encode(&(whole, &problem.query)),
+                false => wire::encode(&whole),
+            }
         }
     };
     Digest::of(&bytes)

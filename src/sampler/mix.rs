@@ -81,6 +81,10 @@ impl Sampler for Mix {
         Ok(())
     }
 
+    fn reads_query(&self) -> bool {
+        self.methods().any(Sampler::reads_query)
+    }
+
     fn calibrate(&mut self, cx: &Context, seed: &Seed) {
         for (index, share) in self.0.iter_mut().enumerate() {
             share.sampler.method_mut().calibrate(cx, &seed.part(index as u64));

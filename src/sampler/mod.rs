@@ -97,6 +97,12 @@ pub trait Sampler {
         None
     }
 
+    /// Whether sets depend on the problem's query. Then the query is part of the problem's digest, and stays what it is as long
+    /// as sets of the strategy are made.
+    fn reads_query(&self) -> bool {
+        false
+    }
+
     /// Whether the method, as a problem file writes it, has at most so many brackets within one another.
     fn is_within(&self, brackets: u32) -> bool {
         brackets >= BRACKETS_OF_SETTINGS

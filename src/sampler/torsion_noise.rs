@@ -16,12 +16,13 @@ use std::f64::consts::PI;
 /// 1 below E_min, (E_max − E) / (E_max − E_min) between, and 0 above E_max).
 ///
 /// Milestone number `m`, counted through all sets of the strategy, has width number `m` mod the number of widths, so that
-/// all widths have equal shares however hard they are to draw for. With two ends it stands about the start for one
+/// all widths have equal shares however hard they are to draw for (in a `mix`, which draws its shares, only about equal ones). With two ends it stands about the start for one
 /// round of the widths, and about the goal for the next.
 ///
 /// The papers give E_min and E_max in numbers, which belong to one protein and one energy. Here every width has its own: the
 /// median and the 95th percentile of the energies of [`CALIBRATED`] draws of that width, valid or not. They are found once,
-/// when a problem leaves `windows` away, and are part of the problem from then on.
+/// when a problem that leaves `windows` away is read, by the base seed that its file says, and are part of the problem from
+/// then on: another `--seed` draws other sets in the same windows.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct TorsionNoise {
@@ -113,8 +114,8 @@ impl Sampler for TorsionNoise {
         let mut chance = seed.stream(Purpose::Accepting);
         let centres = self.centres(cx);
         let kinds = self.degrees.len() * centres.len();
-        // What `suits` refuses in a problem file can still come in the bytes of a ledger.
-        if self.suits(cx).is_err() {
+        // What is refused in a problem file can still come in bytes.
+        if self.complaint().is_some() || self.suits(cx).is_err() {
             return Err(GaveUp { attempts: 0 });
         }
         let mut q = vec![0.0; cx.space.len()];
@@ -146,6 +147,10 @@ impl Sampler for TorsionNoise {
             out.push(&q);
         }
         Ok(())
+    }
+
+    fn reads_query(&self) -> bool {
+        self.about == About::Ends
     }
 
     fn calibrate(&mut self, cx: &Context, seed: &Seed) {

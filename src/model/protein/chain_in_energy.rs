@@ -22,6 +22,8 @@ pub(super) struct ChainInEnergy {
     space: Space,
     native: Vec<f64>,
     conformer: Conformer,
+    /// A conformation still to be placed, with what the chain lacks.
+    empty: Placed,
     limits: Limits,
     obstacles: Obstacles,
     motions: MotionValidity,
@@ -41,15 +43,10 @@ pub(super) struct ProteinScratch {
 
 impl ModelScratch for ProteinScratch {
     fn poison(&mut self, rubbish: u64) {
-        let value = f64::from_bits(rubbish);
         if let Some(placed) = &mut self.placed {
-            let Placed { n, ca, c, o, cb, centroid, h, .. } = placed;
-            for coordinates in [n, ca, c, o, cb, centroid, h] {
-                for axis in [&mut coordinates.x, &mut coordinates.y, &mut coordinates.z] {
-                    axis.fill(value);
-                }
-            }
+            placed.poison();
         }
+        self.between.push(f64::from_bits(rubbish));
         self.screen.poison();
         self.motion.poison(rubbish);
     }
@@ -72,6 +69,7 @@ impl ChainInEnergy {
             space: crate::model::Description::space(protein),
             native: linkage.source(),
             energy: energy_of(protein, &conformer),
+            empty: conformer.placed(),
             conformer,
             limits,
             obstacles,
@@ -83,12 +81,12 @@ impl ChainInEnergy {
 
     /// Places the chain at `q` in the scratch.
     fn placed<'a>(&self, q: &[f64], scratch: &'a mut Option<Placed>) -> &'a Placed {
-        // That of another chain may have been left.
-        let fits = |placed: &Placed| placed.len() == self.conformer.atoms().len();
+        // That of another chain may have been left, which lacks other atoms.
+        let fits = |placed: &Placed| placed.lacks_what(&self.empty);
         if !scratch.as_ref().is_some_and(fits) {
             *scratch = None;
         }
-        let placed = scratch.get_or_insert_with(|| self.conformer.placed());
+        let placed = scratch.get_or_insert_with(|| self.empty.clone());
         self.conformer.place(q, placed);
         placed
     }

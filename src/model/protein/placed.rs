@@ -82,6 +82,12 @@ impl Placed {
         self.ca.is_empty()
     }
 
+    /// Whether the residues of both lack the same atoms, so that one can be placed where the other was.
+    pub fn lacks_what(&self, other: &Placed) -> bool {
+        (&self.has_cb, &self.has_centroid, &self.has_hydrogen)
+            == (&other.has_cb, &other.has_centroid, &other.has_hydrogen)
+    }
+
     /// Fills it with what could mislead.
     pub fn poison(&mut self) {
         let Placed { n, ca, c, o, cb, centroid, h, .. } = self;

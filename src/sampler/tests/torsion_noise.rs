@@ -4,7 +4,8 @@ use super::statistics::fits;
 use super::{SCENE, context, sampler, sets};
 use crate::context::Context;
 use crate::math;
-use crate::model::Scratch;
+use crate::model::protein::{ChainSpec, ProteinSpec};
+use crate::model::{ModelKind, Scratch};
 use crate::problem::Problem;
 use crate::sampler::SamplerKind;
 use crate::seed::Seed;
@@ -127,4 +128,59 @@ fn what_it_cannot_work_with_is_refused() {
     ] {
         assert_eq!(sampler(text).method().complaint().map(|complaint| complaint.key), Some(key));
     }
+}
+
+/// Sets about the ends of a query depend on it: it is part of the digest, and a build goes on with no other.
+#[test]
+fn the_query_belongs_to_what_is_drawn_about_it() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/ends.toml");
+    let problem = |about: &str, turn: f64| {
+        let start: Vec<f64> = peptide().model.native().expect("a protein has one").to_vec();
+        let mut goal = start.clone();
+        goal[3] += turn;
+        let text = format!(
+            "[protein]\nsource = {{ file = \"structures/1UAO.pdb\" }}\n[query]\nstart = {start:?}\ngoal = {goal:?}\n\
+             [[strategies]]\nlabel = \"noise\"\nnodes = 4\nsampler = {{ torsion-noise = {{ degrees = [2.0], \
+             about = \"{about}\", windows = [{}] }} }}\n",
+            vec!["[1e9, 2e9]"; if about == "ends" { 2 } else { 1 }].join(", ")
+        );
+        Problem::parse(&path, &text).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let [one, other] = [0.01, 0.02].map(|turn| problem("ends", turn));
+    assert_ne!(one.digest(), other.digest());
+    let refused = one.continued(&other, 1).unwrap_err();
+    assert!(refused.contains("the ends of the query"), "{refused}");
+    assert!(one.continued(&one, 1).is_ok());
+    // Sets about the native state do not know the query.
+    let [one, other] = [0.01, 0.02].map(|turn| problem("native", turn));
+    assert_eq!(one.digest(), other.digest());
+    assert!(one.continued(&other, 1).is_ok());
+}
+
+/// Two chains of equal length that lack different atoms, with one working memory.
+#[test]
+fn memory_of_another_chain_does_not_mislead() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/two.toml");
+    let prepare = |problem: &Problem| problem.model().description().prepare();
+    let text = "[protein]\nsource = { file = \"structures/1UAO.pdb\" }\n";
+    let problem = Problem::parse(&path, text).unwrap_or_else(|error| panic!("{error}"));
+    let ModelKind::Protein(protein) = problem.model() else { panic!("a protein expected") };
+    let mut bare = protein.source().to_vec();
+    for residue in &mut bare {
+        residue.atoms.retain(|atom| ["N", "CA", "C", "O"].contains(&atom.name.as_str()));
+    }
+    let spec = ProteinSpec::new(ChainSpec::Residues(bare));
+    let other = Problem::builder("bare", spec).build().unwrap_or_else(|error| panic!("{error}"));
+    let (whole, bare) = (prepare(&problem), prepare(&other));
+    let native = whole.native().expect("a protein has one");
+    let scratch = &mut Scratch::new();
+    for _ in 0..2 {
+        for model in [&whole, &bare] {
+            let alone = model.energy(native, &mut Scratch::new());
+            assert_eq!(model.energy(native, scratch), alone);
+            let alone = model.validity(native, &mut Scratch::new());
+            assert_eq!(model.validity(native, scratch), alone);
+        }
+    }
+    assert_ne!(whole.energy(native, scratch), bare.energy(native, scratch));
 }

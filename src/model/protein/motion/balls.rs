@@ -39,7 +39,7 @@ impl Ball {
             let reach = dot(&between, &between).sqrt() + points::load(simd, balls.radii, four);
             for reach in &reach.to_array()[..LANES.min(which.end - four)] {
                 // Written so that what is no number holds everything.
-                radius = if *reach <= radius { radius } else { *reach };
+                radius = if radius.is_nan() || *reach <= radius { radius } else { *reach };
             }
         }
         Some(Ball { centre, radius })

@@ -44,6 +44,9 @@ pub fn profile(
     let (from, to) = if is_backward { (b, a) } else { (a, b) };
     let count = steps(from, to, resolution);
     let mut last = energy(from);
+    if !last.is_finite() {
+        return None;
+    }
     let (mut up, mut down, mut peak) = (0.0, 0.0, last);
     for step in 1..=count {
         let next = if step == count {
