@@ -14,9 +14,6 @@ pub(crate) use fearless_simd::x86::{Avx2, Sse2 as Baseline};
 /// The instructions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Lanes {
-    /// None: one number at a time, in plain code.
-    #[cfg(test)]
-    Plain(fearless_simd::Fallback),
     /// Those that every processor of the kind has.
     Baseline(Baseline),
     /// AVX2, where the processor has it: eight lanes in one.
@@ -35,12 +32,11 @@ impl Lanes {
         Lanes::baseline(level)
     }
 
-    /// Plain code and all that this processor has, narrow ones first.
+    /// All that this processor has, narrow ones first.
     #[cfg(test)]
     pub(crate) fn all() -> Vec<Lanes> {
         let level = Level::new();
-        let plain = Lanes::Plain(fearless_simd::Fallback::new());
-        let all = [plain, Lanes::baseline(level)].into_iter();
+        let all = std::iter::once(Lanes::baseline(level));
         #[cfg(target_arch = "x86_64")]
         let all = all.chain(level.as_avx2().map(Lanes::Avx2));
         all.collect()
@@ -66,8 +62,6 @@ impl Lanes {
 macro_rules! with_lanes {
     ($lanes:expr, $simd:ident => $what:expr) => {
         match $lanes {
-            #[cfg(test)]
-            $crate::lanes::Lanes::Plain($simd) => $what,
             $crate::lanes::Lanes::Baseline($simd) => $what,
             #[cfg(target_arch = "x86_64")]
             $crate::lanes::Lanes::Avx2($simd) => $what,
