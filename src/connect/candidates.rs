@@ -38,6 +38,7 @@ pub(super) struct CandidatePairs<'a> {
 /// A pair to be tried; ids are those after the round.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CandidatePair {
+    /// The distance by what found the pair, which orders pairs: the space's, or a finder's own. It is no edge's cost.
     pub distance: f64,
     pub new: NodeId,
     pub old: NodeId,
@@ -89,17 +90,28 @@ impl<'a> CandidatePairs<'a> {
     }
 
     /// Each new node in order with its `neighbors` nearest old ones, nearest first, ties by id.
-    pub fn nearest(&self, cx: &Context, neighbors: u32) -> Vec<CandidatePair> {
-        self.found(cx, &KNearest { neighbors })
+    pub fn nearest(
+        &self,
+        cx: &Context,
+        neighbors: u32,
+        scratch: &mut Scratch,
+    ) -> Vec<CandidatePair> {
+        self.found(cx, &KNearest { neighbors }, scratch)
     }
 
     /// Each new node in order with the old ones that a finder gives for it, nearest first, ties by id.
-    pub fn found(&self, cx: &Context, finder: &dyn Finder) -> Vec<CandidatePair> {
+    pub fn found(
+        &self,
+        cx: &Context,
+        finder: &dyn Finder,
+        scratch: &mut Scratch,
+    ) -> Vec<CandidatePair> {
         let mut candidates = Vec::new();
         for (index, q) in self.new.configs.iter().enumerate() {
             let mut near = Vec::new();
             for part in &self.old {
-                for mut neighbor in finder.near(&cx.space, part.configs, part.components, q) {
+                let found = finder.near(cx, part.configs, part.components, q, scratch);
+                for mut neighbor in found {
                     neighbor.id += part.first.0;
                     near.push(neighbor);
                 }

@@ -91,6 +91,14 @@ pub trait Within {
     fn complaint(&self) -> Option<Complaint> {
         None
     }
+
+    /// Whether the method is defined for the problem.
+    ///
+    /// # Errors
+    /// Says what it cannot work with.
+    fn suits(&self, _cx: &Context) -> Result<(), String> {
+        Ok(())
+    }
 }
 
 /// Connection of a new increment with what came before it.
@@ -102,6 +110,14 @@ pub trait Among {
     /// What is wrong with the settings.
     fn complaint(&self) -> Option<Complaint> {
         None
+    }
+
+    /// Whether the method is defined for the problem.
+    ///
+    /// # Errors
+    /// Says what it cannot work with.
+    fn suits(&self, _cx: &Context) -> Result<(), String> {
+        Ok(())
     }
 }
 

@@ -33,7 +33,7 @@ impl Default for NearestNodes {
 impl Among for NearestNodes {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
         let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };
-        let pairs = candidates.nearest(cx, self.neighbors).into_iter();
+        let pairs = candidates.nearest(cx, self.neighbors, scratch).into_iter();
         pairs.filter_map(|pair| candidates.connect(cx, &self.planners, pair, scratch)).collect()
     }
 

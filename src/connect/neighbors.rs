@@ -44,23 +44,31 @@ impl Within for Neighbors {
         configs: &Configs,
         scratch: &mut Scratch,
     ) -> Vec<Edge> {
-        let pairs = self.finder.method().pairs(&cx.space, configs);
+        let pairs = self.finder.method().pairs(cx, configs, scratch);
         connect_pairs(cx, &self.planners, configs, &pairs, scratch)
     }
 
     fn complaint(&self) -> Option<Complaint> {
         self.complaint()
     }
+
+    fn suits(&self, cx: &Context) -> Result<(), String> {
+        self.finder.method().suits(cx)
+    }
 }
 
 impl Among for Neighbors {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
         let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };
-        let pairs = candidates.found(cx, self.finder.method()).into_iter();
+        let pairs = candidates.found(cx, self.finder.method(), scratch).into_iter();
         pairs.filter_map(|pair| candidates.connect(cx, &self.planners, pair, scratch)).collect()
     }
 
     fn complaint(&self) -> Option<Complaint> {
         self.complaint()
+    }
+
+    fn suits(&self, cx: &Context) -> Result<(), String> {
+        self.finder.method().suits(cx)
     }
 }

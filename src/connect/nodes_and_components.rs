@@ -80,7 +80,7 @@ impl Among for NodesAndComponents {
             edges.extend(edge);
             edge.is_some()
         };
-        for (pair, rank) in by_nodes(&candidates, cx, self.neighbors) {
+        for (pair, rank) in by_nodes(&candidates, cx, self.neighbors, scratch) {
             let sides = candidates.components(pair);
             if (rank < self.cycles || !joined.same(sides)) && attempt(pair, scratch) {
                 joined.unite(sides);
@@ -124,9 +124,10 @@ fn by_nodes(
     candidates: &CandidatePairs,
     cx: &Context,
     neighbors: u32,
+    scratch: &mut Scratch,
 ) -> Vec<(CandidatePair, u32)> {
     let mut ranked: Vec<(CandidatePair, u32)> = Vec::new();
-    for pair in candidates.nearest(cx, neighbors) {
+    for pair in candidates.nearest(cx, neighbors, scratch) {
         let rank =
             ranked.last().filter(|(last, _)| last.new == pair.new).map_or(0, |(_, rank)| rank + 1);
         ranked.push((pair, rank));

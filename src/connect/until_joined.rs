@@ -35,7 +35,7 @@ impl Default for UntilJoined {
 impl Among for UntilJoined {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
         let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };
-        let mut pairs = candidates.nearest(cx, self.neighbors);
+        let mut pairs = candidates.nearest(cx, self.neighbors, scratch);
         pairs.sort_by(CandidatePair::closest_first);
         let mut joined = candidates.joined();
         let mut edges = Vec::new();

@@ -1,8 +1,9 @@
 use super::Finder;
+use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::neighbor::{Neighbor, k_nearest_graph};
 use crate::roadmap::{Components, Configs};
-use crate::space::Space;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -28,16 +29,17 @@ impl Default for KNearest {
 impl Finder for KNearest {
     fn near(
         &self,
-        space: &Space,
+        cx: &Context,
         configs: &Configs,
         components: &Components,
         q: &[f64],
+        _scratch: &mut Scratch,
     ) -> Vec<Neighbor> {
-        components.k_nearest(space, configs, q, self.neighbors as usize)
+        components.k_nearest(&cx.space, configs, q, self.neighbors as usize)
     }
 
-    fn pairs(&self, space: &Space, configs: &Configs) -> Vec<(u32, u32)> {
-        k_nearest_graph(space, configs, self.neighbors as usize)
+    fn pairs(&self, cx: &Context, configs: &Configs, _scratch: &mut Scratch) -> Vec<(u32, u32)> {
+        k_nearest_graph(&cx.space, configs, self.neighbors as usize)
     }
 
     fn most(&self) -> Option<usize> {

@@ -1,9 +1,10 @@
 use super::Finder;
+use crate::context::Context;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::neighbor::{Neighbor, radius_graph};
 use crate::roadmap::{Components, Configs};
 use crate::scene::LENGTH_MAX;
-use crate::space::Space;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -30,15 +31,17 @@ impl Radius {
 impl Finder for Radius {
     fn near(
         &self,
-        space: &Space,
+        cx: &Context,
         configs: &Configs,
         components: &Components,
         q: &[f64],
+        _scratch: &mut Scratch,
     ) -> Vec<Neighbor> {
-        components.in_radius(space, configs, q, self.radius, self.most())
+        components.in_radius(&cx.space, configs, q, self.radius, self.most())
     }
 
-    fn pairs(&self, space: &Space, configs: &Configs) -> Vec<(u32, u32)> {
+    fn pairs(&self, cx: &Context, configs: &Configs, _scratch: &mut Scratch) -> Vec<(u32, u32)> {
+        let space = &cx.space;
         let Some(most) = self.most() else { return radius_graph(space, configs, self.radius) };
         // Both relations are symmetric in the distance: a pair is kept where either milestone has it among its
         // nearest.

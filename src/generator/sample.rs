@@ -55,6 +55,7 @@ impl Generator for Sample {
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {
-        self.sampler.method().suits(cx)
+        self.sampler.method().suits(cx)?;
+        self.within.method().suits(cx)
     }
 }

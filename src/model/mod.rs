@@ -44,6 +44,7 @@ pub(crate) use description::{Resolve, import};
 
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
+use crate::structure::Point;
 use bincode::{Decode, Encode};
 use std::any::Any;
 
@@ -205,6 +206,12 @@ pub trait Model: Any + Send + Sync {
 
     /// The energy at `q`; `None` where a configuration is valid or not and that is all there is to say.
     fn energy(&self, _q: &[f64], _scratch: &mut Scratch) -> Option<f64> {
+        None
+    }
+
+    /// The positions of all Cα at `q`, Å, in their order along the chain, of a model that has them; as many at every
+    /// configuration.
+    fn shape(&self, _q: &[f64], _scratch: &mut Scratch) -> Option<Vec<Point>> {
         None
     }
 

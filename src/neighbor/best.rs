@@ -5,7 +5,8 @@ use std::cmp::Ordering;
 /// A configuration that a search has found near its query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neighbor {
-    /// Distance to the query by [`Space::distance`](crate::space::Space::distance), in the scene's length unit.
+    /// Distance to the query by [`Space::distance`](crate::space::Space::distance), in the scene's length unit, or by what
+    /// else the search measures.
     pub distance: f64,
     /// Id of the configuration.
     pub id: u32,

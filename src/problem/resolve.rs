@@ -4,7 +4,7 @@ use super::building::{Sets, adaptive_of, evaluators_of, limits_of, sets_of};
 use super::file::{File, KEYS};
 use super::{DEFAULT_SEED, Problem};
 use crate::context::Ends;
-use crate::generator::Runs;
+use crate::generator::{Runs, Sample};
 use crate::internal::plain::plain;
 use crate::model::{ModelKind, ModelSpec};
 use crate::seed::Seed;
@@ -108,9 +108,19 @@ fn accepted(source: &Source, file: &File, mut problem: Problem) -> Result<Proble
         let calibrating = Seed::of_calibration(seed, &strategy.label);
         strategy.generator.method_mut().calibrate(&cx, &calibrating);
         let given = file.strategies.get(index).is_some_and(|table| table.generator.is_some());
-        let key = if given { "generator" } else { "sampler" };
-        let place = [Key("strategies"), Index(index), Key(key)];
-        strategy.generator.method().suits(&cx).map_err(|message| source.error(&place, message))?;
+        let made = match strategy.generator.as_sample() {
+            // The keys of the short form.
+            Some(Sample { sampler, within }) if !given => vec![
+                ("sampler", sampler.method().suits(&cx)),
+                ("within", within.method().suits(&cx)),
+            ],
+            _ => vec![("generator", strategy.generator.method().suits(&cx))],
+        };
+        let among = ("among", strategy.among.method().suits(&cx));
+        for (key, suits) in made.into_iter().chain([among]) {
+            let place = [Key("strategies"), Index(index), Key(key)];
+            suits.map_err(|message| source.error(&place, message))?;
+        }
     }
     for (index, evaluator) in problem.evaluators.iter_mut().enumerate() {
         let accepted = evaluator.method_mut().accept(&cx);

@@ -1,9 +1,11 @@
-//! The nearest-neighbour indices over the nodes and over the component centres of a growing graph.
+//! The nearest-neighbour indices over the nodes and over the component centres of a growing graph, and what is kept of its
+//! nodes' shapes.
 //!
 //! An index is built when a search first needs it, so that a graph that nobody searches (a coordinator's,
 //! a ledger reader's) has none.
 
 use super::component::Component;
+use super::shapes::Shapes;
 use crate::neighbor::Index;
 use crate::shelf::Shelf;
 use crate::space::Space;
@@ -26,6 +28,8 @@ pub(super) struct Indices {
     /// Number of node searches since the node index last grew.
     pub(super) searches: AtomicU32,
     pub(super) centres: RwLock<Option<Centres>>,
+    /// The shapes of the nodes that were there when shapes were last searched.
+    pub(super) shapes: RwLock<Shapes>,
 }
 
 impl Clone for Indices {
@@ -35,6 +39,7 @@ impl Clone for Indices {
             shelf: self.shelf.clone(),
             searches: AtomicU32::new(self.searches.load(Ordering::Relaxed)),
             centres: RwLock::new(read(&self.centres).clone()),
+            shapes: RwLock::new(read(&self.shapes).clone()),
         }
     }
 }

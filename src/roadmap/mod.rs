@@ -12,6 +12,7 @@ mod indices;
 mod round;
 mod search;
 mod searches;
+mod shapes;
 mod tally;
 
 pub use crate::digest::Digest;
@@ -24,6 +25,7 @@ pub(crate) use forest::Forest;
 pub use increment::{Edge, EdgeCost, Increment, SetForm};
 pub use round::{Joined, Round, RoundSet};
 pub use search::{Graph, Route};
+pub use shapes::Shapes;
 pub use tally::{Outline, Tally};
 
 use crate::neighbor::Neighbor;

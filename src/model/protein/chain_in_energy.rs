@@ -108,9 +108,7 @@ impl ChainInEnergy {
 
     /// The positions of all Cα at `q`, Å.
     pub fn alphas(&self, q: &[f64]) -> Vec<Point> {
-        let placed = &mut None;
-        let placed = self.placed(q, placed);
-        (0..placed.len()).map(|residue| placed.ca.at(residue)).collect()
+        alphas_of(self.placed(q, &mut None))
     }
 
     /// How many pairs violate each rule at `q`.
@@ -128,6 +126,10 @@ impl ChainInEnergy {
     fn is_allowed(&self, energy: f64) -> bool {
         self.highest.is_none_or(|highest| energy <= highest)
     }
+}
+
+fn alphas_of(placed: &Placed) -> Vec<Point> {
+    (0..placed.len()).map(|residue| placed.ca.at(residue)).collect()
 }
 
 /// What holds along motions. Across a gap there is no virtual bond.
@@ -211,6 +213,11 @@ impl Model for ChainInEnergy {
     fn energy(&self, q: &[f64], scratch: &mut Scratch) -> Option<f64> {
         let scratch: &mut ProteinScratch = scratch.of_model();
         Some(self.energy.energy(self.placed(q, &mut scratch.placed)))
+    }
+
+    fn shape(&self, q: &[f64], scratch: &mut Scratch) -> Option<Vec<Point>> {
+        let scratch: &mut ProteinScratch = scratch.of_model();
+        Some(alphas_of(self.placed(q, &mut scratch.placed)))
     }
 
     fn native(&self) -> Option<&[f64]> {

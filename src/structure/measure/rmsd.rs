@@ -62,6 +62,11 @@ impl CentredPoints {
         &self.points
     }
 
+    /// The radius of gyration of the points, which all count alike, in Å.
+    pub fn radius_of_gyration(&self) -> f64 {
+        root_mean(self.squares, self.points.len())
+    }
+
     /// The least RMSD that a rigid motion can reach, see [`rmsd`].
     ///
     /// # Panics
