@@ -107,6 +107,94 @@ fn what_is_no_structure_is_refused_by_file_and_line() {
     }
 }
 
+/// The peptide that ships.
+const PEPTIDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/structures/1UAO.pdb");
+
+/// From the peptide to itself: the problem file names its structures, says its ends, and is built.
+#[test]
+fn a_transition_becomes_a_problem_that_can_be_built() {
+    let scratch = Scratch::new();
+    let done = scratch.run(&["protein", "problem", PEPTIDE, PEPTIDE, "--out", "fold.toml"]);
+    done.assert_code(0);
+    assert!(done.stdout.contains("refit            Cα RMSD 0.000 Å"), "{}", done.stdout);
+    for name in ["source.cif", "target.cif"] {
+        assert!(scratch.path("fold-structures").join(name).is_file(), "{name}");
+    }
+    let text = std::fs::read_to_string(scratch.path("fold.toml")).expect("it is there");
+    assert!(text.starts_with("# Written by `roadmill protein problem`.\n"), "{text}");
+    assert!(
+        text.contains("source = { file = \"fold-structures/source.cif\", chain = \"A\" }"),
+        "{text}"
+    );
+    let done = scratch.run(&["check", "fold.toml"]);
+    done.assert_code(0);
+    for end in ["start ", "goal "] {
+        let has = |line: &str| line.starts_with(end) && line.contains("model kJ/mol");
+        assert!(done.stdout.lines().any(has), "{end}\n{}", done.stdout);
+    }
+    assert_eq!(done.stdout.matches("keeps all rules").count(), 3, "{}", done.stdout);
+    scratch.build("run", &["fold.toml"], 0);
+    // What is there is kept, unless it is told otherwise.
+    let again = ["protein", "problem", PEPTIDE, "--out", "fold.toml"];
+    scratch.run(&again).assert_code(2);
+    assert_eq!(std::fs::read_to_string(scratch.path("fold.toml")).expect("it is there"), text);
+    scratch.run(&[&again[..], &["--force"]].concat()).assert_code(0);
+    let text = std::fs::read_to_string(scratch.path("fold.toml")).expect("it is there");
+    assert!(!text.contains("target") && !text.contains("[query]"), "{text}");
+}
+
+#[test]
+fn what_is_no_transition_is_refused_and_leaves_nothing() {
+    let scratch = Scratch::new();
+    let peptide = std::fs::read_to_string(PEPTIDE).expect("it ships");
+    let other = ["GLY", "TYR", "ASP", "PRO", "GLU", "THR", "TRP"]
+        .iter()
+        .fold(chain(&peptide, 'A', 0.0), |text, name| text.replace(name, "ALA"));
+    scratch.write("other.pdb", &other);
+    let is_kept = |line: &&str| !matches!(line.get(22..26), Some("   5" | "   6"));
+    let gap: String = peptide.lines().filter(is_kept).map(|line| format!("{line}\n")).collect();
+    scratch.write("gap.pdb", &gap);
+    scratch
+        .write("two.pdb", &format!("{}{}", chain(&peptide, 'A', 0.0), chain(&peptide, 'B', 40.0)));
+    let before = names(&scratch);
+    for (arguments, expected) in [
+        (
+            &["two.pdb", PEPTIDE, "--chain", "C"][..],
+            "no chain `C` found; one of `A` (GLY 1 to GLY 10)",
+        ),
+        (&[PEPTIDE, "other.pdb"], "two states of one protein, at least 50 %, expected"),
+        (&["gap.pdb"], "a gap between PRO 4 and GLY 7 found"),
+        (&[PEPTIDE, "gap.pdb"], "a gap between PRO 4 and GLY 7 found"),
+        (&[PEPTIDE, "--obstacle", "A"], "`A` found, the chain that moves"),
+        (&[PEPTIDE, PEPTIDE, "--residues", "2-30"], "no residue 30 found"),
+    ] {
+        let whole = [&["protein", "problem"], arguments, &["--out", "x.toml"]].concat();
+        let done = scratch.run(&whole);
+        done.assert_code(2);
+        done.assert_stderr(&[expected]);
+        assert_eq!(names(&scratch), before, "{arguments:?}");
+    }
+    let around =
+        ["protein", "problem", "two.pdb", "--chain", "A", "--obstacle", "B", "--out", "x.toml"];
+    scratch.run(&around).assert_code(0);
+}
+
+/// The names of what is in the folder.
+fn names(scratch: &Scratch) -> Vec<PathBuf> {
+    let mut names = support::children(&scratch.path("."));
+    names.sort();
+    names
+}
+
+/// The atoms of a file as those of one chain, moved along x, Å.
+fn chain(text: &str, name: char, shift: f64) -> String {
+    let of = |line: &str| {
+        let x: f64 = line[30..38].trim().parse().expect("a number");
+        format!("{}{name}{}{:8.3}{}\n", &line[..21], &line[22..30], x + shift, &line[38..])
+    };
+    text.lines().filter(|line| line.starts_with("ATOM")).map(of).collect()
+}
+
 /// The PDB files of the folder that `ROADMILL_DATA` names, or `None`, said aloud.
 fn files() -> Option<Vec<PathBuf>> {
     let folder =

@@ -215,7 +215,8 @@ pub trait Model: Any + Send + Sync {
         None
     }
 
-    /// A configuration that is known beforehand and valid, such as a molecule's native state, of a model that has one.
+    /// A configuration that is known beforehand, such as a molecule's native state, of a model that has one; perhaps it is
+    /// not valid.
     fn native(&self) -> Option<&[f64]> {
         None
     }

@@ -48,31 +48,45 @@ pub fn transition(
     let refit =
         fitted.map_err(|error| ProblemError::pathless(format!("protein.target: {error}")))?;
     let (start, goal) = (protein.linkage().source(), refit.q.clone());
-    for (end, q) in [("start", &start), ("goal", &goal)] {
-        if let Some(message) = protein.broken_rule(q) {
-            return Err(ProblemError::pathless(format!(
-                "the {end} breaks a rule: {message}; rules that both ends keep expected"
-            )));
-        }
-    }
+    expect_valid(&protein, "start", &start)?;
+    expect_valid(&protein, "goal", &goal)?;
     let noise = TorsionNoise { about: About::Ends, ..TorsionNoise::default() };
     let strategy = StrategySpec::sampled("noise", SamplerKind::TorsionNoise(noise)).nodes(NODES);
-    let problem = builder.query(start, goal).strategy(strategy).build()?;
+    let mut problem = builder.query(start, goal).strategy(strategy).build()?;
+    if protein.has_obstacles() {
+        problem.notes.push(
+            "obstacles: the first residue stands still, so the goal stands beside them where its torsions lead, and not where \
+             the target's file has it"
+                .to_owned(),
+        );
+    }
     Ok(Transition { problem, refit })
 }
 
 /// Makes the problem of a protein about its only structure, with sets of torsion noise about it and no criterion.
 ///
 /// # Errors
-/// What is wrong with the structure.
+/// What is wrong with the structure, and one that breaks the rules, with the first pair of atoms that does.
 pub fn about_native(
     name: &str,
     folder: &Path,
     spec: &ProteinSpec,
 ) -> Result<Problem, ProblemError> {
+    let builder = Problem::builder(name, spec.clone()).folder(folder);
+    let protein = protein_of(&builder)?;
+    expect_valid(&protein, "source", &protein.linkage().source())?;
     let noise = SamplerKind::TorsionNoise(TorsionNoise::default());
     let strategy = StrategySpec::sampled("noise", noise).nodes(NODES);
-    Problem::builder(name, spec.clone()).folder(folder).strategy(strategy).build()
+    builder.strategy(strategy).build()
+}
+
+/// An error where an end of a problem is not valid.
+fn expect_valid(protein: &Protein, end: &str, q: &[f64]) -> Result<(), ProblemError> {
+    protein.broken_rule(q).map_or(Ok(()), |message| {
+        Err(ProblemError::pathless(format!(
+            "the {end} is not valid: {message}; `rules` and `highest` that it keeps expected"
+        )))
+    })
 }
 
 /// The target's residues, one for each of the source's.

@@ -26,9 +26,9 @@ mod torsion;
 pub use amino_acid::AminoAcid;
 pub use error::StructureError;
 pub use mmcif::mmcif;
-pub use read::{read, read_bytes};
+pub use read::{COORDINATE_MAX, read, read_bytes};
 pub use residue::{Atom, Residue, ResidueNumber};
-pub use selection::{ChainSelection, parse_range, select_chain};
+pub use selection::{ChainSelection, find_chain, parse_range, select_chain};
 pub use torsion::torsion;
 
 use crate::digest::SourceFile;

@@ -24,41 +24,46 @@ fn parse_number(text: &str) -> Option<ResidueNumber> {
     Some(ResidueNumber { number: number.parse().ok()?, insertion })
 }
 
-/// The chain that is meant, without what is no residue of its range. `others` stay as they are.
+/// The index in the model of the chain that is meant by its name, or of the only chain of amino acids.
 ///
 /// A sole chain of amino acids answers to any name, for many files leave it blank.
 ///
 /// # Errors
-/// No such chain or residue, or several chains that may be meant; what there is, is listed.
+/// No such chain, or several that may be meant; what there is, is listed.
+pub fn find_chain(model: &StructureModel, name: Option<&str>) -> Result<usize, StructureError> {
+    let proteins: Vec<usize> =
+        (0..model.chains.len()).filter(|at| !model.chains[*at].residues.is_empty()).collect();
+    let named = |at: &usize| name.is_none_or(|name| model.chains[*at].name == name);
+    let matching: Vec<usize> = proteins.iter().copied().filter(named).collect();
+    let list =
+        |places: &[usize]| list(&places.iter().map(|at| &model.chains[*at]).collect::<Vec<_>>());
+    let message = match (matching.as_slice(), proteins.as_slice()) {
+        ([chain], _) | ([], [chain]) => return Ok(*chain),
+        (_, []) => "no amino acids found; a chain of amino acids expected".to_owned(),
+        ([], _) => {
+            let (name, listed) = (name.unwrap_or_default(), list(&proteins));
+            format!("no chain `{name}` found; one of {listed} expected")
+        }
+        (several, _) => {
+            let what = match name {
+                Some(name) => format!("{} chains called `{name}`", several.len()),
+                None => format!("{} chains", several.len()),
+            };
+            format!("{what} found: {}; the name of one expected", list(several))
+        }
+    };
+    Err(StructureError::pathless(message))
+}
+
+/// The chain that is meant, without what is no residue of its range. `others` stay as they are.
+///
+/// # Errors
+/// As [`find_chain`], and no such residue; what there is, is listed.
 pub fn select_chain(
     model: &StructureModel,
     selection: ChainSelection,
 ) -> Result<Chain, StructureError> {
-    let proteins: Vec<&Chain> =
-        model.chains.iter().filter(|chain| !chain.residues.is_empty()).collect();
-    let named = |chain: &&&Chain| selection.chain.is_none_or(|name| chain.name == name);
-    let matching: Vec<&Chain> = proteins.iter().filter(named).copied().collect();
-    let chain = match (matching.as_slice(), proteins.as_slice()) {
-        ([chain], _) | ([], [chain]) => *chain,
-        (_, []) => {
-            let message = "no amino acids found; a chain of amino acids expected";
-            return Err(StructureError::pathless(message));
-        }
-        ([], _) => {
-            let name = selection.chain.unwrap_or_default();
-            let listed = list(&proteins);
-            let message = format!("no chain `{name}` found; one of {listed} expected");
-            return Err(StructureError::pathless(message));
-        }
-        (several, _) => {
-            let what = match selection.chain {
-                Some(name) => format!("{} chains called `{name}`", several.len()),
-                None => format!("{} chains", several.len()),
-            };
-            let message = format!("{what} found: {}; the name of one expected", list(several));
-            return Err(StructureError::pathless(message));
-        }
-    };
+    let chain = &model.chains[find_chain(model, selection.chain)?];
     let Some((first, last)) = selection.range else { return Ok(chain.clone()) };
     let place = |number: ResidueNumber| {
         let found = chain.residues.iter().position(|residue| residue.number == number);

@@ -126,9 +126,18 @@ pub(super) fn describe_end(protein: &Protein, name: &str, q: &[f64], out: &mut S
     }
 }
 
-/// The first pair of atoms at `q` that breaks a rule, for people to read.
+/// Why `q` is not valid, for people to read: the first pair of atoms that breaks a rule, or the energy above the highest.
 pub(super) fn broken_rule(protein: &Protein, q: &[f64]) -> Option<String> {
-    ChainInEnergy::of(protein).first_violation(q).map(|violation| text_of(protein, &violation))
+    let model = ChainInEnergy::of(protein);
+    if let Some(violation) = model.first_violation(q) {
+        return Some(text_of(protein, &violation));
+    }
+    let (highest, energy) = (protein.highest?, model.energy_at(q));
+    (energy > highest).then(|| {
+        format!(
+            "an energy of {energy:.1} model kJ/mol, where {highest} is the highest that is valid"
+        )
+    })
 }
 
 /// "Backbone: VAL 35 N, GLY 40 O, 2.312 Å apart".

@@ -84,12 +84,18 @@ impl Protein {
         self.target.as_ref().map_or(&[], |target| &target.matches[..])
     }
 
+    /// Whether chains stand around it that do not move.
+    pub fn has_obstacles(&self) -> bool {
+        !self.obstacles.is_empty()
+    }
+
     /// Which conformations are invalid.
     pub fn rules(&self) -> &Rules {
         &self.rules
     }
 
-    /// The first pair of atoms at a configuration that breaks a rule, for people to read.
+    /// Why a configuration is not valid, for people to read: the first pair of atoms that breaks a rule, or its energy, above
+    /// the highest that is valid; `None` if it is valid.
     pub fn broken_rule(&self, q: &[f64]) -> Option<String> {
         describe::broken_rule(self, q)
     }

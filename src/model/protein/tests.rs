@@ -3,8 +3,9 @@
 use super::*;
 use crate::model::{Cost, Model, ModelKind, Scratch, Validity};
 use crate::numbers::Ordinal;
-use crate::problem::Problem;
+use crate::problem::{Problem, about_native, transition};
 use crate::seed::{Purpose, Seed};
+use crate::structure::AminoAcid;
 use std::path::{Path, PathBuf};
 
 fn folder() -> PathBuf {
@@ -83,7 +84,7 @@ fn wrong_tables_are_refused_by_their_keys() {
 fn unsound_descriptions_are_refused() {
     let sound = protein(TWO_ENDS);
     assert_eq!(sound.sound(), Ok(()));
-    let spoil: [fn(&mut Protein); 14] = [
+    let spoil: [fn(&mut Protein); 30] = [
         |p| p.source.clear(),
         |p| p.source.truncate(1),
         |p| p.source[3].atoms[1].position.x = f64::NAN,
@@ -93,6 +94,24 @@ fn unsound_descriptions_are_refused() {
         |p| p.source[3].atoms.clear(),
         |p| p.source[3].name = "\u{1b}[31m".into(),
         |p| p.source[3].atoms[1].position = p.source[3].atoms[0].position,
+        // Whatever a model is made of, in residues whose torsions turn and in those where they do not.
+        |p| p.source[4].atoms.retain(|atom| atom.name != "O"),
+        |p| p.source[0].atoms[0].position = p.source[0].atoms[1].position,
+        |p| p.source[3].atoms[0].position = p.source[3].atoms[1].position,
+        |p| p.source[9].atoms[2].position = p.source[9].atoms[1].position,
+        |p| p.target.as_mut().unwrap().residues[4].atoms.retain(|atom| atom.name != "O"),
+        // What would be read as something else.
+        |p| p.source[4].number = p.source[3].number,
+        |p| p.source[4].number.insertion = Some('?'),
+        |p| p.source[4].amino_acid = Some(AminoAcid::Alanine),
+        |p| p.source[4].amino_acid = None,
+        |p| p.source[4].atoms[1].element = "c".into(),
+        |p| p.source[4].atoms[1].element = "".into(),
+        |p| p.source[4].atoms[4].name = "OT2".into(),
+        |p| p.source[4].atoms[4].position.x += 101.0,
+        |p| p.source[4].atoms[4].position = p.source[6].atoms[4].position,
+        |p| p.obstacles = vec![p.source.clone()],
+        |p| p.target.as_mut().unwrap().matches.truncate(9),
         |p| p.target.as_mut().unwrap().matches[0] = [0, 10],
         |p| p.target.as_mut().unwrap().matches.swap(0, 1),
         |p| p.rules.side_chains = f64::INFINITY,
@@ -106,6 +125,182 @@ fn unsound_descriptions_are_refused() {
         spoil(&mut unsound);
         assert!(unsound.sound().is_err(), "{index}");
     }
+}
+
+/// The first residue that a file would not give back is named.
+#[test]
+fn what_does_not_read_back_is_named() {
+    let mut unsound = protein(TWO_ENDS);
+    unsound.target.as_mut().unwrap().residues[4].amino_acid = Some(AminoAcid::Alanine);
+    let message = unsound.sound().unwrap_err();
+    assert!(
+        message.starts_with("protein.target: GLU 5 found, which a file cannot hold"),
+        "{message}"
+    );
+    let mut unsound = protein("");
+    unsound.source[4].atoms[1].position.x -= 1000.0;
+    let message = unsound.sound().unwrap_err();
+    assert!(message.starts_with("protein.source: GLU 5 N: "), "{message}");
+    assert!(message.ends_with(" Å from its CA found; at most 100 Å expected"), "{message}");
+}
+
+/// The peptide's atoms as those of a chain, moved along x, Å.
+fn chain(name: char, shift: f64) -> String {
+    let text = std::fs::read_to_string(folder().join("structures/1UAO.pdb")).unwrap();
+    let atoms = text.lines().filter(|line| line.starts_with("ATOM"));
+    let of = |line: &str| {
+        let x: f64 = line[30..38].trim().parse().unwrap();
+        format!("{}{name}{}{:8.3}{}\n", &line[..21], &line[22..30], x + shift, &line[38..])
+    };
+    atoms.map(of).collect()
+}
+
+const WATER: &str =
+    "HETATM  999  O   HOH B  99     100.000   0.000   0.000  1.00  0.00           O\n";
+
+/// A problem about a structure file of this text, in a folder of its own.
+fn parse_of(text: &str, table: &str) -> Result<(tempfile::TempDir, Problem), String> {
+    let scratch = tempfile::tempdir().unwrap();
+    std::fs::write(scratch.path().join("x.pdb"), text).unwrap();
+    let problem = Problem::parse(&scratch.path().join("p.toml"), &format!("[protein]\n{table}"));
+    problem.map(|problem| (scratch, problem)).map_err(|error| error.to_string())
+}
+
+/// Writes a problem into its folder and reads it again.
+fn written_and_read(scratch: &tempfile::TempDir, problem: &Problem) -> Problem {
+    let written = problem.to_toml("again-structures");
+    std::fs::create_dir_all(scratch.path().join("again-structures")).unwrap();
+    for (name, text) in &written.files {
+        std::fs::write(scratch.path().join("again-structures").join(name), text).unwrap();
+    }
+    Problem::parse(&scratch.path().join("again.toml"), &written.text).unwrap()
+}
+
+/// Other chains of the file stand around the protein; a modified residue, an inserted one and all of them come back from the
+/// files that are written.
+#[test]
+fn obstacles_are_other_chains() {
+    let moving = chain('A', 0.0).replace("GLY A  10 ", "GLY A   9A");
+    let moving = moving.replace("THR A   6", "TPO A   6");
+    let text = [moving, chain('B', 30.0), chain('C', 60.0), WATER.to_owned()].concat();
+    let table = "source = { file = \"x.pdb\", chain = \"A\" }\nobstacles = [\"C\", \"B\"]\n";
+    let (scratch, problem) = parse_of(&text, table).unwrap();
+    let ModelKind::Protein(found) = problem.model() else { panic!("no protein") };
+    assert_eq!(found.source[9].number.to_string(), "9A");
+    assert_eq!((&*found.source[5].name, found.obstacles.len()), ("TPO", 2));
+    let x = |residues: &[Residue]| residues[0].position("N").unwrap().x;
+    assert!((x(&found.obstacles[0]) - x(&found.source) - 60.0).abs() < 1e-9);
+    let notes = problem.notes().join("\n");
+    assert!(notes.contains("obstacles: chain B: 1 HOH left out"), "{notes}");
+    assert!(!notes.contains("not valid"), "{notes}");
+    let again = written_and_read(&scratch, &problem);
+    assert_eq!(again.model(), problem.model());
+    assert_eq!(again.digest(), problem.digest());
+
+    let near = format!("{table}rules = {{ obstacle-backbone = 40.0 }}\n");
+    let (_scratch, problem) = parse_of(&text, &near).unwrap();
+    let notes = problem.notes().join("\n");
+    assert!(notes.contains("the source is not valid: ObstacleBackbone: GLY 1 "), "{notes}");
+}
+
+#[test]
+fn the_chain_that_moves_and_twins_are_no_obstacles() {
+    let (one, two) = (chain('A', 0.0), chain('B', 30.0));
+    let both = format!("{one}{two}{WATER}");
+    for (text, source, obstacles, expected) in [
+        (&one, "", "\"A\"", "`A` found, the chain that moves"),
+        (&one, ", chain = \"Z\"", "\"A\"", "`A` found, the chain that moves"),
+        (&one, "", "\"B\"", "no chain `B` found; none, for the file has no other chain"),
+        (&both, ", chain = \"A\"", "\"D\"", "no chain `D` found; one of `B` expected"),
+        (&both, ", chain = \"A\"", "\"B\", \"B\"", "`B` found twice"),
+        (&format!("{both}{}", chain('B', 60.0)), ", chain = \"A\"", "\"B\"", "2 chains `B` found"),
+    ] {
+        let table = format!("source = {{ file = \"x.pdb\"{source} }}\nobstacles = [{obstacles}]\n");
+        let error = parse_of(text, &table).expect_err(expected);
+        assert!(error.contains("protein.obstacles") && error.contains(expected), "{error}");
+    }
+    let residues = ChainSpec::Residues(protein("").source);
+    let spec = ProteinSpec::new(residues).obstacles(["B".to_owned()]);
+    let error = Problem::builder("x", spec).build().unwrap_err().to_string();
+    assert!(error.contains("protein.obstacles: names of chains found"), "{error}");
+}
+
+/// A stretched peptide without four of its residues: both sides of the gap, 15 Å wide, move as one, and the gap is no bond
+/// that other parts of the chain would have to keep clear of.
+#[test]
+fn a_gap_may_be_rigid() {
+    let whole = protein("");
+    let mut residues = whole.molecule().unwrap().chains_at(&STRETCHED)[0].clone();
+    residues.drain(3..7);
+    let wide = crate::structure::peptides::gaps(&residues)[0].distance.unwrap();
+    assert!(wide > 12.0, "{wide}");
+    let spec = ProteinSpec::new(ChainSpec::Residues(residues));
+    let error = Problem::builder("gap", spec.clone()).build().unwrap_err().to_string();
+    assert!(error.contains("a gap between ASP 3 and THR 8 found"), "{error}");
+    let problem = Problem::builder("gap", spec.gaps(Gaps::Rigid)).build().unwrap();
+    let names: Vec<String> = problem.space().dofs().iter().map(|dof| dof.name.clone()).collect();
+    assert_eq!(names.join(" "), "psi_1 phi_2 psi_2 phi_3 psi_8 phi_9 psi_9 phi_10");
+    let ModelKind::Protein(protein) = problem.model() else { panic!("no protein") };
+    let model = protein.prepare();
+    let native = model.native().unwrap().to_vec();
+    let near: Vec<f64> = native.iter().map(|value| crate::math::wrap_angle(value + 0.02)).collect();
+    let scratch = &mut Scratch::new();
+    assert!(model.is_valid(&native, scratch) && model.is_valid(&near, scratch));
+    assert!(model.motion(&native, &near, 1, scratch).is_some());
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(written_and_read(&folder, &problem).digest(), problem.digest());
+}
+
+/// The goal of `problems/peptide.toml`.
+const STRETCHED: [f64; 17] = [
+    2.36, -2.43, 2.36, -2.43, 2.36, 2.36, -2.43, 2.36, -2.43, 2.36, -2.43, 2.36, -2.43, 2.36,
+    -2.43, 2.36, -2.43,
+];
+
+#[test]
+fn a_transition_has_the_source_and_the_refit_as_its_ends() {
+    let file = || FileSpec::new("structures/1UAO.pdb");
+    let spec = || ProteinSpec::new(file().into());
+    let of = |spec: &ProteinSpec| transition("x", &folder(), spec);
+    let made = of(&spec().target(file().into())).unwrap();
+    assert!(made.refit.ca_rmsd < 1e-3, "{}", made.refit.ca_rmsd);
+    let query = made.problem.query().unwrap();
+    let ModelKind::Protein(protein) = made.problem.model() else { panic!("no protein") };
+    assert_eq!(query.start, protein.linkage().source());
+    assert_eq!(query.goal, made.refit.q);
+    for (spec, expected) in [
+        (spec(), "protein.target: none found"),
+        (spec().target(file().residues("2-10").into()), "no counterpart of GLY 1 found"),
+        (
+            spec().target(file().into()).rules(Rules { backbone: 4.0, ..Rules::default() }),
+            "the start is not valid: Backbone: ",
+        ),
+        (spec().target(file().into()).highest(-1e9), "the start is not valid: an energy of "),
+    ] {
+        let error = of(&spec).unwrap_err().to_string();
+        assert!(error.contains(expected), "{expected}: {error}");
+    }
+}
+
+#[test]
+fn about_one_structure_it_has_to_be_valid() {
+    let spec = ProteinSpec::new(FileSpec::new("structures/1UAO.pdb").into());
+    assert!(about_native("x", &folder(), &spec).is_ok());
+    let spec = spec.rules(Rules { backbone: 4.0, ..Rules::default() });
+    let error = about_native("x", &folder(), &spec).unwrap_err().to_string();
+    assert!(error.contains("the source is not valid: Backbone: "), "{error}");
+}
+
+/// Where the chain stands beside obstacles follows from its first residue, which is said.
+#[test]
+fn transitions_beside_obstacles_say_where_the_goal_stands() {
+    let scratch = tempfile::tempdir().unwrap();
+    let text = format!("{}{}", chain('A', 0.0), chain('B', 30.0));
+    std::fs::write(scratch.path().join("x.pdb"), text).unwrap();
+    let file = || FileSpec::new("x.pdb").chain("A");
+    let spec = ProteinSpec::new(file().into()).target(file().into()).obstacles(["B".to_owned()]);
+    let notes = transition("x", scratch.path(), &spec).unwrap().problem.notes().join("\n");
+    assert!(notes.contains("the first residue stands still"), "{notes}");
 }
 
 #[test]

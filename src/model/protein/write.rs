@@ -7,15 +7,12 @@ use crate::structure::{Residue, mmcif};
 
 /// Appends the table. The structures become mmCIF files: the source with the obstacles as chains of their own, and the target.
 pub(super) fn write(protein: &Protein, documents: &mut Documents) {
-    let Protein { source, target, gaps, obstacles, rules, energy, highest, step } = protein;
+    let Protein { source: _, target, gaps, obstacles, rules, energy, highest, step } = protein;
     let folder = documents.folder.clone();
     let file =
         |name: &str| if folder.is_empty() { name.to_owned() } else { format!("{folder}/{name}") };
-    let names: Vec<String> = (0..=obstacles.len()).map(chain_name).collect();
-    let residues = std::iter::once(source).chain(obstacles);
-    let chains: Vec<(&str, &[Residue])> =
-        names.iter().zip(residues).map(|(name, chain)| (&name[..], &chain[..])).collect();
-    documents.files.push(("source.cif".to_owned(), mmcif("source", &chains)));
+    let (source_text, names) = source_file(protein);
+    documents.files.push(("source.cif".to_owned(), source_text));
 
     let mut text = format!(
         "\n[protein]\nsource = {{ file = {}, chain = {} }}\n",
@@ -23,9 +20,7 @@ pub(super) fn write(protein: &Protein, documents: &mut Documents) {
         value(&names[0])
     );
     if let Some(target) = target {
-        documents
-            .files
-            .push(("target.cif".to_owned(), mmcif("target", &[("A", &target.residues)])));
+        documents.files.push(("target.cif".to_owned(), target_file(&target.residues)));
         text += &format!("target = {{ file = {}, chain = \"A\" }}\n", value(&file("target.cif")));
     }
     if *gaps != Gaps::Error {
@@ -38,6 +33,21 @@ pub(super) fn write(protein: &Protein, documents: &mut Documents) {
     text += &highest.map_or_else(String::new, |highest| format!("highest = {highest:?}\n"));
     text += &format!("step = {step:?}\n");
     documents.text += &text;
+}
+
+/// The file of the source, with the obstacles as chains of their own, and the names of the chains.
+pub(super) fn source_file(protein: &Protein) -> (String, Vec<String>) {
+    let names: Vec<String> = (0..=protein.obstacles.len()).map(chain_name).collect();
+    let residues = std::iter::once(&protein.source).chain(&protein.obstacles);
+    let chains: Vec<(&str, &[Residue])> =
+        names.iter().zip(residues).map(|(name, chain)| (&name[..], &chain[..])).collect();
+    let text = mmcif("source", &chains);
+    (text, names)
+}
+
+/// The file of the target.
+pub(super) fn target_file(residues: &[Residue]) -> String {
+    mmcif("target", &[("A", residues)])
 }
 
 /// The name of a chain in a file: `A` to `Z`, then `A1` and so on.

@@ -27,10 +27,10 @@ struct Ladder {
     other: VecDeque<usize>,
 }
 
-/// Of what each residue is part, given the residues' unbroken pieces of chain, and whether the N–H of a residue is bonded
-/// to the C=O of another.
-pub(super) fn rungs(segments: &[usize], is_bonded: impl Fn(usize, usize) -> bool) -> Vec<Rung> {
-    let mut ladders = join_bridges(segments, is_bonded);
+/// Of what each residue is part, given the residues' unbroken pieces of chain, and all bonds: which residue's N–H is bonded
+/// to which one's C=O, ascending.
+pub(super) fn rungs(segments: &[usize], bonds: &[(usize, usize)]) -> Vec<Rung> {
+    let mut ladders = join_bridges(segments, bonds);
     join_ladders(segments, &mut ladders);
     let mut rungs = vec![Rung::None; segments.len()];
     for ladder in &ladders {
@@ -47,34 +47,49 @@ pub(super) fn rungs(segments: &[usize], is_bonded: impl Fn(usize, usize) -> bool
     rungs
 }
 
+/// Where bridges may be, ascending: each has one of the bonds that [`bridge`] asks for first.
+fn candidates(count: usize, bonds: &[(usize, usize)]) -> Vec<(usize, usize)> {
+    let of_bond = |&(donor, acceptor): &(usize, usize)| {
+        let before = donor.checked_sub(1);
+        [
+            before.map(|before| (before, acceptor)),
+            before.map(|before| (acceptor, before)),
+            before.map(|before| (before, acceptor + 1)),
+            Some((acceptor, donor)),
+        ]
+    };
+    let is_within = |&(i, j): &(usize, usize)| i >= 1 && j >= i + 3 && j + 1 < count;
+    let mut candidates: Vec<(usize, usize)> =
+        bonds.iter().flat_map(of_bond).flatten().filter(is_within).collect();
+    candidates.sort_unstable();
+    candidates.dedup();
+    candidates
+}
+
 /// All bridges, those that follow on one another without a gap joined.
-fn join_bridges(segments: &[usize], is_bonded: impl Fn(usize, usize) -> bool) -> Vec<Ladder> {
+fn join_bridges(segments: &[usize], bonds: &[(usize, usize)]) -> Vec<Ladder> {
+    let is_bonded = |donor, acceptor| bonds.binary_search(&(donor, acceptor)).is_ok();
     let mut ladders: Vec<Ladder> = Vec::new();
-    let count = segments.len();
-    for i in 1..count.saturating_sub(4) {
-        for j in i + 3..count - 1 {
-            let Some(direction) = bridge(segments, &is_bonded, i, j) else { continue };
-            let before = ladders.iter_mut().find(|ladder| {
-                let next = match direction {
-                    Direction::Parallel => ladder.other.back().map(|last| last + 1),
-                    Direction::Antiparallel => ladder.other.front().map(|first| first - 1),
-                };
-                ladder.direction == direction
-                    && ladder.one.back() == Some(&(i - 1))
-                    && next == Some(j)
-            });
-            match (before, direction) {
-                (None, _) => {
-                    ladders.push(Ladder { direction, one: [i].into(), other: [j].into() });
-                }
-                (Some(ladder), Direction::Parallel) => {
-                    ladder.one.push_back(i);
-                    ladder.other.push_back(j);
-                }
-                (Some(ladder), Direction::Antiparallel) => {
-                    ladder.one.push_back(i);
-                    ladder.other.push_front(j);
-                }
+    for (i, j) in candidates(segments.len(), bonds) {
+        let Some(direction) = bridge(segments, is_bonded, i, j) else { continue };
+        let before = ladders.iter_mut().find(|ladder| {
+            let next = match direction {
+                Direction::Parallel => ladder.other.back().map(|last| last + 1),
+                Direction::Antiparallel => ladder.other.front().map(|first| first - 1),
+            };
+            ladder.direction == direction && ladder.one.back() == Some(&(i - 1)) && next == Some(j)
+        });
+        match (before, direction) {
+            (None, _) => {
+                ladders.push(Ladder { direction, one: [i].into(), other: [j].into() });
+            }
+            (Some(ladder), Direction::Parallel) => {
+                ladder.one.push_back(i);
+                ladder.other.push_back(j);
+            }
+            (Some(ladder), Direction::Antiparallel) => {
+                ladder.one.push_back(i);
+                ladder.other.push_front(j);
             }
         }
     }
@@ -159,7 +174,9 @@ mod tests {
 
     /// The rungs of residues in one piece with these bonds, donors first: `-`, `B` or `E` each.
     fn letters(count: usize, bonds: &[(usize, usize)]) -> String {
-        let rungs = rungs(&vec![0; count], |donor, acceptor| bonds.contains(&(donor, acceptor)));
+        let mut bonds = bonds.to_vec();
+        bonds.sort_unstable();
+        let rungs = rungs(&vec![0; count], &bonds);
         let letter = |rung| match rung {
             Rung::None => '-',
             Rung::Bridge => 'B',
@@ -181,6 +198,33 @@ mod tests {
         for count in 0..6 {
             assert_eq!(letters(count, &[(0, 4), (4, 0)]), "-".repeat(count));
         }
+    }
+
+    /// Whatever the bonds are, no bridge is missed.
+    #[test]
+    fn all_bridges_have_a_bond_to_be_found_by() {
+        let (count, mut state) = (24, 1_u64);
+        let mut below = |end: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as usize % end
+        };
+        let mut found = 0;
+        for round in 0..200 {
+            let mut bonds: Vec<(usize, usize)> =
+                (0..2 * round).map(|_| (below(count), below(count))).collect();
+            bonds.sort_unstable();
+            let is_bonded = |donor, acceptor| bonds.contains(&(donor, acceptor));
+            let candidates = candidates(count, &bonds);
+            for i in 1..count - 4 {
+                for j in i + 3..count - 1 {
+                    if bridge(&vec![0; count], is_bonded, i, j).is_some() {
+                        assert!(candidates.contains(&(i, j)), "{i} {j} {bonds:?}");
+                        found += 1;
+                    }
+                }
+            }
+        }
+        assert!(found > 1000, "{found}");
     }
 
     #[test]
@@ -214,8 +258,8 @@ mod tests {
     #[test]
     fn nothing_reaches_over_a_break() {
         let segments: Vec<usize> = (0..14).map(|i| usize::from(i >= 3)).collect();
-        let bonds = [(2, 9), (9, 2), (5, 11), (11, 5)];
-        let rungs = rungs(&segments, |donor, acceptor| bonds.contains(&(donor, acceptor)));
+        let bonds = [(2, 9), (5, 11), (9, 2), (11, 5)];
+        let rungs = rungs(&segments, &bonds);
         let expected = |i| if matches!(i, 5 | 11) { Rung::Bridge } else { Rung::None };
         assert_eq!(rungs, (0..14).map(expected).collect::<Vec<_>>());
     }

@@ -95,16 +95,15 @@ impl ThreeStates {
 /// A backbone atom that was not seen has no bonds, and the chain is broken there.
 pub fn secondary_structure(residues: &[Residue]) -> Vec<SecondaryStructure> {
     let segments = segments(residues);
-    let bonds = bonds_of_dssp(residues);
-    let is_bonded = |donor: usize, acceptor: usize| {
-        bonds.binary_search_by(|b| (b.donor, b.acceptor).cmp(&(donor, acceptor))).is_ok()
-    };
+    let bonds: Vec<(usize, usize)> =
+        bonds_of_dssp(residues).iter().map(|bond| (bond.donor, bond.acceptor)).collect();
+    let is_bonded = |donor: usize, acceptor: usize| bonds.binary_search(&(donor, acceptor)).is_ok();
     let of_rung = |rung| match rung {
         Rung::None => Loop,
         Rung::Bridge => Bridge,
         Rung::Ladder => Strand,
     };
-    let mut assigned: Vec<_> = rungs(&segments, is_bonded).into_iter().map(of_rung).collect();
+    let mut assigned: Vec<_> = rungs(&segments, &bonds).into_iter().map(of_rung).collect();
 
     // At which residues a turn of 3, 4 or 5 starts.
     let turns = [3, 4, 5].map(|length| {

@@ -12,6 +12,8 @@ mod site;
 #[cfg(test)]
 mod tests;
 
+pub use site::COORDINATE_MAX;
+
 use super::{Structure, StructureError, StructureFormat};
 use crate::digest::SourceFile;
 use crate::source::{NoText, read_file, text_of};

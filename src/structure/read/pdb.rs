@@ -29,6 +29,9 @@ pub(super) fn read(text: &str) -> Result<PdbText, StructureError> {
             pdb.parents.insert(name, parent);
         }
     }
+    let two_letters = chains_of_two_letters(text, &pdb.parents);
+    // Chains of the model that have had their TER.
+    let mut ended: BTreeSet<String> = BTreeSet::new();
     let mut is_open = false;
     let mut has_models = false;
     let mut count = 0;
@@ -46,12 +49,16 @@ pub(super) fn read(text: &str) -> Result<PdbText, StructureError> {
                 if pdb.models.is_empty() {
                     pdb.models.push(RawModel { number: 1, sites: Vec::new() });
                 }
-                let site = atom(&Columns::of(line), number, &pdb.parents)?;
+                let mut site = atom(&Columns::of(line), number, &pdb.parents, &two_letters)?;
+                // A blank name says nothing: what follows may be another chain.
+                if ended.contains(&site.chain) && !site.chain.is_empty() {
+                    site.in_polymer = Some(false);
+                }
                 pdb.models.last_mut().expect("there is one").sites.push(site);
             }
             "TER" => {
                 if let Some(model) = pdb.models.last_mut() {
-                    end_chain(&mut model.sites);
+                    ended.extend(end_chain(&mut model.sites));
                 }
             }
             "ENDMDL" => is_open = false,
@@ -68,6 +75,7 @@ pub(super) fn read(text: &str) -> Result<PdbText, StructureError> {
                 }
                 pdb.models.push(RawModel { number: named, sites: Vec::new() });
                 (has_models, is_open) = (true, true);
+                ended.clear();
             }
             _ => {}
         }
@@ -87,25 +95,52 @@ fn is_model(line: &str) -> bool {
     rest.is_empty() || rest.starts_with(' ')
 }
 
-/// Notes that the chain of the last atom ends here: all of it that came in a row belongs to a polymer.
-fn end_chain(sites: &mut [Site]) {
-    let Some(chain) = sites.last().map(|site| site.chain.clone()) else { return };
+/// Notes that the chain of the last atom ends here, and gives its name: all of it that came in a row since the TER before
+/// belongs to a polymer.
+fn end_chain(sites: &mut [Site]) -> Option<String> {
+    let chain = sites.last()?.chain.clone();
     for site in sites.iter_mut().rev() {
-        if site.chain != chain || site.in_polymer.is_some() {
+        if site.chain != chain || site.in_polymer == Some(true) {
             break;
         }
         site.in_polymer = Some(true);
     }
+    Some(chain)
 }
 
-/// The line of an atom, from which its columns are taken.
-fn atom(line: &Columns, number: usize, parents: &Parents) -> Result<Site, StructureError> {
+/// Columns 21 and 22 of all chains whose names have two letters: there an amino acid of three letters stands before
+/// both, and no other name of four letters that an amino acid has (`HISE` in chain `A`) is made of it and the first.
+fn chains_of_two_letters(text: &str, parents: &Parents) -> BTreeSet<String> {
+    let atoms = text.lines().filter(|line| line.starts_with("ATOM") || line.starts_with("HETATM"));
+    let mut chains = BTreeSet::new();
+    for line in atoms.map(Columns::of) {
+        let Some(first) = line.letter(20) else { continue };
+        let name = line.columns(17, 20);
+        let is_three = name.trim().chars().count() == 3 && amino_acid(&name, parents).is_some();
+        if is_three && amino_acid(&format!("{name}{first}"), parents).is_none() {
+            chains.insert(line.columns(20, 22).into_owned());
+        }
+    }
+    chains
+}
+
+/// The atom of a line, from which its columns are taken.
+fn atom(
+    line: &Columns,
+    number: usize,
+    parents: &Parents,
+    two_letters: &BTreeSet<String>,
+) -> Result<Site, StructureError> {
     let field = line.columns(12, 16);
     let name = field.trim().to_owned();
-    // CHARMM's names have a fourth letter where others leave a blank, or have the first of two letters of a chain.
+    // CHARMM's and GROMACS's names have a fourth letter where others leave a blank, or have the first of two letters of a
+    // chain.
     let three = line.trimmed(17, 20);
     let four = line.trimmed(17, 21);
-    let has_four = four.chars().count() == 4 && amino_acid(&three, parents).is_none();
+    let is_amino_acid = |name: &str| amino_acid(name, parents).is_some();
+    let has_four = four.chars().count() == 4
+        && !two_letters.contains(&*line.columns(20, 22))
+        && (is_amino_acid(&four) || !is_amino_acid(&three));
     let residue = if has_four { four } else { three };
     let mut chain = if has_four { line.trimmed(21, 22) } else { line.trimmed(20, 22) };
     if chain.is_empty() {
@@ -141,9 +176,8 @@ fn atom(line: &Columns, number: usize, parents: &Parents) -> Result<Site, Struct
             }
         }
     }
-    let is_amino_acid = amino_acid(&residue, parents).is_some();
     let element = elements::symbol(&line.columns(76, 78))
-        .unwrap_or_else(|| elements::of_name(&field, &residue, is_amino_acid));
+        .unwrap_or_else(|| elements::of_name(&field, &residue, is_amino_acid(&residue)));
     let occupancy = line.trimmed(54, 60).parse::<f64>().ok().filter(|value| value.is_finite());
     Ok(Site {
         line: number,

@@ -3,8 +3,8 @@
 use super::super::{Point, ResidueNumber, StructureError};
 use std::fmt;
 
-/// The largest coordinate, in Å: the PDB format writes none above 9999.999.
-const COORDINATE_MAX: f64 = 99_999.0;
+/// The largest coordinate that is read, in Å: the PDB format writes none above 9999.999.
+pub const COORDINATE_MAX: f64 = 99_999.0;
 /// The most atoms of a file, all models together. Each takes some 200 bytes.
 pub(super) const ATOMS_MAX: usize = 500_000;
 

@@ -140,6 +140,16 @@ fn modified_residues_stand_in_the_chain_and_free_amino_acids_do_not() {
     assert_eq!(shape(&read(&format!("{far}TER\n"))), ["A: 1 30 | "]);
     let ligand = format!("{}TER\n{}", body(&[("ATOM", "ALA", 1)]), body(&[("HETATM", "GLY", 30)]));
     assert_eq!(shape(&read(&ligand)), ["A: 1 | GLY"]);
+    // Two that a peptide bond joins, behind the end of the chain: a ligand too.
+    let dipeptide = body(&[("HETATM", "MSE", 30), ("HETATM", "CSO", 31)]);
+    assert_eq!(shape(&read(&dipeptide)), ["A: 30 31 | "]);
+    let ended = format!("{}TER\n{dipeptide}", body(&[("ATOM", "ALA", 1)]));
+    assert_eq!(shape(&read(&ended)), ["A: 1 | MSE CSO"]);
+    // Every model has its own ends, and a second TER ends a second part.
+    let models = format!("MODEL 1\n{ended}ENDMDL\nMODEL 2\n{dipeptide}ENDMDL\n");
+    let chains = &read(&models).models[1].chains;
+    assert_eq!(chains[0].residues.len(), 2);
+    assert_eq!(shape(&read(&format!("{ended}TER\n"))), ["A: 1 30 31 | "]);
     // The file knows parents that nobody else does.
     let own = body(&[("ATOM", "ALA", 1), ("HETATM", "XYZ", 2)]);
     assert_eq!(shape(&read(&own)), ["A: 1 | XYZ"]);
@@ -227,6 +237,28 @@ fn names_with_four_letters_and_lines_that_end_early_are_read() {
     assert_eq!(shape(&read(water)), ["W:  | TIP3"]);
     let two_letters = "ATOM      1  CA  ALAAB   1      10.000   0.000   0.000\n";
     assert_eq!(shape(&read(two_letters)), ["AB: 1 | "]);
+    // The names by which GROMACS and AMBER tell protonation states: the fourth letter is none of the chain's.
+    for name in [
+        "HISA", "HISB", "HISD", "HISE", "HISH", "CYSH", "CYS2", "ASPH", "ASPP", "GLUH", "GLUP",
+        "LYSH",
+    ] {
+        for chain in ['A', ' '] {
+            let ring = format!("ATOM      1  CA  {name}{chain}   1      10.000   0.000   0.000\n");
+            let structure = read(&ring);
+            let found = &structure.models[0].chains[0];
+            assert_eq!(
+                (found.name.as_str(), &*found.residues[0].name),
+                (format!("{chain}").trim(), name)
+            );
+        }
+    }
+    // In a file whose chains have two letters, as another residue shows, it is.
+    let histidine = "ATOM      1  CA  HISEA   1      10.000   0.000   0.000\n";
+    let alanine = "ATOM      1  CA  ALAEA   2      13.800   0.000   0.000\n";
+    let hydroxyl = "HETATM    1  O   HOHEA   3      33.800   0.000   0.000\n";
+    let both = format!("{histidine}{alanine}{hydroxyl}");
+    assert_eq!(shape(&read(&both)), ["EA: 1 2 | HOH"]);
+    assert_eq!(shape(&read(histidine)), ["A: 1 | "]);
     let beyond_ascii = "REMARK  Würfel\nATOM      1  CA  ALA é   1      10.000   0.000   0.000\n";
     assert_eq!(shape(&read(beyond_ascii)), ["é: 1 | "]);
 }

@@ -11,12 +11,8 @@
 //! source's positions to the bit.
 
 use crate::math;
-use crate::structure::{Point, Residue, torsion};
+use crate::structure::{Point, Residue, peptides, torsion};
 use nalgebra::{Matrix3, Unit};
-
-/// The longest distance from a C to the next N, Å, that a peptide bond can have: the bond is 1.33 Å long, and without a
-/// bond two such atoms touch at about 3 Å.
-pub const PEPTIDE_BOND_MAX: f64 = 2.0;
 
 /// Which torsion of a residue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,21 +90,19 @@ fn rotation(axis: &Unit<Point>, sin: f64, cos: f64) -> Matrix3<f64> {
 }
 
 impl Linkage {
-    /// The linkage of a chain all of whose residues have N, CA and C. `None` where one has not, or where atoms stand on one
-    /// another. What follows a gap moves as one with what is before it.
+    /// The linkage of a chain all of whose residues have N, CA and C. `None` where one has not, where a coordinate is no
+    /// number, or where atoms stand on one another. What follows a gap moves as one with what is before it.
     pub fn of(residues: &[Residue]) -> Option<Linkage> {
         let backbone: Vec<[Point; 3]> = residues
             .iter()
             .map(|residue| {
                 let [n, ca, c] = ["N", "CA", "C"].map(|name| residue.position(name));
-                Some([n?, ca?, c?])
+                let atoms = [n?, ca?, c?];
+                atoms.iter().flatten().all(|value| value.is_finite()).then_some(atoms)
             })
             .collect::<Option<_>>()?;
-        let is_broken = |residue: &usize| {
-            let bond = backbone[residue + 1][0] - backbone[*residue][2];
-            bond.norm() > PEPTIDE_BOND_MAX
-        };
-        let gaps: Vec<usize> = (0..backbone.len().saturating_sub(1)).filter(is_broken).collect();
+        let gaps: Vec<usize> = peptides::gaps(residues).iter().map(|gap| gap.before).collect();
+        let is_broken = |after: usize| gaps.binary_search(&after).is_ok();
         let mut torsions = Vec::new();
         for (residue, [n, ca, c]) in backbone.iter().enumerate() {
             let is_proline =
@@ -118,11 +112,11 @@ impl Linkage {
                 torsions.push(Torsion { residue, kind, axis, through: *from, source });
                 Some(())
             };
-            if residue > 0 && !is_proline && !gaps.contains(&(residue - 1)) {
+            if residue > 0 && !is_proline && !is_broken(residue - 1) {
                 add(TorsionKind::Phi, n, ca, torsion(&backbone[residue - 1][2], n, ca, c))?;
             }
             if let Some([next, ..]) = backbone.get(residue + 1)
-                && !gaps.contains(&residue)
+                && !is_broken(residue)
             {
                 add(TorsionKind::Psi, ca, c, torsion(n, ca, c, next))?;
             }
@@ -137,16 +131,16 @@ impl Linkage {
 
     /// The body that carries an atom of a residue.
     pub fn body(&self, residue: usize, atom: &str) -> usize {
-        // N and its hydrogen are before phi; O is after psi, OXT and all else between.
+        // N and its hydrogen, or deuterium, are before phi; O is after psi, OXT and all else between.
         let is_before = |torsion: &Torsion| match torsion.residue.cmp(&residue) {
             std::cmp::Ordering::Less => true,
             std::cmp::Ordering::Greater => false,
             std::cmp::Ordering::Equal => match torsion.kind {
-                TorsionKind::Phi => !matches!(atom, "N" | "H" | "HN" | "CA"),
+                TorsionKind::Phi => !matches!(atom, "N" | "H" | "HN" | "D" | "DN" | "CA"),
                 TorsionKind::Psi => matches!(atom, "O"),
             },
         };
-        self.torsions.iter().filter(|torsion| is_before(torsion)).count()
+        self.torsions.partition_point(is_before)
     }
 
     /// The motion of every body, from the source, at the configuration `q`: one more than there are torsions.

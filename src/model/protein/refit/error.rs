@@ -15,6 +15,14 @@ pub enum RefitError {
         /// The residues of the target.
         target_len: usize,
     },
+    /// The chains are too long: the matrix of the least squares has the square of their torsions as its size.
+    #[error("chains of {residues} residues found; at most {max} expected for a refit")]
+    TooLong {
+        /// The residues of the source.
+        residues: usize,
+        /// The most that are fitted.
+        max: usize,
+    },
     /// An atom of the backbone was not seen.
     #[error(
         "{residue} of the {end} has no atom {atom}, where a refit needs N, CA, C and O of every residue"

@@ -99,6 +99,9 @@ const OF_PARTS: Stop = Stop { steps: 30, decrease: 1e-2 };
 /// When the whole chain is as near as it gets.
 const OF_WHOLE: Stop = Stop { steps: 200, decrease: 1e-6 };
 
+/// The longest chains that are fitted, residues: the matrix of twice as many torsions takes 288 MB.
+const RESIDUES_MAX: usize = 3_000;
+
 /// How often weights are raised, and by which factors: those of what is lost or too near, and that of N, C and O.
 const RAISES: usize = 5;
 const RAISE: f64 = 4.0;
@@ -109,7 +112,7 @@ const RAISE_OF_BACKBONE: f64 = 1.5;
 ///
 /// # Errors
 ///
-/// If the chains are not equally long, if a residue lacks one of N, CA, C and O, if atoms stand on one another, or if
+/// If the chains are not equally long, or longer than 3000 residues, if a residue lacks one of N, CA, C and O, if atoms stand on one another, or if
 /// the linkage is not that of the source.
 pub fn refit(
     source: &[Residue],
@@ -121,6 +124,9 @@ pub fn refit(
     if source.len() != target.len() {
         let (source_len, target_len) = (source.len(), target.len());
         return Err(RefitError::Lengths { source_len, target_len });
+    }
+    if source.len() > RESIDUES_MAX {
+        return Err(RefitError::TooLong { residues: source.len(), max: RESIDUES_MAX });
     }
     let source_atoms = atoms(source, End::Source)?;
     let target_atoms = atoms(target, End::Target)?;
