@@ -93,6 +93,9 @@ const CAUTION: Caution = Caution {
     children: Duration::from_secs(10),
 };
 
+/// How long a lock is waited for that is to be had at once: as long as a child takes to run its program on a busy machine.
+const AT_ONCE: Duration = Duration::from_secs(2);
+
 /// A run held by this process.
 #[derive(Debug)]
 pub struct RunLock {
@@ -160,12 +163,13 @@ impl RunLock {
         Ok(lock)
     }
 
-    /// Takes hold of a run folder at once, or not at all where anybody may be at work on it.
+    /// Takes hold of a run folder at once, or not at all where anybody may be at work on it. A child that a dead holder was
+    /// about to start has the lock for a moment, too.
     pub(super) fn take_if_free(folder: &Path) -> Option<RunLock> {
         let other = Holder::read(folder);
         let is_nobodys = other.is_none_or(|other| other.lives() == Some(false));
-        let caution = Caution { children: Duration::ZERO, ..CAUTION };
-        is_nobodys.then(|| RunLock::take_with(folder, &caution, || true).ok())?
+        let caution = Caution { children: AT_ONCE, ..CAUTION };
+        is_nobodys.then(|| RunLock::take_with(folder, &caution, || false).ok())?
     }
 
     /// The run folder has been moved here, with the lock in it.
@@ -239,7 +243,8 @@ fn lock(
             Ok(()) => {}
             Err(Errno::WOULDBLOCK) => {
                 let holder = read(path);
-                let is_dead = holder.as_ref().is_some_and(|other| other.lives() == Some(false));
+                // A lock without a holder is being taken, or a child has it that its holder, who is gone, was about to start.
+                let is_dead = holder.as_ref().is_none_or(|other| other.lives() == Some(false));
                 if !is_dead || begun.elapsed() >= caution.children {
                     return Err(held(folder, holder.as_ref()));
                 }
