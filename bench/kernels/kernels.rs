@@ -8,6 +8,11 @@ use roadmill::img::{Job, Outcome, Replica, Setup};
 use roadmill::internal::wire;
 use roadmill::model::Scratch;
 use roadmill::model::bodies::validity::MotionChecking;
+use roadmill::model::protein::energy::{Constraints, Hydrophobic, Mixture, constraints_of};
+use roadmill::model::protein::kinematics::Conformer;
+use roadmill::model::protein::linkage::Linkage;
+use roadmill::model::protein::motion::{Limits, MotionScratch, MotionValidity};
+use roadmill::model::protein::validity::{Obstacles, Rules, Screen};
 use roadmill::neighbor::{Index, Searched, k_nearest, k_nearest_graph, radius_graph};
 use roadmill::numbers::{Ordinal, SetName, SetNumber};
 use roadmill::problem::Problem;
@@ -15,6 +20,7 @@ use roadmill::query::{Attachment, solve};
 use roadmill::roadmap::{Configs, Increment};
 use roadmill::sampler::SamplerKind;
 use roadmill::seed::Seed;
+use roadmill::structure::Residue;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -43,6 +49,8 @@ pub const KERNELS: &[Kernel] = &[
     kernel("swept-linkage", "motion", || motions("stick4", MotionChecking::Swept)),
     kernel("swept-plane", "motion", || motions("maze", MotionChecking::Swept)),
     kernel("sampled-mesh", "motion", || motions("cage", MotionChecking::Sampled)),
+    kernel("protein", "conformation", conformations),
+    kernel("protein-motion", "motion", protein_motions),
     kernel("clearance-mesh", "configuration", clearances),
     kernel("sample-uniform", "milestone", || samples("uniform = {}")),
     kernel("sample-gaussian", "milestone", || samples("gaussian = { deviation = 0.5 }")),
@@ -107,6 +115,53 @@ fn motions(name: &str, edges: MotionChecking) -> Work {
             std::hint::black_box(cx.model().motion(a, b, 1, &mut scratch).is_some());
         }
         pairs.len()
+    })
+}
+
+/// The peptide that ships: its chain, and configurations near that of its first model.
+fn peptide() -> (Vec<Residue>, Linkage, Vec<Vec<f64>>) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/structures/1UAO.pdb");
+    let mut file = roadmill::structure::read(&path).expect("it ships");
+    let residues = file.models.swap_remove(0).chains.swap_remove(0).residues;
+    let linkage = Linkage::of(&residues).expect("a whole chain");
+    let seed = Seed::of_set(1, "kernels", Ordinal(0));
+    let mut stream = seed.stream(roadmill::seed::Purpose::Sampling);
+    let near = |_| linkage.source().iter().map(|q| q + 0.05 * stream.normal()).collect();
+    let configurations = (0..1000).map(near).collect();
+    (residues, linkage, configurations)
+}
+
+/// Every conformation is placed, held against all rules to their end, and its energy computed.
+fn conformations() -> Work {
+    let (residues, linkage, configurations) = peptide();
+    let conformer = Conformer::of(&residues, &linkage).expect("a whole chain");
+    let constraints = Constraints::new(constraints_of(&residues));
+    assert!(!constraints.list().is_empty(), "the peptide has hydrogen bonds");
+    let energy = Mixture::single(constraints, Some(Hydrophobic::of(conformer.atoms())));
+    let (limits, obstacles) = (Rules::default().at_nodes(), Obstacles::default());
+    let (mut placed, mut screen) = (conformer.placed(), Screen::default());
+    Box::new(move || {
+        for q in &configurations {
+            conformer.place(q, &mut placed);
+            std::hint::black_box(limits.count(&placed, &obstacles, &mut screen));
+            std::hint::black_box(energy.energy(&placed));
+        }
+        configurations.len()
+    })
+}
+
+/// Motions from each configuration to the next, proved.
+fn protein_motions() -> Work {
+    let (residues, linkage, configurations) = peptide();
+    let alphas: Vec<_> = residues.iter().filter_map(|residue| residue.position("CA")).collect();
+    let motions = MotionValidity::new(&linkage, &residues, &[], Limits::of(&alphas));
+    let motions = motions.expect("a whole chain");
+    let mut scratch = MotionScratch::default();
+    Box::new(move || {
+        for pair in configurations.windows(2) {
+            std::hint::black_box(motions.is_valid(&pair[0], &pair[1], &mut scratch));
+        }
+        configurations.len() - 1
     })
 }
 

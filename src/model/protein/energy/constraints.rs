@@ -89,24 +89,22 @@ impl Constraints {
     fn sum<S: Simd>(&self, simd: S, placed: &Placed) -> f64 {
         let number = f64x4::splat;
         let mut sums = number(simd, 0.0);
+        // From the second atom to the first, and d₀.
+        let apart = |constraint: &Constraint| {
+            let Constraint { kind, first: i, second: j, distance } = *constraint;
+            let (a, b) = match kind {
+                ConstraintKind::HydrogenBond => (&placed.h, &placed.o),
+                ConstraintKind::Disulphide => (&placed.centroid, &placed.centroid),
+            };
+            [a.x[i] - b.x[j], a.y[i] - b.y[j], a.z[i] - b.z[j], distance]
+        };
         for four in self.list.chunks(4) {
             // What is missing in the last four is at its native distance, and its term is 0.
-            let (mut x, mut y, mut z, mut native) = ([0.0; 4], [0.0; 4], [0.0; 4], [0.0; 4]);
-            for (lane, constraint) in four.iter().enumerate() {
-                let Constraint { kind, first: i, second: j, distance } = *constraint;
-                let (a, b) = match kind {
-                    ConstraintKind::HydrogenBond => (&placed.h, &placed.o),
-                    ConstraintKind::Disulphide => (&placed.centroid, &placed.centroid),
-                };
-                x[lane] = a.x[i] - b.x[j];
-                y[lane] = a.y[i] - b.y[j];
-                z[lane] = a.z[i] - b.z[j];
-                native[lane] = distance;
-            }
-            let load = f64x4::load_array;
-            let (x, y, z) = (load(simd, x), load(simd, y), load(simd, z));
+            let [a, b, c, d] = [0, 1, 2, 3].map(|lane| four.get(lane).map_or([0.0; 4], apart));
+            let row = |row: usize| f64x4::load_array(simd, [a[row], b[row], c[row], d[row]]);
+            let (x, y, z) = (row(0), row(1), row(2));
             let distance = (x * x + y * y + z * z).sqrt();
-            let stretch = distance - load(simd, native);
+            let stretch = distance - row(3);
             let softness = number(simd, SOFTNESS);
             let term = (stretch * stretch + softness * softness).sqrt() - softness;
             sums += number(simd, STIFFNESS) * term;

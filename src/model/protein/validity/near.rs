@@ -1,28 +1,11 @@
 //! Who may be too close: pairs of residues, found in single precision.
 
+use super::list::List;
 use super::pairs::Flow;
 use super::rules::Limits;
 use super::screen::{BLOCK, Points, Screen};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
-
-/// For eight bits: the numbers of those that are set, in order.
-const SET_BITS: [[u8; 8]; 256] = {
-    let mut numbers = [[0; 8]; 256];
-    let mut bits = 0;
-    while bits < 256 {
-        let (mut bit, mut count) = (0, 0);
-        while bit < 8 {
-            if (bits >> bit) & 1 == 1 {
-                numbers[bits][count] = bit as u8;
-                count += 1;
-            }
-            bit += 1;
-        }
-        bits += 1;
-    }
-    numbers
-};
 
 /// Eight points in lanes.
 #[derive(Clone, Copy)]
@@ -54,6 +37,13 @@ impl<S: Simd> Lanes8<S> {
     }
 }
 
+/// What of a residue is looked at: a row of `Screen::near_blocks`, and of radii of balls.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Middles,
+    Sides,
+}
+
 impl Screen {
     /// Calls `backbones` for pairs of residues i < j, among them all |i − j| ≥ 3 whose backbones are closer than the limits,
     /// and `sides` for pairs among which are all whose side chains are.
@@ -67,131 +57,131 @@ impl Screen {
     ) -> Flow {
         let least = limits.nitrogen_oxygen.max(limits.backbone) as f32;
         let alpha_carbons = limits.alpha_carbons as f32;
-        let widest = least.max(alpha_carbons) * 1.000_01;
         let side_chains = limits.side_chains as f32 * 1.000_01;
-        let (look, look_at_sides) = (widest > 0.0, side_chains > 0.0);
-        if look || look_at_sides {
-            self.pairs_of_blocks(simd, widest, side_chains, sides)?;
+        // How far apart the middles of two residues are at most of which two atoms are as close as a rule forbids; 0: no rule.
+        let middles = |least: f32, reach: f32| {
+            if least > 0.0 { (least + 2.0 * reach) * 1.000_01 } else { 0.0 }
+        };
+        let middles = middles(least, self.reach).max(middles(alpha_carbons, self.alpha_reach));
+        self.list_blocks(simd, middles, side_chains);
+        if side_chains > 0.0 {
+            self.list_rows(simd, Part::Sides, side_chains);
+            self.pairs_of_sides(simd, side_chains, sides)?;
         }
-        if look {
-            self.pairs_of_atoms(simd, least, alpha_carbons, backbones)
-        } else {
-            Flow::Continue(())
+        if middles > 0.0 {
+            self.list_rows(simd, Part::Middles, middles);
+            self.list_pairs(simd, middles);
+            self.pairs_of_atoms(simd, limits, backbones)?;
         }
+        Flow::Continue(())
     }
 
-    /// Goes through pairs of blocks that are near: lists pairs of residues with backbones that may be this close, and calls
-    /// `sides` where side chains may be.
+    /// What rounding can do to distances from centres of balls, relative to coordinates, Å.
+    fn slack(&self) -> f32 {
+        1e-3 + self.extent / (1 << 18) as f32
+    }
+
+    /// Lists the pairs of blocks that may be near: whose middles may be as close as `middles`, and whose side chains as
+    /// `side_chains`; 0: nobody asks.
     #[inline(always)]
-    fn pairs_of_blocks<S: Simd>(
-        &mut self,
-        simd: S,
-        backbones: f32,
-        side_chains: f32,
-        sides: &mut impl FnMut((usize, usize)) -> Flow,
-    ) -> Flow {
-        let middles = backbones + 2.0 * self.reach * 1.000_01;
-        let threshold = -0.5 * middles * middles - self.margin(middles);
-        let side_threshold = -0.5 * side_chains * side_chains - self.margin(side_chains);
-        // Rounding of what is computed with balls, relative to coordinates.
-        let slack = 1e-3 + self.extent / (1 << 18) as f32;
-        let (near, far) = (f32x8::splat(simd, threshold), f32x8::splat(simd, side_threshold));
-        let mut len = 0;
-        for first in 0..self.blocks.len() {
+    fn list_blocks<S: Simd>(&mut self, simd: S, middles: f32, side_chains: f32) {
+        let slack = self.slack();
+        let count = self.blocks.len();
+        // Lists of its own keep their lengths in registers.
+        let [mut near_middles, mut near_sides] = std::mem::take(&mut self.near_blocks);
+        near_middles.clear();
+        near_sides.clear();
+        for first in 0..count {
             let ball = &self.balls[first / BLOCK];
             let of = |row: usize| f32x8::splat(simd, ball[row][first % BLOCK]);
             let (x, y, z) = (of(0), of(1), of(2));
             let reach = of(3) + f32x8::splat(simd, middles + slack);
             let side_reach = of(4) + f32x8::splat(simd, side_chains + slack);
-            for eight in first / BLOCK..self.balls.len() {
-                let [bx, by, bz, radius, side_radius] = &self.balls[eight];
+            for (eight, ball) in self.balls.iter().enumerate().skip(first / BLOCK) {
+                let [bx, by, bz, radius, side_radius] = ball;
                 let dx = f32x8::load_array_ref(simd, bx) - x;
                 let dy = f32x8::load_array_ref(simd, by) - y;
                 let dz = f32x8::load_array_ref(simd, bz) - z;
                 let square = dz.mul_add(dz, dy.mul_add(dy, dx * dx));
                 let reach = reach + f32x8::load_array_ref(simd, radius);
                 let side_reach = side_reach + f32x8::load_array_ref(simd, side_radius);
-                let mut close = square.simd_lt(reach * reach).to_bitmask();
-                let mut side_close = square.simd_lt(side_reach * side_reach).to_bitmask();
+                let close = square.simd_lt(reach * reach).to_bitmask() as u32;
+                let side_close = square.simd_lt(side_reach * side_reach).to_bitmask() as u32;
                 // From the first block on, up to the last one.
                 let begin = first.saturating_sub(eight * BLOCK);
-                let end = (self.blocks.len() - eight * BLOCK).min(BLOCK);
+                let end = (count - eight * BLOCK).min(BLOCK);
                 let there = (0xFF << begin) & (0xFF >> (BLOCK - end));
-                close &= if backbones > 0.0 { there } else { 0 };
-                side_close &= if side_chains > 0.0 { there } else { 0 };
-                while close != 0 {
-                    let second = eight * BLOCK + close.trailing_zeros() as usize;
-                    close &= close - 1;
-                    len = self.list(simd, (first, second), near, len);
-                }
-                while side_close != 0 {
-                    let second = eight * BLOCK + side_close.trailing_zeros() as usize;
-                    side_close &= side_close - 1;
-                    if self.sides_may_be_close(simd, (first, second), far) {
-                        pairs_of(first, second, sides)?;
-                    }
-                }
+                let base = List::pair(first, eight * BLOCK);
+                near_middles.push(simd, base, (close & there) as u8);
+                near_sides.push(simd, base, (side_close & there) as u8);
             }
         }
-        self.near.truncate(len);
-        Flow::Continue(())
+        self.near_blocks = [near_middles, near_sides];
     }
 
-    /// Lists the pairs of residues of two blocks whose middles are near, behind the first `len` of the list.
+    /// Lists blocks and single residues before them or in them that may be near, for the listed pairs of blocks.
     #[inline(always)]
-    fn list<S: Simd>(
-        &mut self,
-        simd: S,
-        (first, second): (usize, usize),
-        threshold: f32x8<S>,
-        mut len: usize,
-    ) -> usize {
-        if self.near.len() < len + BLOCK * BLOCK {
-            self.near.resize(2 * len + 16 * BLOCK * BLOCK, 0);
+    fn list_rows<S: Simd>(&mut self, simd: S, part: Part, reach: f32) {
+        let reach = reach + self.slack();
+        let mut rows = std::mem::take(&mut self.rows);
+        rows.clear();
+        for (first, second) in self.near_blocks[part as usize].pairs() {
+            let block = &self.blocks[first];
+            let [x, y, z, _] = match part {
+                Part::Middles => &block.middles,
+                Part::Sides => &block.sides,
+            };
+            let ball = &self.balls[second / BLOCK];
+            let of = |row: usize| ball[row][second % BLOCK];
+            let dx = f32x8::load_array_ref(simd, x) - f32x8::splat(simd, of(0));
+            let dy = f32x8::load_array_ref(simd, y) - f32x8::splat(simd, of(1));
+            let dz = f32x8::load_array_ref(simd, z) - f32x8::splat(simd, of(2));
+            let square = dz.mul_add(dz, dy.mul_add(dy, dx * dx));
+            let reach = reach + of(3 + part as usize);
+            let close = square.simd_lt(f32x8::splat(simd, reach * reach)).to_bitmask() as u8;
+            rows.push(simd, List::pair(second, first * BLOCK), close);
         }
-        let near = &mut self.near[..len + BLOCK * BLOCK];
-        let ones = &self.blocks[first].middles;
-        let others = Lanes8::load(simd, &self.blocks[second].middles);
-        // The first residues of the second block that are at least three after the one of the first.
-        let apart = (second - first) * BLOCK;
-        for lane in 0..BLOCK {
-            let close = others.closeness(simd, ones, lane).simd_gt(threshold).to_bitmask();
-            let allowed = 0xFF << (lane + 3).saturating_sub(apart).min(BLOCK);
-            let close = (close & allowed & 0xFF) as u8;
-            let base = (((first * BLOCK + lane) << 16) | (second * BLOCK)) as u32;
-            let to = &mut near[len..len + BLOCK];
-            let bits = &SET_BITS[usize::from(close)];
-            for number in 0..BLOCK {
-                to[number] = base + u32::from(bits[number]);
-            }
-            len += close.count_ones() as usize;
-        }
-        len
+        self.rows = rows;
     }
 
-    /// Whether two side chains of two blocks may be close.
+    /// Lists the pairs of residues, the second at least three after the first, whose middles may be as close as `middles`.
     #[inline(always)]
-    fn sides_may_be_close<S: Simd>(
+    fn list_pairs<S: Simd>(&mut self, simd: S, middles: f32) {
+        let threshold = -0.5 * middles * middles - self.margin(middles);
+        let threshold = f32x8::splat(simd, threshold);
+        let mut near = std::mem::take(&mut self.near);
+        near.clear();
+        for (block, one) in self.rows.pairs() {
+            let ones = &self.blocks[one / BLOCK].middles;
+            let others = Lanes8::load(simd, &self.blocks[block].middles);
+            let close = others.closeness(simd, ones, one % BLOCK).simd_gt(threshold).to_bitmask();
+            let allowed = 0xFF << (one + 3).saturating_sub(block * BLOCK).min(BLOCK);
+            near.push(simd, List::pair(one, block * BLOCK), close as u8 & allowed as u8);
+        }
+        self.near = near;
+    }
+
+    /// Calls `sides` for pairs of residues among which are all listed ones whose side chains may be as close as `least`.
+    #[inline(always)]
+    fn pairs_of_sides<S: Simd>(
         &self,
         simd: S,
-        (first, second): (usize, usize),
-        threshold: f32x8<S>,
-    ) -> bool {
-        let ones = &self.blocks[first].sides;
-        let others = Lanes8::load(simd, &self.blocks[second].sides);
-        if first == second {
-            let mut close = 0;
-            for lane in 0..BLOCK {
-                let near = others.closeness(simd, ones, lane).simd_gt(threshold).to_bitmask();
-                close |= near & (0xFF << (lane + 1));
+        least: f32,
+        sides: &mut impl FnMut((usize, usize)) -> Flow,
+    ) -> Flow {
+        let threshold = f32x8::splat(simd, -0.5 * least * least - self.margin(least));
+        for (block, one) in self.rows.pairs() {
+            let ones = &self.blocks[one / BLOCK].sides;
+            let others = Lanes8::load(simd, &self.blocks[block].sides);
+            let close = others.closeness(simd, ones, one % BLOCK).simd_gt(threshold).to_bitmask();
+            let allowed = 0xFF << (one + 1).saturating_sub(block * BLOCK).min(BLOCK);
+            let mut close = close as u32 & allowed & 0xFF;
+            while close != 0 {
+                sides((one, block * BLOCK + close.trailing_zeros() as usize))?;
+                close &= close - 1;
             }
-            return close & 0xFF != 0;
         }
-        let mut closest = others.closeness(simd, ones, 0);
-        for lane in 1..BLOCK {
-            closest = closest.max(others.closeness(simd, ones, lane));
-        }
-        closest.simd_gt(threshold).any_true()
+        Flow::Continue(())
     }
 
     /// Calls `backbones` for the listed pairs of residues of which two atoms may be close.
@@ -199,38 +189,37 @@ impl Screen {
     fn pairs_of_atoms<S: Simd>(
         &self,
         simd: S,
-        least: f32,
-        alpha_carbons: f32,
+        limits: &Limits,
         backbones: &mut impl FnMut((usize, usize)) -> Flow,
     ) -> Flow {
-        let margin = self.margin(least.max(alpha_carbons));
+        let least = limits.nitrogen_oxygen.max(limits.backbone) as f32;
+        let margin = self.margin(least.max(limits.alpha_carbons as f32));
         let threshold = f32x8::splat(simd, -0.5 * least * least - margin);
-        // Two CA are to be farther apart than others; by so much they seem closer. CA is the second atom.
-        let mut closer = [0.0; BLOCK];
-        closer[1] = (0.5 * (alpha_carbons * alpha_carbons - least * least) * 1.000_01).max(0.0);
-        let closer = f32x8::load_array(simd, closer);
-        for pair in &self.near {
-            let (i, j) = ((pair >> 16) as usize, (pair & 0xFFFF) as usize);
+        // Pairs with another least distance than `least` seem closer, or farther apart, by what makes up for it.
+        let shift = |own: f64| {
+            let shift = 0.5 * (own as f32 * own as f32 - least * least);
+            shift + 1e-5 * shift.abs()
+        };
+        let (backbone, nitrogen_oxygen) = (shift(limits.backbone), shift(limits.nitrogen_oxygen));
+        let alpha_carbons = shift(limits.alpha_carbons).max(backbone);
+        // By the lanes of the atoms: N, CA, C, O and CB.
+        let [mut of_n, mut of_ca, mut of_o] = [[backbone; BLOCK]; 3];
+        let of_others = f32x8::splat(simd, backbone);
+        (of_n[3], of_ca[1], of_o[0]) = (nitrogen_oxygen, alpha_carbons, nitrogen_oxygen);
+        let load = f32x8::load_array;
+        let (of_n, of_ca, of_o) = (load(simd, of_n), load(simd, of_ca), load(simd, of_o));
+        for (i, j) in self.near.pairs() {
             let ones = &self.atoms[i].0;
             let others = Lanes8::load(simd, &self.atoms[j].0);
-            let closest = others.closeness(simd, ones, 0).max(others.closeness(simd, ones, 2));
-            let closest = closest.max(others.closeness(simd, ones, 3));
-            let closest = closest.max(others.closeness(simd, ones, 4));
-            let closest = closest.max(others.closeness(simd, ones, 1) + closer);
+            let closest = others.closeness(simd, ones, 2).max(others.closeness(simd, ones, 4));
+            let closest = closest + of_others;
+            let closest = closest.max(others.closeness(simd, ones, 0) + of_n);
+            let closest = closest.max(others.closeness(simd, ones, 1) + of_ca);
+            let closest = closest.max(others.closeness(simd, ones, 3) + of_o);
             if closest.simd_gt(threshold).any_true() {
                 backbones((i, j))?;
             }
         }
         Flow::Continue(())
     }
-}
-
-/// Calls `of` for all pairs of residues i < j of two blocks, in order.
-fn pairs_of(first: usize, second: usize, of: &mut impl FnMut((usize, usize)) -> Flow) -> Flow {
-    for i in first * BLOCK..(first + 1) * BLOCK {
-        for j in (second * BLOCK).max(i + 1)..(second + 1) * BLOCK {
-            of((i, j))?;
-        }
-    }
-    Flow::Continue(())
 }

@@ -9,6 +9,7 @@
 //! 3 ε M²/2 at most; the sum of products, each partial sum of which is below 3 M²/2, by 5 ε M². So [`Screen::margin`], 64 ε (M² + M d + 1), is more than all of it. Products and sums may be fused, which rounds
 //! less often.
 
+use super::list::List;
 use crate::lanes::Lanes;
 use crate::model::protein::placed::{Coordinates, Placed};
 use crate::structure::Point;
@@ -24,6 +25,10 @@ pub(super) const BLOCK: usize = 8;
 /// Half the square of what is not there: farther than all else, and yet no sum of it overflows.
 const FAR: f32 = 1e30;
 
+/// Where the middle of a residue is on the way from its CA to its C: about as far from N and CB as from O, so that all
+/// backbone atoms lie within 1.9 Å of it.
+const MIDDLE: f32 = 0.42;
+
 /// Coordinates of eight points and half their squares.
 pub(super) type Points = [[f32; BLOCK]; 4];
 
@@ -31,7 +36,7 @@ pub(super) type Points = [[f32; BLOCK]; 4];
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(super) struct Block {
-    /// The middles of CA and C: near them are all backbone atoms of the residue.
+    /// Points between CA and C: near them are all backbone atoms of the residue.
     pub middles: Points,
     /// The centroids of side chains.
     pub sides: Points,
@@ -52,10 +57,16 @@ pub struct Screen {
     pub(super) balls: Vec<[[f32; BLOCK]; 5]>,
     /// No backbone atom is farther than this from the middle of its residue, Å.
     pub(super) reach: f32,
+    /// No CA is farther than this from the middle of its residue, Å.
+    pub(super) alpha_reach: f32,
     /// No point is farther than this from the origin, Å.
     pub(super) extent: f32,
-    /// Pairs of residues i < j whose backbones may be close: i · 2¹⁶ + j.
-    pub(super) near: Vec<u32>,
+    /// Pairs of blocks whose middles may be close, and of those whose side chains may be.
+    pub(super) near_blocks: [List; 2],
+    /// Blocks, and residues before them or in them that may be close to one of theirs.
+    pub(super) rows: List,
+    /// Pairs of residues i < j whose backbones may be close.
+    pub(super) near: List,
 }
 
 impl Default for Screen {
@@ -66,8 +77,11 @@ impl Default for Screen {
             atoms: Vec::new(),
             balls: Vec::new(),
             reach: 0.0,
+            alpha_reach: 0.0,
             extent: 0.0,
-            near: Vec::new(),
+            near_blocks: Default::default(),
+            rows: List::default(),
+            near: List::default(),
         }
     }
 }
@@ -166,8 +180,11 @@ impl Screen {
         self.blocks.fill(nonsense);
         self.atoms.fill(Atoms([[0.0; BLOCK]; 4]));
         self.balls.fill([[f32::NAN; BLOCK]; 5]);
-        (self.reach, self.extent) = (f32::NAN, f32::NAN);
-        self.near.fill(u32::MAX);
+        (self.reach, self.alpha_reach, self.extent) = (f32::NAN, f32::NAN, f32::NAN);
+        let [middles, sides] = &mut self.near_blocks;
+        for list in [middles, sides, &mut self.rows, &mut self.near] {
+            list.poison();
+        }
     }
 
     /// Takes a conformation; false if it is none, or too large for single precision.
@@ -184,7 +201,7 @@ impl Screen {
         self.balls.resize(count.div_ceil(BLOCK), [[0.0; BLOCK]; 5]);
         let origin = placed.ca.at(len / 2);
         let zero = f32x8::splat(simd, 0.0);
-        let (mut reach, mut extent, mut sum) = (zero, zero, zero);
+        let (mut reach, mut alpha_reach, mut extent, mut sum) = (zero, zero, zero, zero);
         for number in 0..count {
             let n = Eight::load(simd, &placed.n, number, &origin);
             let ca = Eight::load(simd, &placed.ca, number, &origin);
@@ -192,12 +209,18 @@ impl Screen {
             let o = Eight::load(simd, &placed.o, number, &origin);
             let cb = Eight::load(simd, &placed.cb, number, &origin);
             let side = Eight::load(simd, &placed.centroid, number, &origin);
-            let half = f32x8::splat(simd, 0.5);
-            let middle =
-                Eight::new(simd, (ca.x + c.x) * half, (ca.y + c.y) * half, (ca.z + c.z) * half);
+            let part = f32x8::splat(simd, MIDDLE);
+            let middle = Eight::new(
+                simd,
+                (c.x - ca.x).mul_add(part, ca.x),
+                (c.y - ca.y).mul_add(part, ca.y),
+                (c.z - ca.z).mul_add(part, ca.z),
+            );
 
             let at = [middle.x, middle.y, middle.z];
-            reach = reach.max(n.squares(at)).max(ca.squares(at)).max(c.squares(at));
+            let alphas = ca.squares(at);
+            alpha_reach = alpha_reach.max(alphas);
+            reach = reach.max(n.squares(at)).max(alphas).max(c.squares(at));
             reach = reach.max(o.squares(at)).max(cb.squares(at));
             extent = extent.max(n.half).max(ca.half).max(c.half);
             extent = extent.max(o.half).max(cb.half).max(side.half);
@@ -234,6 +257,7 @@ impl Screen {
             }
         }
         self.reach = reach.reduce_max().sqrt();
+        self.alpha_reach = alpha_reach.reduce_max().sqrt();
         self.extent = (2.0 * extent.reduce_max()).sqrt();
         sum.reduce_sum() < LARGEST
     }
