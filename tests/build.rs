@@ -6,7 +6,7 @@ use roadmill::{Build, Cancel};
 use std::path::Path;
 
 /// The digest of `judged`, which `same_bits.rs` keeps too.
-const JUDGED: &str = "faedef6a7a14a1df3b42c366b26c17d7eeab044718077417821f9b2f9ecc676c";
+const JUDGED: &str = "148ea74428efe955e2f3f29c826322052c2015012556b1f3989553efbb0e742a";
 
 fn load(name: &str) -> Problem {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);

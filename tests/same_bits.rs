@@ -13,19 +13,19 @@ use std::sync::Arc;
 /// The digests that each problem of `problems/` has always had. Whoever changes one bumps
 /// `BITS_VERSION`.
 const GOLDEN: [(&str, &str); 13] = [
-    ("adaptive", "47c69b7eedb39ad8f97cbe55c0771c9143d54d38b914f198d73f2dd5806e7698"),
+    ("adaptive", "7b9cc629fc41f79345ed2c2a5b9ea14cde7d5ca9d0a4fa4dc2af4b783ffb542c"),
     ("settled", "e237813a24ad6d78c4dcb301cff52da2071c63d2af6896d9d6e0d33f7ddd62fd"),
-    ("judged", "faedef6a7a14a1df3b42c366b26c17d7eeab044718077417821f9b2f9ecc676c"),
+    ("judged", "148ea74428efe955e2f3f29c826322052c2015012556b1f3989553efbb0e742a"),
     ("arm", "2efa2e5af0331a8849bebf9ac9e22b2f5669749ebae1905f666310e6a92bd3f8"),
     ("ball", "cd3f3287d1d9e3681c81990f7456991685f900279701b4208ed19e4bd8d72e85"),
     ("planar", "efa4f6d4dbf205a12ac50e660b9c7184a3afc1b7af909dd6826567837e168027"),
     ("meshes", "4f45115a3f95d0d341669f610369659336aad26cbd1858cb67e790d3f10efdeb"),
-    ("slide", "1236a756e89276e19101db64a6ee70e99cbe678e5ab6598b58dcc3ab35d5735f"),
-    ("sampled", "cafaae13b7019499f54da8674e8419136745526686c6fd1b1cce9386d94293ed"),
+    ("slide", "67990e13a9722b8dce64cd6325a0956719f3ab58440e2d5017efcd9ff615f8e1"),
+    ("sampled", "699ce2b2298e664949250a3e0b6b6bc4e6eb360d80f1245908ccd0a2022fa3ca"),
     ("axis", "9373e425458fd8636d91045c6b1b6ee5a138de3e8c2df540f7ca6271ab5b9729"),
     ("landscape", "9c3bec9789090a1b24857f03b7ca2a072255d02e4b63f0c0a9cecb256c239085"),
     ("peptide", "efaa9aeb80dba46d7252b786e271cabf1b15cc28b8a8f57856e84acbdbeec6cd"),
-    ("expansion", "4d0e0bb681474cbc341bb3f195f6996a18a51c2ab5449756370fc6c3a8cd2151"),
+    ("expansion", "72809594059e57da522cda4e60ca548864319eb7267c1f6a77d7dce7c39722b6"),
 ];
 
 fn problem(name: &str) -> Problem {
