@@ -25,7 +25,7 @@ fn scratch() -> Scratch {
 
 /// What `check` says of the parent's ledger.
 fn hash_of(described: &str) -> String {
-    let (_, rest) = described.split_once("ledger: Some(").expect("the parent is described");
+    let (_, rest) = described.split_once("ledger = \"").expect("the parent is described");
     rest[..64].to_owned()
 }
 

@@ -182,6 +182,8 @@ fn what_is_no_transition_is_refused_and_leaves_nothing() {
 /// The names of what is in the folder.
 fn names(scratch: &Scratch) -> Vec<PathBuf> {
     let mut names = support::children(&scratch.path("."));
+    // What the commands have printed.
+    names.retain(|path| !path.extension().is_some_and(|it| it == "stdout" || it == "stderr"));
     names.sort();
     names
 }

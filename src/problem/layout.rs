@@ -140,12 +140,14 @@ impl<S> Rest<S> {
         }
     }
 
-    fn with(self, name: String, seed: u64, model: ModelKind) -> Problem
+    /// The problem, if its model is one that a problem file could give: nothing can be asked of any other, not even its space.
+    fn with(self, name: String, seed: u64, model: ModelKind) -> Result<Problem, WireError>
     where
         Strategy: From<S>,
     {
+        model.description().sound().map_err(WireError::unsound)?;
         let nodes_are_given = !self.limits.leaves_nodes_open(&model.description().space());
-        Problem {
+        Ok(Problem {
             name,
             seed,
             model,
@@ -160,7 +162,7 @@ impl<S> Rest<S> {
             notes: self.notes,
             sources: self.sources,
             earlier: self.earlier,
-        }
+        })
     }
 }
 
@@ -195,14 +197,13 @@ impl Problem {
         let problem = match layout {
             Layout::First => {
                 let FirstProblem { name, seed, bodies, rest } = wire::decode(bytes)?;
-                rest.with(name, seed, ModelKind::Bodies(bodies))
+                rest.with(name, seed, ModelKind::Bodies(bodies))?
             }
             Layout::Second => {
                 let SecondProblem { name, seed, model, rest } = wire::decode(bytes)?;
-                rest.with(name, seed, model)
+                rest.with(name, seed, model)?
             }
         };
-        problem.model.description().sound().map_err(WireError::unsound)?;
         let dofs = problem.space().len();
         let fits = |q: &[f64]| q.len() == dofs && q.iter().all(|value| value.is_finite());
         match &problem.query {

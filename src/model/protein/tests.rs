@@ -109,7 +109,7 @@ fn unsound_descriptions_are_refused() {
         |p| p.source[4].atoms[1].element = "".into(),
         |p| p.source[4].atoms[4].name = "OT2".into(),
         |p| p.source[4].atoms[4].position.x += 101.0,
-        |p| p.source[4].atoms[4].position = p.source[6].atoms[4].position,
+        |p| p.source[4].atoms[4].position = p.source[7].atoms[4].position,
         |p| p.obstacles = vec![p.source.clone()],
         |p| p.target.as_mut().unwrap().matches.truncate(9),
         |p| p.target.as_mut().unwrap().matches[0] = [0, 10],
@@ -197,10 +197,11 @@ fn obstacles_are_other_chains() {
     assert_eq!(again.model(), problem.model());
     assert_eq!(again.digest(), problem.digest());
 
-    let near = format!("{table}rules = {{ obstacle-backbone = 40.0 }}\n");
-    let (_scratch, problem) = parse_of(&text, &near).unwrap();
+    let near = "source = { file = \"x.pdb\", chain = \"A\" }\nobstacles = [\"B\"]\nrules = { obstacle-backbone = 10.0 }\n";
+    let text = [chain('A', 0.0), chain('B', 14.0)].concat();
+    let (_scratch, problem) = parse_of(&text, near).unwrap();
     let notes = problem.notes().join("\n");
-    assert!(notes.contains("the source is not valid: ObstacleBackbone: GLY 1 "), "{notes}");
+    assert!(notes.contains("the source is not valid: ObstacleBackbone: "), "{notes}");
 }
 
 #[test]
