@@ -141,6 +141,31 @@ fn the_readmes_lines_of_python_work() {
     assert!(said.starts_with("[(") && said.matches('(').count() > 2, "{said}");
 }
 
+/// The path of a peptide is a structure with a model for each conformation, which begins with the source's.
+#[test]
+fn a_proteins_path_is_a_pdb_file_and_a_mazes_is_none() {
+    let scratch = Scratch::new();
+    scratch.build("peptide", &[&repository("problems/peptide.toml"), "--threads", "2"], 0);
+    let out = ["--format", "pdb", "--out", "path.pdb"];
+    scratch.run(&[&["export", "peptide"], &out[..]].concat()).assert_code(0);
+    let read = |path: &str| {
+        let done = scratch.run(&["protein", "info", path]);
+        done.assert_code(0);
+        done.stdout
+    };
+    let (path, source) = (read("path.pdb"), read(&repository("problems/structures/1UAO.pdb")));
+    let models = fs::read_to_string(scratch.path("path.pdb")).expect("it is written");
+    let models = models.lines().filter(|line| line.starts_with("MODEL")).count();
+    assert!(models >= 2 && path.contains(&format!("models: {models}")), "{path}");
+    for told in ["138 atoms, 10 residues", "GYDPETGTWG"] {
+        assert!(path.contains(told) && source.contains(told), "{path}\n{source}");
+    }
+    scratch.build("maze", &[&repository("problems/maze.toml"), "--threads", "2"], 0);
+    let refused = scratch.run(&[&["export", "maze"], &out[..]].concat());
+    refused.assert_code(2);
+    refused.assert_stderr(&["--format: this model is no molecule"]);
+}
+
 #[test]
 fn formats_that_are_not_there_are_refused() {
     let scratch = Scratch::new();

@@ -9,10 +9,12 @@
 //! let (problem, roadmap, path) = (built.problem(), built.roadmap(), built.path());
 //! let csv = path_csv(built.context().space(), path.expect("the maze has a way through"));
 //! assert!(csv.starts_with("x"));
-//! // A roadmap in every format that `roadmill export` has.
+//! // A roadmap in every format that `roadmill export` has and that can say it: a maze is no molecule.
 //! for format in FORMATS {
-//!     let files = format.files(&Exported { problem, roadmap, path })?;
-//!     println!("{}: {} files", format.name(), files.len());
+//!     match format.files(&Exported { problem, roadmap, path }) {
+//!         Ok(files) => println!("{}: {} files", format.name(), files.len()),
+//!         Err(why) => println!("{}: {why}", format.name()),
+//!     }
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
