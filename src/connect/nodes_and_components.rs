@@ -22,7 +22,7 @@ use std::collections::BTreeSet;
 ///    are not joined; the `cycles` nearest of each node are tried in any case, so that the roadmap gets ways around.
 /// 2. Each new component, by its smallest node id, and the `components` components of the roadmap whose centres are
 ///    nearest, then as many of the round's earlier sets: while the two are not joined, their `pairs` closest
-///    pairs of nodes. A component of at most [`SMALL`] nodes that step 1 has joined to anything is passed over: where
+///    pairs of nodes. A component of at most three nodes that step 1 has joined to anything is passed over: where
 ///    sets fall into many such components, as in narrow mazes, half of the time would go into motions between closest
 ///    pairs, which are long and mostly blocked.
 ///
