@@ -62,7 +62,7 @@ pub use halton::Halton;
 pub use maprm::Maprm;
 pub use mix::{Mix, Share};
 pub use obprm::{Obprm, Start};
-pub use torsion_noise::{About, CALIBRATED, TorsionNoise};
+pub use torsion_noise::{About, CALIBRATED, FEASIBLE, TorsionNoise, WIDTHS};
 pub use uniform::Uniform;
 pub use uobprm::Uobprm;
 

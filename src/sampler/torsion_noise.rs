@@ -5,7 +5,7 @@ use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed, Stream};
-use crate::space::FactorKind;
+use crate::space::{Factor, FactorKind};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -26,8 +26,9 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct TorsionNoise {
-    /// Standard deviations of the noise, in degrees.
-    #[serde(default = "default_degrees")]
+    /// Standard deviations of the noise, in degrees; if there are none, those of [`WIDTHS`] of which at least [`FEASIBLE`] in
+    /// [`CALIBRATED`] draws about every configuration are valid, or else the least.
+    #[serde(default)]
     pub degrees: Vec<f64>,
     /// About which configurations.
     #[serde(default)]
@@ -55,14 +56,17 @@ pub enum About {
 /// How many configurations are drawn to find the window of a width.
 pub const CALIBRATED: usize = 1000;
 
-fn default_degrees() -> Vec<f64> {
-    vec![1.0, 2.0, 5.0, 10.0]
-}
+/// The widths, in degrees, among which those are chosen that a chain can be drawn with: the longer it is, the fewer of its
+/// conformations are possible at a width.
+pub const WIDTHS: [f64; 8] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 80.0];
+
+/// How many of [`CALIBRATED`] draws of a width are valid at least if it is chosen.
+pub const FEASIBLE: usize = 5;
 
 impl Default for TorsionNoise {
     fn default() -> TorsionNoise {
         TorsionNoise {
-            degrees: default_degrees(),
+            degrees: Vec::new(),
             about: About::default(),
             windows: Vec::new(),
             attempts: default_attempts(),
@@ -85,6 +89,28 @@ impl TorsionNoise {
         for (value, about) in out.iter_mut().zip(centre) {
             *value = math::wrap_angle(about + radians * stream.normal());
         }
+    }
+
+    /// How many of [`CALIBRATED`] draws are valid.
+    fn valid(centre: &[f64], degrees: f64, cx: &Context, seed: &Seed) -> usize {
+        let (stream, scratch) = (&mut seed.stream(Purpose::Sampling), &mut Scratch::new());
+        let mut q = vec![0.0; centre.len()];
+        let is_valid = |_: &usize| {
+            TorsionNoise::draw(centre, degrees, stream, &mut q);
+            cx.model.is_valid(&q, scratch)
+        };
+        (0..CALIBRATED).filter(is_valid).count()
+    }
+
+    /// The widths that can be drawn with.
+    fn feasible(&self, cx: &Context, seed: &Seed) -> Vec<f64> {
+        let centres = self.centres(cx);
+        let is_feasible = |degrees: &f64| {
+            let enough = |at: &&[f64]| TorsionNoise::valid(at, *degrees, cx, seed) >= FEASIBLE;
+            centres.iter().all(enough)
+        };
+        let chosen: Vec<f64> = WIDTHS.into_iter().filter(is_feasible).collect();
+        if chosen.is_empty() { vec![WIDTHS[0]] } else { chosen }
     }
 
     /// The energies of [`CALIBRATED`] draws, in ascending order.
@@ -154,8 +180,13 @@ impl Sampler for TorsionNoise {
     }
 
     fn calibrate(&mut self, cx: &Context, seed: &Seed) {
-        if !self.windows.is_empty() {
+        // A model that is none to draw in is refused by `suits`.
+        let is_angle = |factor: &Factor| factor.kind == FactorKind::Angle;
+        if !self.windows.is_empty() || !cx.space.factors().iter().all(is_angle) {
             return;
+        }
+        if self.degrees.is_empty() {
+            self.degrees = self.feasible(cx, &seed.part(u64::MAX));
         }
         let mut windows = Vec::new();
         for centre in self.centres(cx) {
@@ -172,8 +203,9 @@ impl Sampler for TorsionNoise {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        if self.degrees.is_empty() || self.degrees.len() > 1000 {
-            return Some(Complaint::new("degrees", self.degrees.len(), "1 to 1000 widths"));
+        if self.degrees.is_empty() && !self.windows.is_empty() || self.degrees.len() > 1000 {
+            let found = format!("{} widths", self.degrees.len());
+            return Some(Complaint::new("degrees", found, "1 to 1000, or none and no windows"));
         }
         // Written so that NaN fails it.
         if let Some(width) = self.degrees.iter().find(|width| !(**width > 0.0 && **width <= 360.0))
@@ -208,7 +240,7 @@ impl Sampler for TorsionNoise {
             return Err("torsion noise found, a model with energies expected".to_owned());
         }
         let expected = self.degrees.len() * self.centres(cx).len();
-        if self.windows.len() != expected {
+        if self.windows.len() != expected || expected == 0 {
             let found = self.windows.len();
             return Err(format!("{found} windows found; {expected} expected, one for each width"));
         }

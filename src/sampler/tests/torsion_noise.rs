@@ -7,7 +7,7 @@ use crate::math;
 use crate::model::protein::{ChainSpec, ProteinSpec};
 use crate::model::{ModelKind, Scratch};
 use crate::problem::Problem;
-use crate::sampler::SamplerKind;
+use crate::sampler::{SamplerKind, WIDTHS};
 use crate::seed::Seed;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -119,7 +119,7 @@ fn what_it_cannot_work_with_is_refused() {
         open("[2.0]", 1).method().suits(&context(SCENE)).unwrap_err().contains("angles expected")
     );
     for (text, key) in [
-        ("torsion-noise = { degrees = [] }", "degrees"),
+        ("torsion-noise = { degrees = [], windows = [[0.0, 1.0]] }", "degrees"),
         ("torsion-noise = { degrees = [nan] }", "degrees"),
         ("torsion-noise = { degrees = [361.0] }", "degrees"),
         ("torsion-noise = { windows = [[1.0, 1.0]] }", "windows"),
@@ -128,6 +128,26 @@ fn what_it_cannot_work_with_is_refused() {
     ] {
         assert_eq!(sampler(text).method().complaint().map(|complaint| complaint.key), Some(key));
     }
+}
+
+/// Widths that are left open are those that the chain can be drawn with.
+#[test]
+fn widths_are_found_that_are_feasible() {
+    let found = |cx: &Context| {
+        let mut kind = sampler("torsion-noise = {}");
+        kind.method_mut().calibrate(cx, &Seed::of_calibration(1, "noise"));
+        assert_eq!(kind.method().suits(cx), Ok(()));
+        let SamplerKind::TorsionNoise(noise) = kind else { panic!("torsion noise expected") };
+        noise.degrees
+    };
+    // Without rules all are.
+    assert_eq!(found(&peptide()), WIDTHS);
+    // With distances that no conformation keeps the least remains.
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/strict.toml");
+    let text =
+        "[protein]\nsource = { file = \"structures/1UAO.pdb\" }\nrules = { alpha-carbons = 9.0 }\n";
+    let strict = Problem::parse(&path, text).unwrap_or_else(|error| panic!("{error}")).context();
+    assert_eq!(found(&strict), [WIDTHS[0]]);
 }
 
 /// Sets about the ends of a query depend on it: it is part of the digest, and a build goes on with no other.
