@@ -122,8 +122,8 @@ fn what_it_cannot_work_with_is_refused() {
         ("torsion-noise = { degrees = [], windows = [[0.0, 1.0]] }", "degrees"),
         ("torsion-noise = { degrees = [nan] }", "degrees"),
         ("torsion-noise = { degrees = [361.0] }", "degrees"),
-        ("torsion-noise = { windows = [[1.0, 1.0]] }", "windows"),
-        ("torsion-noise = { windows = [[0.0, inf]] }", "windows"),
+        ("torsion-noise = { degrees = [1.0], windows = [[1.0, 1.0]] }", "windows"),
+        ("torsion-noise = { degrees = [1.0], windows = [[0.0, inf]] }", "windows"),
         ("torsion-noise = { attempts = 0 }", "attempts"),
     ] {
         assert_eq!(sampler(text).method().complaint().map(|complaint| complaint.key), Some(key));
