@@ -153,8 +153,8 @@ fn conformations() -> Work {
 /// Motions from each configuration to the next, proved.
 fn protein_motions() -> Work {
     let (residues, linkage, configurations) = peptide();
-    let alphas: Vec<_> = residues.iter().filter_map(|residue| residue.position("CA")).collect();
-    let motions = MotionValidity::new(&linkage, &residues, &[], Limits::of(&alphas));
+    let limits = Limits::of(&Rules::default(), &residues, &linkage.gaps);
+    let motions = MotionValidity::new(&linkage, &residues, &[], limits);
     let motions = motions.expect("a whole chain");
     let mut scratch = MotionScratch::default();
     Box::new(move || {

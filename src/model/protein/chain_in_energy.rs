@@ -5,7 +5,6 @@ use super::energy::{
     ConstraintKind, Constraints, Hydrophobic, Mixture, carried_over, constraints_of,
 };
 use super::kinematics::Conformer;
-use super::linkage::Linkage;
 use super::motion::{Limits as MotionLimits, MotionScratch, MotionValidity, Profile, profile};
 use super::placed::Placed;
 use super::validity::{Counts, Limits, Obstacles, Screen, Violation};
@@ -62,7 +61,7 @@ impl ChainInEnergy {
         let heavy = atoms.filter(|atom| atom.is_heavy());
         let obstacles = Obstacles { points: heavy.map(|atom| atom.position).collect() };
         let limits = protein.rules.at_nodes();
-        let along = motion_limits(protein, &linkage);
+        let along = MotionLimits::of(&protein.rules, &protein.source, &linkage.gaps);
         let motions = MotionValidity::new(&linkage, &protein.source, &obstacles.points, along)
             .expect("a sound description has all Cα");
         ChainInEnergy {
@@ -130,21 +129,6 @@ impl ChainInEnergy {
 
 fn alphas_of(placed: &Placed) -> Vec<Point> {
     (0..placed.len()).map(|residue| placed.ca.at(residue)).collect()
-}
-
-/// What holds along motions. Across a gap there is no virtual bond.
-fn motion_limits(protein: &Protein, linkage: &Linkage) -> MotionLimits {
-    let alphas: Vec<Point> =
-        protein.source.iter().filter_map(|residue| residue.position("CA")).collect();
-    let bonds = alphas.windows(2).enumerate().filter(|(at, _)| !linkage.gaps.contains(at));
-    let lengths = bonds.map(|(_, pair)| (pair[1] - pair[0]).norm());
-    let limits = protein.rules.along_motions(lengths.fold(0.0, f64::max));
-    MotionLimits {
-        alpha: limits.alpha_carbons,
-        side_chain: limits.side_chains,
-        alpha_obstacle: limits.obstacle_backbone,
-        side_chain_obstacle: limits.obstacle_side_chains,
-    }
 }
 
 /// The constraints of the source, and those of the target between residues that the source has, too.

@@ -8,6 +8,7 @@ use super::straight::Straight;
 use super::*;
 use crate::lanes::Lanes;
 use crate::math;
+use crate::model::protein::validity::Rules;
 use crate::structure::{AminoAcid, Atom, ResidueNumber};
 
 /// Numbers that look random (SplitMix64; G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014).
@@ -142,9 +143,9 @@ fn at(a: &[f64], b: &[f64], time: f64) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| math::wrap_angle(a + time * math::wrap_angle(b - a))).collect()
 }
 
-/// The Cα atoms of residues.
-fn alphas(residues: &[Residue]) -> Vec<Point> {
-    residues.iter().filter_map(|residue| residue.position("CA")).collect()
+/// What the default rules ask of a chain without gaps.
+fn limits_of(residues: &[Residue]) -> Limits {
+    Limits::of(&Rules::default(), residues, &[])
 }
 
 /// A helix, a bend, a strand and another helix: something that can meet itself.
@@ -202,7 +203,7 @@ fn strands_are_not_pulled_through_one_another() {
     torsions[10] = [100.0, 5.0, 180.0];
     torsions[11] = [125.0, 15.0, 180.0];
     let residues = alanines(&torsions);
-    let limits = Limits::of(&alphas(&residues));
+    let limits = limits_of(&residues);
     let nodes = Limits { alpha: 3.0, side_chain: 2.4, ..limits };
     let judge = Judge::of(&residues, &[], nodes);
     // Psi of the turn's middle residue.
@@ -272,7 +273,7 @@ fn cubics_are_held_against_distances() {
 #[test]
 fn ways_keep_to_their_cubics_as_bounded_and_bounds_are_not_idle() {
     let residues = mixed(45);
-    let judge = Judge::of(&residues, &[Point::new(9.0, 9.0, 9.0)], Limits::of(&alphas(&residues)));
+    let judge = Judge::of(&residues, &[Point::new(9.0, 9.0, 9.0)], limits_of(&residues));
     let chain = Chain::of(&judge.linkage, &residues, &judge.obstacles, judge.limits).unwrap();
     let numbers = &mut Numbers(3);
     let mut nearest_to_bound: f64 = 0.0;
@@ -344,7 +345,7 @@ fn what_is_accepted_has_no_sample_too_near_and_what_is_refused_has() {
         let numbers = &mut Numbers(seed);
         let obstacles: Vec<Point> = (0..20).map(|_| numbers.point(25.0)).collect();
         for obstacles in [&[][..], &obstacles] {
-            let mut limits = Limits::of(&alphas(&residues));
+            let mut limits = limits_of(&residues);
             // Obstacles may stand anywhere: those that the source touches would leave nothing.
             let judge = Judge::of(&residues, obstacles, limits);
             if judge.spare(&judge.linkage.source()) < 0.5 {
@@ -376,7 +377,7 @@ fn what_is_accepted_has_no_sample_too_near_and_what_is_refused_has() {
 #[test]
 fn verdicts_are_sharp() {
     let residues = mixed(30);
-    let limits = Limits { side_chain: 0.0, ..Limits::of(&alphas(&residues)) };
+    let limits = Limits { side_chain: 0.0, ..limits_of(&residues) };
     let judge = Judge::of(&residues, &[], limits);
     let numbers = &mut Numbers(6);
     let scratch = &mut MotionScratch::default();
@@ -404,7 +405,7 @@ fn verdicts_are_sharp() {
 #[test]
 fn verdicts_depend_on_nothing_else() {
     let residues = mixed(40);
-    let judge = Judge::of(&residues, &[], Limits::of(&alphas(&residues)));
+    let judge = Judge::of(&residues, &[], limits_of(&residues));
     let validity = judge.validity(&residues);
     let numbers = &mut Numbers(7);
     let warm = &mut MotionScratch::default();
@@ -425,7 +426,7 @@ fn verdicts_depend_on_nothing_else() {
 #[test]
 fn nonsense_is_refused() {
     let residues = mixed(20);
-    let judge = Judge::of(&residues, &[], Limits::of(&alphas(&residues)));
+    let judge = Judge::of(&residues, &[], limits_of(&residues));
     let validity = judge.validity(&residues);
     let scratch = &mut MotionScratch::default();
     let q = judge.linkage.source();
@@ -440,7 +441,7 @@ fn nonsense_is_refused() {
     assert!(!validity.is_valid(&q, &q[1..], scratch));
     assert!(!validity.is_valid(&[], &[], scratch));
     let one = alanines(&[[0.0, 0.0, 180.0]]);
-    let judge = Judge::of(&one, &[], Limits::of(&alphas(&one)));
+    let judge = Judge::of(&one, &[], limits_of(&one));
     assert!(judge.validity(&one).is_valid(&[], &[], scratch));
     assert!(MotionValidity::new(&judge.linkage, &[], &[], judge.limits).is_none());
 }
@@ -452,13 +453,13 @@ fn a_cis_peptide_lets_a_chain_fold_on_itself() {
     torsions[4][2] = 0.0;
     let residues = alanines(&torsions);
     let linkage = Linkage::of(&residues).unwrap();
-    let limits = Limits::of(&alphas(&residues));
+    let limits = limits_of(&residues);
     let chain = Chain::of(&linkage, &residues, &[], limits).unwrap();
     let folds: Vec<usize> = (0..10).filter(|number| chain.links[*number].folds).collect();
     assert_eq!(folds, [3, 4]);
     let all_trans = mixed(30);
     let linkage = Linkage::of(&all_trans).unwrap();
-    let chain = Chain::of(&linkage, &all_trans, &[], Limits::of(&alphas(&all_trans))).unwrap();
+    let chain = Chain::of(&linkage, &all_trans, &[], limits_of(&all_trans)).unwrap();
     assert!(chain.links.iter().all(|link| !link.folds));
     assert!(chain.segments.iter().all(|segment| segment.pairs != Pairs::Obstacles));
 }
