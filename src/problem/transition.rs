@@ -5,7 +5,7 @@ use crate::model::ModelKind;
 use crate::model::protein::refit::{Refit, Weights, refit};
 use crate::model::protein::{Protein, ProteinSpec};
 use crate::sampler::{About, SamplerKind, TorsionNoise};
-use crate::source::ProblemError;
+use crate::source::{ProblemError, fitting};
 use crate::structure::Residue;
 use std::path::Path;
 
@@ -22,7 +22,7 @@ pub struct Transition {
 }
 
 /// Makes the problem of a transition from the source of `spec` to its target, with sets of torsion noise about both ends.
-/// Relative paths start in `folder`.
+/// Relative paths start in `folder`. Characters that a problem's name cannot have become `-`.
 ///
 /// # Errors
 /// What is wrong with the structures, and ends that break the rules, with the first pair of atoms that does.
@@ -31,7 +31,7 @@ pub fn transition(
     folder: &Path,
     spec: &ProteinSpec,
 ) -> Result<Transition, ProblemError> {
-    let builder = Problem::builder(name, spec.clone()).folder(folder);
+    let builder = Problem::builder(fitting(name), spec.clone()).folder(folder);
     let protein = protein_of(&builder)?;
     let Some(target) = protein.target() else {
         let message = "protein.target: none found; the other end of the transition expected";
@@ -64,6 +64,7 @@ pub fn transition(
 }
 
 /// Makes the problem of a protein about its only structure, with sets of torsion noise about it and no criterion.
+/// `name` and `folder` as for [`transition`].
 ///
 /// # Errors
 /// What is wrong with the structure, and one that breaks the rules, with the first pair of atoms that does.
@@ -72,7 +73,7 @@ pub fn about_native(
     folder: &Path,
     spec: &ProteinSpec,
 ) -> Result<Problem, ProblemError> {
-    let builder = Problem::builder(name, spec.clone()).folder(folder);
+    let builder = Problem::builder(fitting(name), spec.clone()).folder(folder);
     let protein = protein_of(&builder)?;
     expect_valid(&protein, "source", &protein.linkage().source())?;
     let noise = SamplerKind::TorsionNoise(TorsionNoise::default());

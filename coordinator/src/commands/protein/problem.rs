@@ -26,7 +26,7 @@ pub fn problem(arguments: &ProteinProblemArguments) -> Result<Code, Failure> {
     if arguments.gaps == crate::cli::Gaps::Rigid {
         spec = spec.gaps(Gaps::Rigid);
     }
-    let name = name_of(&arguments.out);
+    let name = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
     let comment = "# Written by `roadmill protein problem`.\n";
     let problem = match &arguments.second {
         Some(second) => {
@@ -46,13 +46,6 @@ pub fn problem(arguments: &ProteinProblemArguments) -> Result<Code, Failure> {
 /// A range of residues as a problem file writes it.
 fn range(first: ResidueNumber, last: ResidueNumber) -> String {
     format!("{first}-{last}")
-}
-
-/// The name of the problem: that of the file without its extension, of the characters that names may have.
-fn name_of(out: &Path) -> String {
-    let stem = out.file_stem().unwrap_or_default().to_string_lossy();
-    let fits = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
-    stem.chars().map(|c| if fits(c) { c } else { '-' }).collect()
 }
 
 /// How near the goal is to the target.
