@@ -1,7 +1,6 @@
 //! The hydrogen bonds that a refit is to keep, and how their energies change with torsions.
 
-use super::jacobian::{Screw, distance_gradient};
-use super::sites::{Kind, Sites};
+use crate::model::protein::equations::{Kind, Screw, Sites, distance_gradient};
 use crate::structure::Point;
 use crate::structure::measure::{HYDROGEN_BOND_COUPLING, HydrogenBond, hydrogen_bond_energy};
 

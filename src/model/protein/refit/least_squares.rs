@@ -2,7 +2,7 @@
 //! a step solves (JᵀJ + λ diag JᵀJ) δ = −Jᵀr. How much the sum of squares falls, compared with what the linear model
 //! foretold, says whether the step is taken and how λ changes.
 
-use super::cholesky::Symmetric;
+use crate::model::protein::equations::NormalEquations;
 
 /// A sum of squares.
 pub trait SumOfSquares {
@@ -17,33 +17,6 @@ pub trait SumOfSquares {
 
     /// The state after a step.
     fn after(&self, state: &Self::State, step: &[f64]) -> Self::State;
-}
-
-/// JᵀJ and Jᵀr.
-#[derive(Clone, Debug)]
-pub struct NormalEquations {
-    /// JᵀJ.
-    pub matrix: Symmetric,
-    /// Jᵀr, the gradient of half the sum of squares.
-    pub gradient: Vec<f64>,
-}
-
-impl NormalEquations {
-    /// Both zero.
-    pub fn zeros(size: usize) -> NormalEquations {
-        NormalEquations { matrix: Symmetric::zeros(size), gradient: vec![0.0; size] }
-    }
-
-    /// Adds a residual whose derivatives are these from the unknown number `first` on, and zero elsewhere.
-    pub fn add(&mut self, first: usize, derivatives: &[f64], residual: f64) {
-        for (k, derivative) in derivatives.iter().enumerate() {
-            self.gradient[first + k] += derivative * residual;
-            let row = self.matrix.row_mut(first + k);
-            for (entry, other) in row.iter_mut().zip(&derivatives[k..]) {
-                *entry += derivative * other;
-            }
-        }
-    }
 }
 
 /// When to stop.

@@ -1,12 +1,11 @@
 //! How near a configuration is to the target, and what that costs.
 
-use super::contacts::Exceptions;
 use super::hydrogen_bonds::Bond;
 use super::objective::{Objective, State};
 use super::report::{Clash, Refit};
-use super::sites::{FITTED, Kind, Sites};
 use crate::math;
 use crate::model::protein::energy::{Constraint, Constraints};
+use crate::model::protein::equations::{Exceptions, FITTED, Kind, Sites};
 use crate::model::protein::kinematics::Conformer;
 use crate::structure::Point;
 use crate::structure::measure::{HydrogenBond, WEAKEST_HYDROGEN_BOND, superpose};

@@ -5,7 +5,7 @@
 //! and psi copied, the end of the chain is far from where it ought to be. The refit lets all torsions give a little, so that
 //! every atom comes near to its place.
 //!
-//! **Method.** Least squares by Levenberg and Marquardt with the analytic Jacobian (`jacobian.rs`, `objective.rs`), from
+//! **Method.** Least squares by Levenberg and Marquardt with the analytic Jacobian (`equations/`, `objective.rs`), from
 //! the copied torsions:
 //!
 //! 1. The first residues of the chain are fitted, then ever more of them, until it is the whole chain. So the fit
@@ -21,16 +21,12 @@
 //! Prolines keep the source's phi, all residues the source's omega; the first residue has no phi and the last no psi. So the
 //! last residue's O, which psi would place, stays as it is in the source; it is not fitted, but it counts in the RMSD.
 
-mod cholesky;
-mod contacts;
 mod error;
 mod hydrogen_bonds;
-mod jacobian;
 mod least_squares;
 mod measure;
 mod objective;
 mod report;
-mod sites;
 
 #[cfg(test)]
 mod tests;
@@ -39,18 +35,17 @@ pub use error::RefitError;
 pub use report::{Clash, End, Refit};
 
 use super::atoms::ResidueAtoms;
+use super::equations::{Contacts, Exceptions, FITTED, Kind, Pull, Sites};
 use super::kinematics::Conformer;
 use super::linkage::{Linkage, Motion, Torsion};
 use super::validity::Rules;
 use crate::math;
 use crate::structure::measure::{WEAKEST_HYDROGEN_BOND, centroid, hydrogen_bonds, superpose};
 use crate::structure::{Point, Residue};
-use contacts::{Contacts, Exceptions};
 use hydrogen_bonds::Bond;
 use least_squares::{Stop, minimize};
 use measure::Measured;
-use objective::{Kept, Objective, Pull, State};
-use sites::{FITTED, Kind, Sites};
+use objective::{Kept, Objective, State};
 
 /// The weights of the squares in the final sum, and what terms hold back.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,22 +1,17 @@
 //! What a refit minimizes, as a sum of squares of the configuration and of the chain's pose.
 //!
-//! The sum over atoms has a structure that makes its JᵀJ cheap. The entry for the torsions k and l, l the later one, is
-//! Σ w (s_k at x)·(s_l at x) over the atoms after l: the mass matrix of the chain if its atoms had the weights as masses.
-//! It is found as composite rigid bodies are (Walker & Orin 1982): the moments of all that is after l, applied to screw l,
-//! are the wrench that is multiplied with every earlier screw. That takes 6 products per entry, however many atoms there are.
+//! The parts of its JᵀJ are in `equations/`.
 
-use super::contacts::{Contact, Contacts, Exceptions};
 use super::hydrogen_bonds::Bond;
-use super::jacobian::{Screw, distance_gradient, screws};
-use super::least_squares::{NormalEquations, SumOfSquares};
-use super::sites::Sites;
+use super::least_squares::SumOfSquares;
 use crate::math;
+use crate::model::protein::equations::{
+    Contact, Contacts, Exceptions, NormalEquations, POSE, Pull, Sites, add_pulls, columns,
+    distance_gradient, screws,
+};
 use crate::model::protein::linkage::{Linkage, Motion};
 use crate::structure::Point;
 use nalgebra::{Matrix3, Unit};
-
-/// The unknowns of the pose, which come before the torsions: a turn about the axes and a shift along them.
-const POSE: usize = 6;
 
 /// A configuration, and the pose of body 0 in the target's frame.
 #[derive(Clone, Debug)]
@@ -33,17 +28,6 @@ impl State {
         let pose = Motion { rotation: Matrix3::identity(), translation: Point::zeros() };
         State { q, pose }
     }
-}
-
-/// A site that is drawn to a position.
-#[derive(Clone, Copy, Debug)]
-pub struct Pull {
-    /// The site.
-    pub site: usize,
-    /// The position, Å.
-    pub to: Point,
-    /// The weight of the squared distance.
-    pub weight: f64,
 }
 
 /// A hydrogen bond that is to be kept.
@@ -89,51 +73,6 @@ pub struct Objective<'a> {
     pub contact_weight: f64,
 }
 
-/// The moments of weighted points: what makes wrenches of screws.
-#[derive(Clone, Copy)]
-struct Moments {
-    weight: f64,
-    first: Point,
-    /// Σ w (|x|² I − x xᵀ).
-    second: Matrix3<f64>,
-    /// Σ w r and Σ w x × r, for residuals r.
-    force: Point,
-    torque: Point,
-}
-
-impl Moments {
-    fn zero() -> Moments {
-        let zero = Point::zeros();
-        Moments { weight: 0.0, first: zero, second: Matrix3::zeros(), force: zero, torque: zero }
-    }
-
-    fn add(&mut self, weight: f64, x: &Point, residual: &Point) {
-        let xx = Matrix3::new(
-            x.y * x.y + x.z * x.z,
-            -(x.x * x.y),
-            -(x.x * x.z),
-            -(x.x * x.y),
-            x.x * x.x + x.z * x.z,
-            -(x.y * x.z),
-            -(x.x * x.z),
-            -(x.y * x.z),
-            x.x * x.x + x.y * x.y,
-        );
-        self.weight += weight;
-        self.first += weight * x;
-        self.second += weight * xx;
-        self.force += weight * residual;
-        self.torque += weight * x.cross(residual);
-    }
-
-    /// Σ w x × v and Σ w v for the velocities v of a screw.
-    fn wrench(&self, screw: &Screw) -> (Point, Point) {
-        let torque = self.second * screw.angular + self.first.cross(&screw.linear);
-        let force = screw.angular.cross(&self.first) + self.weight * screw.linear;
-        (torque, force)
-    }
-}
-
 impl Objective<'_> {
     /// The motions of all bodies at a state, in the target's frame.
     pub fn motions(&self, state: &State) -> Vec<Motion> {
@@ -155,37 +94,6 @@ impl Objective<'_> {
             return Vec::new();
         }
         self.contacts.find(positions, self.margin, self.exceptions)
-    }
-
-    /// The part of the equations that draws sites to the target.
-    fn add_pulls(&self, equations: &mut NormalEquations, columns: &[Screw], positions: &[Point]) {
-        let mut of_body = vec![Moments::zero(); columns.len() - POSE + 1];
-        for pull in &self.pulls {
-            let x = &positions[pull.site];
-            let body = self.sites.body(pull.site);
-            of_body[body].add(pull.weight, x, &(x - pull.to));
-        }
-        let mut after = Moments::zero();
-        // Torsion k, column k + 6, moves the bodies from k + 1 on. The pose's columns move all: the last of them comes upon
-        // body 0, and the others upon no more.
-        for last in (0..columns.len()).rev() {
-            if let Some(body) = (last + 1).checked_sub(POSE) {
-                let body = &of_body[body];
-                after.weight += body.weight;
-                after.first += body.first;
-                after.second += body.second;
-                after.force += body.force;
-                after.torque += body.torque;
-            }
-            let screw = &columns[last];
-            let (torque, force) = after.wrench(screw);
-            equations.gradient[last] +=
-                screw.angular.dot(&after.torque) + screw.linear.dot(&after.force);
-            for (first, screw) in columns[..=last].iter().enumerate() {
-                equations.matrix.row_mut(first)[last - first] +=
-                    screw.angular.dot(&torque) + screw.linear.dot(&force);
-            }
-        }
     }
 }
 
@@ -223,15 +131,9 @@ impl SumOfSquares for Objective<'_> {
         let motions = self.motions(state);
         let positions = self.sites.place(&motions);
         let torsions = screws(self.linkage, &motions);
-        let (zero, axes) = (Point::zeros(), [Point::x(), Point::y(), Point::z()]);
-        let columns: Vec<Screw> = axes
-            .iter()
-            .map(|axis| Screw { angular: *axis, linear: zero })
-            .chain(axes.iter().map(|axis| Screw { angular: zero, linear: *axis }))
-            .chain(torsions.iter().copied())
-            .collect();
+        let columns = columns(&torsions);
         let mut equations = NormalEquations::zeros(columns.len());
-        self.add_pulls(&mut equations, &columns, &positions);
+        add_pulls(&mut equations, &columns, (&self.pulls, self.sites), &positions);
         // A pair of sites: a residual of its distance, by the slope and the root of its weight.
         let mut add_distance = |a: usize, b: usize, weight: f64, residual: f64| {
             let (a, b) = if self.sites.body(a) <= self.sites.body(b) { (a, b) } else { (b, a) };

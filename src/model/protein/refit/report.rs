@@ -1,6 +1,6 @@
 //! What a refit came to.
 
-use super::sites::Kind;
+use crate::model::protein::equations::Kind;
 use std::fmt;
 
 /// Whose a structure is.

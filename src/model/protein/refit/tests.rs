@@ -117,7 +117,7 @@ fn contacts_are_what_the_rules_count() {
         let sites = Sites::of(conformer.atoms(), &linkage);
         let found = Contacts::of(limits, &sites).find(&sites.source(), 0.0, &Exceptions::new());
         // Two CA may violate two rules, and are one pair.
-        let is_twice = |contact: &&contacts::Contact| {
+        let is_twice = |contact: &&crate::model::protein::equations::Contact| {
             let kinds = [contact.first, contact.second].map(|number| sites.sites[number].kind);
             kinds == [Kind::AlphaCarbon; 2] && contact.distance < limits.backbone
         };

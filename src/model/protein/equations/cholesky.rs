@@ -27,10 +27,14 @@ impl Symmetric {
     }
 
     /// Solves this · x = b. `None` if the matrix is not positive definite as far as rounding can tell.
-    pub fn solve(mut self, b: &[f64]) -> Option<Vec<f64>> {
+    pub fn solve(self, b: &[f64]) -> Option<Vec<f64>> {
+        self.factor()?.solve(b)
+    }
+
+    /// The factor U with Uᵀ U = this. `None` if the matrix is not positive definite as far as rounding can tell.
+    pub fn factor(mut self) -> Option<Factor> {
         let n = self.size;
-        // The matrix becomes Uᵀ U, row of U by row: each row, once divided by the root of its diagonal, is taken off the
-        // rows below it.
+        // Row by row: each row, once divided by the root of its diagonal, is taken off the rows below it.
         for k in 0..n {
             let (above, below) = self.entries.split_at_mut((k + 1) * n);
             let row = &mut above[k * n..];
@@ -49,19 +53,45 @@ impl Symmetric {
                 }
             }
         }
-        let row = |k: usize| &self.entries[k * n..(k + 1) * n];
+        Some(Factor { size: n, entries: self.entries })
+    }
+}
+
+/// The upper triangular factor U of a matrix Uᵀ U, row by row. What is below the diagonal means nothing.
+#[derive(Clone, Debug)]
+pub struct Factor {
+    size: usize,
+    entries: Vec<f64>,
+}
+
+impl Factor {
+    fn row(&self, k: usize) -> &[f64] {
+        &self.entries[k * self.size..(k + 1) * self.size]
+    }
+
+    /// Solves Uᵀ U x = b. `None` if a number of the solution is not finite.
+    pub fn solve(&self, b: &[f64]) -> Option<Vec<f64>> {
         // Uᵀ y = b, then U x = y.
-        let mut x = b.to_vec();
-        for k in 0..n {
-            x[k] /= row(k)[k];
-            let value = x[k];
-            for (entry, factor) in x[k + 1..].iter_mut().zip(&row(k)[k + 1..]) {
+        let mut y = b.to_vec();
+        for k in 0..self.size {
+            let row = self.row(k);
+            y[k] /= row[k];
+            let value = y[k];
+            for (entry, factor) in y[k + 1..].iter_mut().zip(&row[k + 1..]) {
                 *entry -= factor * value;
             }
         }
-        for k in (0..n).rev() {
-            let known: f64 = row(k)[k + 1..].iter().zip(&x[k + 1..]).map(|(u, x)| u * x).sum();
-            x[k] = (x[k] - known) / row(k)[k];
+        self.solve_upper(y)
+    }
+
+    /// Solves U x = y. Where the numbers of y are independent and normal with variance 1, those of x have the covariance
+    /// (Uᵀ U)⁻¹. `None` if a number of the solution is not finite.
+    pub fn solve_upper(&self, y: Vec<f64>) -> Option<Vec<f64>> {
+        let mut x = y;
+        for k in (0..self.size).rev() {
+            let row = self.row(k);
+            let known: f64 = row[k + 1..].iter().zip(&x[k + 1..]).map(|(u, x)| u * x).sum();
+            x[k] = (x[k] - known) / row[k];
         }
         x.iter().all(|value| value.is_finite()).then_some(x)
     }
@@ -86,6 +116,15 @@ mod tests {
         for (x, expected) in x.iter().zip([1.0, -2.0, 3.0]) {
             assert!((x - expected).abs() < 1e-14);
         }
+    }
+
+    #[test]
+    fn a_factor_makes_noise_of_the_inverse_covariance() {
+        // U = [2 1; 0 2], so U x = (2, 4) has x = (0, 2).
+        let factor = of(&[&[4.0, 2.0], &[5.0]]).factor().unwrap();
+        assert_eq!(factor.solve_upper(vec![2.0, 4.0]), Some(vec![0.0, 2.0]));
+        assert_eq!(factor.solve(&[4.0, 10.0]), Some(vec![0.0, 2.0]));
+        assert_eq!(factor.solve_upper(vec![f64::INFINITY, 0.0]), None);
     }
 
     #[test]
