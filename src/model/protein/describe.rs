@@ -1,8 +1,10 @@
 //! What `check` says of a protein, and of a query's ends.
 
-use super::chain_in_energy::{ChainInEnergy, KT, basins_of};
+use super::KT;
+use super::chain_in_energy::{ChainInEnergy, basins_of};
 use super::energy::{ConstraintKind, Constraints};
 use super::linkage::TorsionKind;
+use super::motion::EnergySteps;
 use super::validity::Violation;
 use super::{Gaps, Protein};
 use crate::structure::measure::superpose;
@@ -69,10 +71,16 @@ pub(super) fn describe(protein: &Protein, out: &mut String) -> Result {
         None => writeln!(out, "energy           model kJ/mol; any is valid")?,
         Some(highest) => writeln!(out, "energy           model kJ/mol; up to {highest} is valid")?,
     }
-    writeln!(
-        out,
-        "costs            climbs in kT = {KT} kJ/mol, by the energy at every {step} radians of a motion"
-    )?;
+    let by = match *step {
+        EnergySteps::Length(length) => format!("every {length} radians of a motion"),
+        EnergySteps::Turn(turn) => {
+            format!(
+                "steps in which no torsion turns by more than {:.3}°",
+                turn * (180.0 / std::f64::consts::PI)
+            )
+        }
+    };
+    writeln!(out, "costs            climbs in kT = {KT} kJ/mol, by the energy at {by}")?;
     describe_end(protein, "native", &linkage.source(), out)
 }
 

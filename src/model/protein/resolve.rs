@@ -1,5 +1,6 @@
 //! From what a problem asks for to a checked protein.
 
+use super::motion::EnergySteps;
 use super::{ChainSpec, FileSpec, Gaps, ObstacleSpec, Protein, ProteinSpec, Target};
 use crate::source::Step::Key;
 use crate::source::{ProblemError, Source};
@@ -10,9 +11,8 @@ use crate::structure::{
 };
 use std::collections::BTreeMap;
 
-/// The energy along a motion is computed at steps of this length in the space unless the file says otherwise, radians: a third of
-/// a degree for each of 286 torsions.
-pub(super) const DEFAULT_STEP: f64 = 0.1;
+/// No torsion turns by more than this between two energies along a motion unless the file says otherwise, radians: one degree.
+const DEFAULT_TURN: f64 = std::f64::consts::PI / 180.0;
 
 /// Checks a protein and makes what is asked for.
 pub(super) fn resolve(
@@ -52,10 +52,20 @@ pub(super) fn resolve(
         }
     };
     let obstacles = obstacles_of(spec, source, file, notes)?;
-    let step = spec.step.unwrap_or_else(|| {
-        notes.push(format!("step = {DEFAULT_STEP} radians between two energies along a motion"));
-        DEFAULT_STEP
-    });
+    let step = match (spec.step, spec.turn) {
+        (Some(_), Some(_)) => {
+            let message = "found beside protein.step; only one of them expected".to_owned();
+            return Err(source.error(&place("turn"), message));
+        }
+        (Some(length), None) => EnergySteps::Length(length),
+        (None, Some(turn)) => EnergySteps::Turn(turn),
+        (None, None) => {
+            notes.push(
+                "turn = 1° of a torsion at most between two energies along a motion".to_owned(),
+            );
+            EnergySteps::Turn(DEFAULT_TURN)
+        }
+    };
     let protein = Protein {
         source: chain.residues,
         target,

@@ -2,6 +2,7 @@
 
 use super::kinematics::Conformer;
 use super::linkage::Linkage;
+use super::motion::EnergySteps;
 use super::{Gaps, Protein, Target, write};
 use crate::structure::matching::match_chains;
 use crate::structure::{Chain, Residue, backbone, peptides, read_bytes};
@@ -76,9 +77,13 @@ impl Protein {
         if let Some(highest) = highest.filter(|highest| !highest.is_finite()) {
             return Some(("highest", format!("{highest} found; a finite energy expected")));
         }
-        if !(STEP_MIN..=STEP_MAX).contains(step) {
-            let message = format!("{step} found; {STEP_MIN} to {STEP_MAX} radians expected");
-            return Some(("step", message));
+        let (key, radians) = match *step {
+            EnergySteps::Length(length) => ("step", length),
+            EnergySteps::Turn(turn) => ("turn", turn),
+        };
+        if !(STEP_MIN..=STEP_MAX).contains(&radians) {
+            let message = format!("{radians} found; {STEP_MIN} to {STEP_MAX} radians expected");
+            return Some((key, message));
         }
         self.complaint_of_files()
     }

@@ -23,6 +23,7 @@ pub struct ProteinSpec {
     pub(super) energy: EnergySpec,
     pub(super) highest: Option<f64>,
     pub(super) step: Option<f64>,
+    pub(super) turn: Option<f64>,
 }
 
 impl ProteinSpec {
@@ -37,6 +38,7 @@ impl ProteinSpec {
             energy: EnergySpec::default(),
             highest: None,
             step: None,
+            turn: None,
         }
     }
 
@@ -71,10 +73,16 @@ impl ProteinSpec {
         ProteinSpec { highest: Some(energy), ..self }
     }
 
-    /// How far apart in the space, radians, the configurations of a motion are at which its energy is computed; 0.1 if
-    /// nothing is said.
+    /// How far apart in the space, radians, the configurations of a motion are at which its energy is computed, instead of
+    /// [`turn`](ProteinSpec::turn).
     pub fn step(self, length: f64) -> ProteinSpec {
-        ProteinSpec { step: Some(length), ..self }
+        ProteinSpec { step: Some(length), turn: None, ..self }
+    }
+
+    /// By how much a torsion turns at most, radians, between two configurations of a motion at which its energy is computed; one
+    /// degree if nothing is said.
+    pub fn turn(self, turn: f64) -> ProteinSpec {
+        ProteinSpec { turn: Some(turn), step: None, ..self }
     }
 }
 

@@ -84,7 +84,7 @@ fn wrong_tables_are_refused_by_their_keys() {
 fn unsound_descriptions_are_refused() {
     let sound = protein(TWO_ENDS);
     assert_eq!(sound.sound(), Ok(()));
-    let spoil: [fn(&mut Protein); 30] = [
+    let spoil: [fn(&mut Protein); 31] = [
         |p| p.source.clear(),
         |p| p.source.truncate(1),
         |p| p.source[3].atoms[1].position.x = f64::NAN,
@@ -115,7 +115,8 @@ fn unsound_descriptions_are_refused() {
         |p| p.target.as_mut().unwrap().matches[0] = [0, 10],
         |p| p.target.as_mut().unwrap().matches.swap(0, 1),
         |p| p.rules.side_chains = f64::INFINITY,
-        |p| p.step = f64::NAN,
+        |p| p.step = EnergySteps::Length(f64::NAN),
+        |p| p.step = EnergySteps::Turn(0.0),
         |p| {
             p.source.iter_mut().skip(5).flat_map(|r| &mut r.atoms).for_each(|a| a.position.x += 9.0)
         },
@@ -262,7 +263,7 @@ const STRETCHED: [f64; 17] = [
 fn a_transition_has_the_source_and_the_refit_as_its_ends() {
     let file = || FileSpec::new("structures/1UAO.pdb");
     let spec = || ProteinSpec::new(file().into());
-    let of = |spec: &ProteinSpec| transition("x", &folder(), spec);
+    let of = |spec: &ProteinSpec| transition("x", &folder(), spec, 0.0);
     let made = of(&spec().target(file().into())).unwrap();
     assert!(made.refit.ca_rmsd < 1e-3, "{}", made.refit.ca_rmsd);
     let query = made.problem.query().unwrap();
@@ -300,7 +301,7 @@ fn transitions_beside_obstacles_say_where_the_goal_stands() {
     std::fs::write(scratch.path().join("x.pdb"), text).unwrap();
     let file = || FileSpec::new("x.pdb").chain("A");
     let spec = ProteinSpec::new(file().into()).target(file().into()).obstacles(["B".to_owned()]);
-    let notes = transition("x", scratch.path(), &spec).unwrap().problem.notes().join("\n");
+    let notes = transition("x", scratch.path(), &spec, 0.0).unwrap().problem.notes().join("\n");
     assert!(notes.contains("the first residue stands still"), "{notes}");
 }
 
@@ -357,7 +358,7 @@ fn answers_are_pure_and_costs_are_climbs() {
         );
         let ends = [pair[0], pair[1]].map(|q| model.energy(q, scratch).unwrap());
         // The climbs there less those back are the difference of the ends' energies, in kT.
-        let rise = (ends[1] - ends[0]) / chain_in_energy::KT;
+        let rise = (ends[1] - ends[0]) / KT;
         assert!((there.forward - there.backward - rise).abs() < 1e-6 * (1.0 + there.forward));
         assert!(there.peak >= ends[0].max(ends[1]));
         joined += 1;

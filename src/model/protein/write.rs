@@ -1,5 +1,6 @@
 //! A protein written out as the table of a problem file.
 
+use super::motion::EnergySteps;
 use super::{Gaps, Protein};
 use crate::model::Documents;
 use crate::source::value;
@@ -31,7 +32,10 @@ pub(super) fn write(protein: &Protein, documents: &mut Documents) {
     }
     text += &format!("rules = {}\nenergy = {}\n", value(rules), value(energy));
     text += &highest.map_or_else(String::new, |highest| format!("highest = {highest:?}\n"));
-    text += &format!("step = {step:?}\n");
+    text += &match step {
+        EnergySteps::Length(length) => format!("step = {length:?}\n"),
+        EnergySteps::Turn(turn) => format!("turn = {turn:?}\n"),
+    };
     documents.text += &text;
 }
 

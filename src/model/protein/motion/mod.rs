@@ -19,7 +19,7 @@ mod straight;
 mod tests;
 
 pub use limits::Limits;
-pub use profile::{Profile, profile, steps};
+pub use profile::{EnergySteps, Profile, profile, steps};
 pub use search::MotionScratch;
 
 use super::linkage::Linkage;

@@ -7,6 +7,10 @@
 
 use super::straight;
 use crate::math;
+use bincode::de::Decoder;
+use bincode::enc::Encoder;
+use bincode::error::{DecodeError, EncodeError};
+use bincode::{Decode, Encode};
 
 /// The energies along a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,12 +26,61 @@ pub struct Profile {
 /// More steps are not taken, whatever the resolution.
 const STEPS_MAX: f64 = 1_048_576.0;
 
-/// In how many steps a motion is looked at: so many that no step is longer than `resolution`, in radians of the Euclidean
-/// length of all turns together. At least one. The same both ways.
-pub fn steps(a: &[f64], b: &[f64], resolution: f64) -> usize {
+/// How far apart the configurations of a motion are at which its energy is computed, in radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EnergySteps {
+    /// At most so far in the metric of the space, the Euclidean length of all turns together.
+    Length(f64),
+    /// No torsion turns by more than this from one to the next.
+    Turn(f64),
+}
+
+impl EnergySteps {
+    /// The number of radians.
+    pub fn radians(self) -> f64 {
+        match self {
+            EnergySteps::Length(radians) | EnergySteps::Turn(radians) => radians,
+        }
+    }
+
+    /// So many times finer.
+    pub fn finer(self, times: u32) -> EnergySteps {
+        match self {
+            EnergySteps::Length(length) => EnergySteps::Length(length / f64::from(times)),
+            EnergySteps::Turn(turn) => EnergySteps::Turn(turn / f64::from(times)),
+        }
+    }
+}
+
+/// As one number: what is not positive is a turn. Ledgers were written when there were lengths alone, each a positive number.
+impl Encode for EnergySteps {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        let number = match self {
+            EnergySteps::Length(length) => *length,
+            EnergySteps::Turn(turn) => -turn,
+        };
+        number.encode(encoder)
+    }
+}
+
+impl<Context> Decode<Context> for EnergySteps {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<EnergySteps, DecodeError> {
+        let number = f64::decode(decoder)?;
+        // Written so that what is no number is a length, which is refused.
+        Ok(if number < 0.0 { EnergySteps::Turn(-number) } else { EnergySteps::Length(number) })
+    }
+}
+
+bincode::impl_borrow_decode!(EnergySteps);
+
+/// In how many steps a motion is looked at: so many that no step is longer than `resolution`. At least one. The same both ways.
+pub fn steps(a: &[f64], b: &[f64], resolution: EnergySteps) -> usize {
     let turns = a.iter().zip(b).map(|(a, b)| math::wrap_angle(b - a));
-    let length = turns.map(|turn| turn * turn).sum::<f64>().sqrt();
-    (length / resolution).ceil().clamp(1.0, STEPS_MAX) as usize
+    let of_one = match resolution {
+        EnergySteps::Length(_) => turns.map(|turn| turn * turn).sum::<f64>().sqrt(),
+        EnergySteps::Turn(_) => turns.fold(0.0, |widest, turn| turn.abs().max(widest)),
+    };
+    (of_one / resolution.radians()).ceil().clamp(1.0, STEPS_MAX) as usize
 }
 
 /// The profile of the motion from `a` to `b` in [`steps`]; `kt` is kT in the unit of the energies, `energy` gives the
@@ -35,7 +88,7 @@ pub fn steps(a: &[f64], b: &[f64], resolution: f64) -> usize {
 /// `None` where an energy is no finite number.
 pub fn profile(
     (a, b): (&[f64], &[f64]),
-    resolution: f64,
+    resolution: EnergySteps,
     kt: f64,
     between: &mut Vec<f64>,
     mut energy: impl FnMut(&[f64]) -> f64,

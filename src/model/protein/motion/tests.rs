@@ -469,21 +469,31 @@ fn profiles_are_climbs() {
     // Three steps over a hill: 0, 5, 3, 4.
     let energies = |q: &[f64]| [0.0, 5.0, 3.0, 4.0][(q[0] * 3.0).round() as usize];
     let between = &mut Vec::new();
-    let there = profile((&[0.0], &[1.0]), 0.34, 2.0, between, energies).unwrap();
+    let there =
+        profile((&[0.0], &[1.0]), EnergySteps::Length(0.34), 2.0, between, energies).unwrap();
     assert_eq!(there, Profile { forward: 3.0, backward: 1.0, peak: 5.0 });
-    let back = profile((&[1.0], &[0.0]), 0.34, 2.0, between, energies).unwrap();
+    let back =
+        profile((&[1.0], &[0.0]), EnergySteps::Length(0.34), 2.0, between, energies).unwrap();
     assert_eq!(back, Profile { forward: 1.0, backward: 3.0, peak: 5.0 });
-    assert_eq!(profile((&[0.0], &[1.0]), 0.34, 2.0, between, |_| f64::NAN), None);
+    assert_eq!(
+        profile((&[0.0], &[1.0]), EnergySteps::Length(0.34), 2.0, between, |_| f64::NAN),
+        None
+    );
     // The short way round, and as many steps both ways.
-    assert_eq!(steps(&[3.0, 0.0], &[-3.0, 0.0], 0.1), 3);
+    assert_eq!(steps(&[3.0, 0.0], &[-3.0, 0.0], EnergySteps::Length(0.1)), 3);
+    // By the widest turn alone.
+    assert_eq!(steps(&[0.0, 0.0, 0.0], &[0.3, -0.3, 0.1], EnergySteps::Turn(0.1001)), 3);
     let numbers = &mut Numbers(8);
     for _ in 0..1000 {
         let [a, b]: [Vec<f64>; 2] =
             [(); 2].map(|()| (0..5).map(|_| 3.1 * numbers.signed()).collect());
-        assert_eq!(steps(&a, &b, 0.01), steps(&b, &a, 0.01));
+        assert_eq!(
+            steps(&a, &b, EnergySteps::Length(0.01)),
+            steps(&b, &a, EnergySteps::Length(0.01))
+        );
         let wave = |q: &[f64]| q.iter().enumerate().map(|(k, x)| math::sin(x * k as f64)).sum();
-        let there = profile((&a, &b), 0.1, 0.3, between, wave).unwrap();
-        let back = profile((&b, &a), 0.1, 0.3, between, wave).unwrap();
+        let there = profile((&a, &b), EnergySteps::Length(0.1), 0.3, between, wave).unwrap();
+        let back = profile((&b, &a), EnergySteps::Length(0.1), 0.3, between, wave).unwrap();
         assert_eq!(
             (there.forward, there.backward, there.peak),
             (back.backward, back.forward, back.peak)
