@@ -24,6 +24,7 @@
 mod clearance;
 mod cost;
 mod description;
+mod elasticity;
 mod figure;
 mod molecule;
 mod scratch;
@@ -36,6 +37,7 @@ pub use bodies::foreign::SceneOptions;
 pub use clearance::{Clearance, Clearances};
 pub use cost::{Cost, Directed};
 pub use description::{Description, Documents, ForeignProblem};
+pub use elasticity::{Draw, Elastic};
 pub use figure::{Figure, Placement};
 pub use molecule::Molecule;
 pub use scratch::{Asked, ModelScratch, Scratch};
@@ -212,6 +214,11 @@ pub trait Model: Any + Send + Sync {
     /// The positions of all Cα at `q`, Å, in their order along the chain, of a model that has them; as many at every
     /// configuration.
     fn shape(&self, _q: &[f64], _scratch: &mut Scratch) -> Option<Vec<Point>> {
+        None
+    }
+
+    /// The model as an elastic network about `q`, of a model that is one; see [`Elastic`].
+    fn elastic<'a>(&'a self, _q: &[f64]) -> Option<Box<dyn Elastic + 'a>> {
         None
     }
 

@@ -1,20 +1,22 @@
 //! The model: a chain made ready for work.
 
 use super::atoms::ResidueAtoms;
+use super::elastic::{Network, Prepared, Springs};
 use super::energy::{
-    ConstraintKind, Constraints, Hydrophobic, Mixture, carried_over, constraints_of,
+    Constraint, ConstraintKind, Constraints, Hydrophobic, Mixture, carried_over, constraints_of,
 };
+use super::equations::Sites;
 use super::kinematics::Conformer;
-use super::motion::{Limits as MotionLimits, MotionScratch, MotionValidity, Profile, profile};
+use super::linkage::Linkage;
+use super::motion::{
+    EnergySteps, Limits as MotionLimits, MotionScratch, MotionValidity, Profile, profile,
+};
 use super::placed::Placed;
 use super::validity::{Counts, Limits, Obstacles, Screen, Violation};
-use super::{ENERGY, Protein};
-use crate::model::{Cost, Directed, Model, ModelScratch, NodeValue, Scratch, Validity};
+use super::{ENERGY, KT, Protein};
+use crate::model::{Cost, Directed, Elastic, Model, ModelScratch, NodeValue, Scratch, Validity};
 use crate::space::Space;
 use crate::structure::Point;
-
-/// kT at 298 K, kJ/mol: the unit of costs.
-pub(super) const KT: f64 = 2.479;
 
 /// A protein whose torsions turn, in its energy.
 pub(super) struct ChainInEnergy {
@@ -28,7 +30,8 @@ pub(super) struct ChainInEnergy {
     motions: MotionValidity,
     energy: Mixture,
     highest: Option<f64>,
-    step: f64,
+    step: EnergySteps,
+    network: Network,
 }
 
 /// A conformation, and what motions are looked at with.
@@ -55,6 +58,7 @@ impl ChainInEnergy {
     /// Of a sound description.
     pub fn of(protein: &Protein) -> ChainInEnergy {
         let linkage = protein.linkage();
+        let network = network_of(protein, &linkage);
         let conformer = Conformer::of(&protein.source, &linkage)
             .expect("a sound description has all backbone atoms");
         let atoms = protein.obstacles.iter().flatten().flat_map(|residue| &residue.atoms);
@@ -75,6 +79,7 @@ impl ChainInEnergy {
             motions,
             highest: protein.highest,
             step: protein.step,
+            network,
         }
     }
 
@@ -125,6 +130,17 @@ impl ChainInEnergy {
     fn is_allowed(&self, energy: f64) -> bool {
         self.highest.is_none_or(|highest| energy <= highest)
     }
+}
+
+/// The elastic network of the constraints of all ends.
+fn network_of(protein: &Protein, linkage: &Linkage) -> Network {
+    let atoms =
+        ResidueAtoms::of(&protein.source).expect("a sound description has all backbone atoms");
+    let sites = Sites::of(&atoms, linkage);
+    let basins = basins_of(protein);
+    let constraints: Vec<Constraint> = basins.iter().flat_map(Constraints::list).copied().collect();
+    let springs = Springs::new(&constraints, protein.rules.at_nodes(), &sites);
+    Network::new(linkage.clone(), sites, springs)
 }
 
 fn alphas_of(placed: &Placed) -> Vec<Point> {
@@ -187,7 +203,7 @@ impl Model for ChainInEnergy {
         if !self.motions.is_valid(a, b, motion) {
             return None;
         }
-        let step = self.step / f64::from(refinement);
+        let step = self.step.finer(refinement);
         let energy = |q: &[f64]| self.energy.energy(self.placed(q, placed));
         let Profile { forward, backward, peak } = profile((a, b), step, KT, between, energy)?;
         let cost = Directed { forward, backward, peak };
@@ -202,6 +218,10 @@ impl Model for ChainInEnergy {
     fn shape(&self, q: &[f64], scratch: &mut Scratch) -> Option<Vec<Point>> {
         let scratch: &mut ProteinScratch = scratch.of_model();
         Some(alphas_of(self.placed(q, &mut scratch.placed)))
+    }
+
+    fn elastic<'a>(&'a self, q: &[f64]) -> Option<Box<dyn Elastic + 'a>> {
+        Some(Box::new(Prepared::of(self.network.about(q))))
     }
 
     fn native(&self) -> Option<&[f64]> {

@@ -16,7 +16,9 @@ mod write;
 pub mod atoms;
 #[cfg(test)]
 mod chains;
+mod elastic;
 pub mod energy;
+pub mod equations;
 pub mod kinematics;
 pub mod linkage;
 pub mod motion;
@@ -34,7 +36,11 @@ use bincode::{Decode, Encode};
 use chain_in_energy::ChainInEnergy;
 use energy::EnergySpec;
 use linkage::{Linkage, TorsionKind};
+use motion::EnergySteps;
 use validity::Rules;
+
+/// kT at 298 K, kJ/mol: the unit of costs.
+pub(crate) const KT: f64 = 2.479;
 
 pub(super) const ENERGY: &[NodeValue] = &[NodeValue { name: "energy", unit: "kJ/mol" }];
 
@@ -55,8 +61,8 @@ pub struct Protein {
     pub(crate) energy: EnergySpec,
     /// The highest energy that is valid, model kJ/mol; `None`: any.
     pub(crate) highest: Option<f64>,
-    /// How far apart in the space, radians, the configurations of a motion are at which its energy is computed.
-    pub(crate) step: f64,
+    /// How far apart the configurations of a motion are at which its energy is computed.
+    pub(crate) step: EnergySteps,
 }
 
 /// A second structure of the chain.
@@ -134,7 +140,14 @@ impl Resolve for Protein {
             rules,
             energy,
             highest,
-            step: Some(step),
+            step: match step {
+                EnergySteps::Length(length) => Some(length),
+                EnergySteps::Turn(_) => None,
+            },
+            turn: match step {
+                EnergySteps::Length(_) => None,
+                EnergySteps::Turn(turn) => Some(turn),
+            },
         }
     }
 }

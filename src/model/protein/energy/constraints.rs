@@ -6,6 +6,7 @@
 //! is in the source.
 
 use crate::lanes::{Lanes, with_lanes};
+use crate::model::protein::KT;
 use crate::model::protein::placed::Placed;
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
@@ -44,6 +45,14 @@ impl Constraint {
     pub fn hydrogen_bond(donor: usize, acceptor: usize) -> Constraint {
         let kind = ConstraintKind::HydrogenBond;
         Constraint { kind, first: donor, second: acceptor, distance: HYDROGEN_BOND }
+    }
+
+    /// The first and the second derivative of a constraint's energy by its length, where that is `stretch` Å more than the native
+    /// one: in kT/Å and kT/Å². The second is positive everywhere.
+    pub fn derivatives(stretch: f64) -> (f64, f64) {
+        let root = (stretch * stretch + SOFTNESS * SOFTNESS).sqrt();
+        let unit = STIFFNESS / KT;
+        (unit * stretch / root, unit * (SOFTNESS * SOFTNESS) / (root * root * root))
     }
 
     /// A disulphide between two residues, the centroids of whose side chains are this far apart in the source, Å.
