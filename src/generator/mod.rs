@@ -19,7 +19,10 @@
 //! # Ok::<(), roadmill::problem::ProblemError>(())
 //! ```
 
+mod elastic_growth;
+mod elastic_walk;
 mod expansion_step;
+mod interpolation;
 mod parent;
 mod reuse;
 mod sample;
@@ -29,11 +32,15 @@ methods! {
     pub enum GeneratorKind: dyn Generator {
         Sample(sample::Sample),
         ExpansionStep(expansion_step::ExpansionStep),
-        Reuse(reuse::Reuse), // new ones at the end, since ledgers know methods by number
+        Reuse(reuse::Reuse),
+        ElasticGrowth(elastic_growth::ElasticGrowth),
+        Interpolation(interpolation::Interpolation), // new ones at the end, since ledgers know methods by number
     }
 }
 
+pub use elastic_growth::{ElasticGrowth, GrowthAim};
 pub use expansion_step::ExpansionStep;
+pub use interpolation::Interpolation;
 pub use parent::{NoRuns, Parent, ParentRoadmap, ParentRun, Runs};
 pub use reuse::Reuse;
 pub use sample::Sample;
@@ -128,5 +135,7 @@ impl GeneratorKind {
     }
 }
 
+#[cfg(test)]
+mod elastic_tests;
 #[cfg(test)]
 mod tests;

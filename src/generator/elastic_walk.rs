@@ -1,0 +1,238 @@
+//! Walks of elastic steps: what the generators have in common that grow a chain's roadmap.
+
+use crate::context::Context;
+use crate::local::Planner;
+use crate::math;
+use crate::methods::Complaint;
+use crate::model::{Draw, Elastic, Scratch};
+use crate::numbers::NodeId;
+use crate::roadmap::{Edge, EdgeCost, Increment};
+use crate::sampler::GaveUp;
+use crate::seed::{Purpose, Seed, Stream};
+use crate::structure::measure::rmsd;
+use std::ops::Range;
+
+/// A walk's present place.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    /// The node there, if it is one.
+    pub node: Node,
+    /// The configuration.
+    pub q: Vec<f64>,
+}
+
+/// The node at a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Node {
+    /// A node of the roadmap.
+    Old(NodeId),
+    /// A milestone of this set.
+    New(NodeId),
+    /// None: the step away from here makes no edge.
+    None,
+}
+
+/// By which steps a walk goes on.
+#[derive(Clone, Debug)]
+pub(super) enum Aim<'a> {
+    /// Random ones.
+    Free,
+    /// Toward another configuration, with these residues drawn.
+    Toward(&'a [f64], Range<usize>),
+}
+
+/// The walks of a set.
+pub(super) struct Walks<'a> {
+    pub cx: &'a Context,
+    pub scratch: &'a mut Scratch,
+    /// Draws steps.
+    pub moving: Stream,
+    /// Draws where walks begin and which steps are kept.
+    pub choosing: Stream,
+    /// What the set has so far.
+    pub made: Increment,
+    /// The milestones that the set is to have.
+    pub count: usize,
+    /// A step from energy E to E′ > E is kept with the probability e^(−(E′ − E)/kT).
+    pub kt: f64,
+    /// Steps that may still be tried.
+    pub attempts: u64,
+}
+
+/// The longest step, Å.
+pub(super) const LENGTH_MAX: f64 = 10.0;
+const KT_MAX: f64 = 1e9;
+
+/// How strongly residues are drawn toward a configuration, kT/Å². With a tenth of it walks end within 1 Å of their aim, with ten
+/// times as much hydrogen bonds break that need not.
+const STRENGTH: f64 = 10.0;
+
+/// How often a step is made half as long where it is refused.
+const HALVINGS: usize = 3;
+
+/// A step toward a configuration that moves less than this share of what is asked has arrived.
+const ARRIVED: f64 = 0.1;
+
+impl<'a> Walks<'a> {
+    /// A set without milestones yet.
+    pub fn new(
+        cx: &'a Context,
+        seed: &Seed,
+        scratch: &'a mut Scratch,
+        count: usize,
+        (kt, attempts): (f64, u64),
+    ) -> Walks<'a> {
+        Walks {
+            cx,
+            scratch,
+            moving: seed.stream(Purpose::Sampling),
+            choosing: seed.stream(Purpose::Accepting),
+            made: Increment::empty(cx.space.len()),
+            count,
+            kt,
+            // A set of many milestones may take as many times more.
+            attempts: attempts.saturating_mul(count as u64),
+        }
+    }
+
+    /// Whether the set has all its milestones.
+    pub fn is_full(&self) -> bool {
+        self.made.configs.len() >= self.count
+    }
+
+    /// Counts a step that is tried.
+    ///
+    /// # Errors
+    /// When none are left.
+    pub fn attempt(&mut self, attempts: u64) -> Result<(), GaveUp> {
+        self.attempts = self.attempts.checked_sub(1).ok_or(GaveUp { attempts })?;
+        Ok(())
+    }
+
+    /// Makes a configuration a milestone of the set, without an edge.
+    pub fn settle(&mut self, q: &[f64]) -> Place {
+        let node = NodeId(self.made.configs.len() as u32);
+        self.made.configs.push(q);
+        Place { node: Node::New(node), q: q.to_vec() }
+    }
+
+    /// A residue range: all, or a window whose length is drawn from an eighth to a half of the chain, in turn by chance.
+    pub fn window(&mut self, residues: usize) -> Range<usize> {
+        if self.choosing.unit() < 0.5 || residues < 8 {
+            return 0..residues;
+        }
+        let share = 0.125 + 0.375 * self.choosing.unit();
+        let len = ((residues as f64 * share) as usize).clamp(1, residues);
+        // Windows may stick out at either end, so that the ends are in as many of them as the middle.
+        let first = (self.choosing.unit() * (residues + len) as f64) as usize;
+        first.saturating_sub(len)..first.clamp(1, residues)
+    }
+
+    /// One step of a walk, of `length` Å at most: where it leads, which is a milestone now. `None` where no step is kept.
+    pub fn step(&mut self, from: &Place, aim: &Aim, length: f64) -> Option<Place> {
+        let cx = self.cx;
+        let elastic = cx.model.elastic(&from.q)?;
+        let mut length = length;
+        for _ in 0..=HALVINGS {
+            if let Some(next) = self.proposal(&*elastic, aim, length)
+                && let Some(place) = self.keep(from, &next)
+            {
+                return Some(place);
+            }
+            length /= 2.0;
+        }
+        None
+    }
+
+    fn proposal(&mut self, elastic: &dyn Elastic, aim: &Aim, length: f64) -> Option<Vec<f64>> {
+        match aim {
+            Aim::Free => {
+                let dofs = self.cx.space.len();
+                let deviates: Vec<f64> = (0..dofs).map(|_| self.moving.normal()).collect();
+                elastic.random(&deviates, length)
+            }
+            Aim::Toward(target, residues) => {
+                let draw = Draw { target, residues: residues.clone(), strength: STRENGTH };
+                elastic.toward(&draw, length)
+            }
+        }
+    }
+
+    /// Makes `next` a milestone with an edge from where the walk is, if it is valid, the motion there is, and chance keeps it.
+    fn keep(&mut self, from: &Place, next: &[f64]) -> Option<Place> {
+        let Walks { cx, scratch, choosing, made, kt, .. } = self;
+        // Drawn for every step, so that no verdict shifts the numbers of later ones.
+        let drawn = choosing.unit();
+        if next == from.q || !cx.model.is_valid(next, scratch) {
+            return None;
+        }
+        let [before, after] = [&from.q[..], next].map(|q| cx.model.energy(q, scratch));
+        let climb = after? - before?;
+        if climb > 0.0 && drawn >= math::exp(-climb / *kt) {
+            return None;
+        }
+        let high = NodeId(made.configs.len() as u32);
+        let edge = |low, scratch: &mut Scratch| {
+            let cost = cx.model.motion(&from.q, next, 1, scratch)?;
+            let cost = EdgeCost::of(cost, cx.space.distance(&from.q, next));
+            Some(Edge { low, high, planner: Planner::StraightLine.tag(), cost })
+        };
+        match from.node {
+            Node::Old(low) => made.root_edges.push(edge(low, scratch)?),
+            Node::New(low) => made.edges.push(edge(low, scratch)?),
+            Node::None => {}
+        }
+        made.configs.push(next);
+        Some(Place { node: Node::New(high), q: next.to_vec() })
+    }
+
+    /// How far apart two configurations are, RMSD of all Cα in Å; infinitely where they have none.
+    pub fn apart(&mut self, a: &[f64], b: &[f64]) -> f64 {
+        let [a, b] = [a, b].map(|q| self.cx.model.shape(q, self.scratch));
+        a.zip(b).map_or(f64::INFINITY, |(a, b)| rmsd(&a, &b))
+    }
+
+    /// Whether a step toward a configuration was so short that the walk has arrived.
+    pub fn has_arrived(&mut self, before: &Place, after: &Place, length: f64) -> bool {
+        self.apart(&before.q, &after.q) < ARRIVED * length
+    }
+
+    /// Joins a milestone of this set to a node of the roadmap, if the motion between them is valid.
+    pub fn join(&mut self, node: NodeId, there: &[f64], place: &Place) -> bool {
+        let Node::New(high) = place.node else { return false };
+        let Some(cost) = self.cx.model.motion(there, &place.q, 1, self.scratch) else {
+            return false;
+        };
+        let cost = EdgeCost::of(cost, self.cx.space.distance(there, &place.q));
+        let planner = Planner::StraightLine.tag();
+        self.made.root_edges.push(Edge { low: node, high, planner, cost });
+        true
+    }
+}
+
+/// The residues of the context's model; `None` where it is no elastic chain.
+pub(super) fn residues(cx: &Context) -> Option<usize> {
+    let query = cx.query.as_ref()?;
+    cx.model.elastic(&query.start)?;
+    cx.model.shape(&query.start, &mut Scratch::new()).map(|shape| shape.len())
+}
+
+/// Whether the methods that walk elastically are defined for the problem.
+pub(super) fn suits(cx: &Context) -> Result<(), String> {
+    if cx.query.is_none() {
+        return Err("elastic steps between the ends of a query found, but no [query]".to_owned());
+    }
+    match residues(cx) {
+        Some(_) => Ok(()),
+        None => Err("elastic steps found, a model that is a chain of residues expected".to_owned()),
+    }
+}
+
+/// What is wrong with settings that several methods have.
+pub(super) fn complaint(kt: f64, attempts: u64) -> Option<Complaint> {
+    // Written so that NaN fails it.
+    if !(kt > 0.0 && kt <= KT_MAX) {
+        return Some(Complaint::new("kt", kt, "an energy above 0, at most 1e9"));
+    }
+    (attempts == 0).then(|| Complaint::new("attempts", "0", "at least 1"))
+}
