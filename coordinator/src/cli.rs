@@ -5,6 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use roadmill::export::{FORMATS, RoadmapFormat};
 use roadmill::numbers::Ordinal;
+use roadmill::problem::HOLD;
 use roadmill::structure::{ResidueNumber, parse_range};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -453,12 +454,20 @@ pub struct ProteinProblemArguments {
     /// Another chain of the first file, which stands still; may be given several times
     #[arg(long = "obstacle", value_name = "CHAIN")]
     pub obstacles: Vec<String>,
+    /// Both ends of a transition are relaxed, each Cα held with so many kT/Å²; 0 leaves the ends as they are
+    #[arg(long, value_name = "KT", default_value_t = HOLD, value_parser = hold)]
+    pub hold: f64,
     /// The problem file to be written; structures go beside it into the folder NAME-structures
     #[arg(long, value_name = "NAME.toml")]
     pub out: PathBuf,
     /// Replace what is there
     #[arg(long)]
     pub force: bool,
+}
+
+fn hold(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|hold| (0.0..=1e6).contains(hold));
+    number.ok_or_else(|| "a number from 0 to 1000000 expected".to_owned())
 }
 
 /// What is made of gaps in a chain.

@@ -25,7 +25,7 @@ pub use configuration::configuration;
 pub use layout::Layout;
 pub use limits::{Limits, NODES_MAX};
 pub use strategy::StrategySpec;
-pub use transition::{Transition, about_native, transition};
+pub use transition::{HOLD, Relaxed, Transition, about_native, transition};
 pub use write::Written;
 
 use crate::context::{Context, Ends};

@@ -4,7 +4,7 @@ use crate::exit::{Code, Failure};
 use crate::output::line;
 use roadmill::model::protein::refit::Refit;
 use roadmill::model::protein::{FileSpec, Gaps, ProteinSpec};
-use roadmill::problem::{Transition, about_native, transition};
+use roadmill::problem::{Relaxed, Transition, about_native, transition};
 use roadmill::structure::ResidueNumber;
 use std::path::Path;
 
@@ -31,10 +31,17 @@ pub fn problem(arguments: &ProteinProblemArguments) -> Result<Code, Failure> {
     let problem = match &arguments.second {
         Some(second) => {
             let spec = spec.target(file(second, &second_chain).into());
-            let made = transition(&name, Path::new(""), &spec).map_err(Failure::usage)?;
-            let Transition { problem, refit } = made;
+            let made =
+                transition(&name, Path::new(""), &spec, arguments.hold).map_err(Failure::usage)?;
+            let Transition { problem, refit, relaxed } = made;
             write_problem(&problem, comment, &arguments.out, arguments.force)?;
             say(&refit);
+            for (end, relaxed) in ["start", "goal"].iter().zip(relaxed) {
+                let Relaxed { moved, energy: [before, after] } = relaxed;
+                line(format_args!(
+                    "{end:<17}relaxed by {moved:.3} Å, from {before:.1} to {after:.1} model kJ/mol"
+                ));
+            }
             return Ok(Code::Done);
         }
         None => about_native(&name, Path::new(""), &spec).map_err(Failure::usage)?,
