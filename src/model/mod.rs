@@ -37,7 +37,7 @@ pub use clearance::{Clearance, Clearances};
 pub use cost::{Cost, Directed};
 pub use description::{Description, Documents, ForeignProblem};
 pub use figure::{Figure, Placement};
-pub use molecule::Molecule;
+pub use molecule::{Energies, Molecule};
 pub use scratch::{Asked, ModelScratch, Scratch};
 
 pub(crate) use description::{Resolve, import};
