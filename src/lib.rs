@@ -50,6 +50,7 @@ pub mod methods;
 pub mod model;
 pub mod neighbor;
 pub mod numbers;
+pub mod pathways;
 pub mod problem;
 pub mod query;
 pub mod roadmap;

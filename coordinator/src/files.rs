@@ -85,6 +85,30 @@ pub(crate) fn write_whole(path: &Path, contents: impl AsRef<[u8]>) -> Result<(),
     Ok(())
 }
 
+/// Makes a folder, or takes one that is empty.
+///
+/// # Errors
+/// Exit code 2: the path cannot be used, or something is in the folder; 1: the system fails otherwise.
+pub(crate) fn make_empty(folder: &Path) -> Result<(), Failure> {
+    let cannot = |error: std::io::Error| {
+        let Failure { code, .. } = cannot_write(folder, &error);
+        Failure::new(code, format!("{}: cannot make the folder: {error}", folder.display()))
+    };
+    match fs::read_dir(folder) {
+        Ok(mut entries) => match entries.next() {
+            None => Ok(()),
+            Some(_) => Err(Failure::usage(format!(
+                "{}: holds something; a new or an empty folder expected",
+                folder.display()
+            ))),
+        },
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            fs::create_dir_all(folder).map_err(cannot)
+        }
+        Err(error) => Err(cannot(error)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

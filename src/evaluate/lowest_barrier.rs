@@ -1,5 +1,5 @@
 use super::attaching::{attaching, default_neighbors, default_planners};
-use super::{Evaluator, Verdict};
+use super::{Evaluator, Verdict, accept_energies};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -63,10 +63,6 @@ impl Evaluator for LowestBarrier {
     }
 
     fn accept(&mut self, cx: &Context) -> Result<(), String> {
-        let energy = |q: &[f64]| cx.model.energy(q, &mut Scratch::new());
-        match cx.query.as_ref().and_then(|query| energy(&query.start)) {
-            Some(_) => Ok(()),
-            None => Err("a lowest barrier found, a model with energies expected".to_owned()),
-        }
+        accept_energies(cx, "a lowest barrier")
     }
 }

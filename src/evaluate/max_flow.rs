@@ -1,13 +1,11 @@
 use super::attaching::{attaching, default_neighbors, default_planners};
-use super::network::Network;
-use super::verdict::CutEdge;
+use super::flow::{Attached, Capacities};
 use super::{Evaluator, Verdict};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
-use crate::numbers::NodeId;
-use crate::query::{Attachment, attach, attach_for_good};
-use crate::roadmap::{Edge, Roadmap};
+use crate::query::Attachment;
+use crate::roadmap::Roadmap;
 
 attaching! {
     /// Enough can flow through the roadmap from one configuration, or any of several, to another: TR05-007 §3.2,
@@ -47,8 +45,6 @@ impl MaxFlow {
     }
 }
 
-/// The largest capacity as a whole number.
-const SCALE: f64 = (1u64 << 32) as f64;
 const ENDS_MAX: usize = 10_000;
 
 impl MaxFlow {
@@ -79,43 +75,10 @@ impl Evaluator for MaxFlow {
                     _ => &listed[..],
                 });
 
-        let nodes = roadmap.configs().len();
-        let mut edges: Vec<Edge> = roadmap.edges().iter().collect();
-        let attach = if edges.iter().any(|edge| edge.cost.directed().is_some()) {
-            attach_for_good
-        } else {
-            attach
-        };
-        for (index, q) in from.iter().chain(to).enumerate() {
-            let id = NodeId((nodes + index) as u32);
-            edges.extend(attach(cx, roadmap, q, id, &self.how(), scratch));
-        }
-        let least = self.least_weight(cx);
-        let whole = |weight: f64| (least / weight.max(least) * SCALE).round() as u64;
-        let mut network = Network::new(nodes + from.len() + to.len(), 2 * edges.len());
-        for edge in &edges {
-            network.add(edge.low, edge.high, whole(edge.cost.forward()));
-            network.add(edge.high, edge.low, whole(edge.cost.backward()));
-        }
-        let ids = |first: usize, count: usize| {
-            (first..first + count).map(|id| NodeId(id as u32)).collect::<Vec<_>>()
-        };
-        let (sources, sinks) = (ids(nodes, from.len()), ids(nodes + from.len(), to.len()));
-        let (flow, near) = network.flow(&sources, &sinks);
-
-        let real = |capacity: u64| capacity as f64 / SCALE / least;
-        let severed = |from, to, weight| CutEdge { from, to, capacity: real(whole(weight)) };
-        let mut cut = Vec::new();
-        for edge in &edges {
-            let (there, back) = (edge.cost.forward(), edge.cost.backward());
-            cut.extend(match [edge.low, edge.high].map(|node| near[node.index()]) {
-                [true, false] => Some(severed(edge.low, edge.high, there)),
-                [false, true] => Some(severed(edge.high, edge.low, back)),
-                _ => None,
-            });
-        }
+        let attached = Attached::of(cx, roadmap, [from, to], &self.how(), scratch);
+        let flow = attached.flow(Capacities { least: self.least_weight(cx) }, false);
         let asked = scratch.take_asked();
-        Verdict { cut: Some(cut), ..Verdict::at_least(self.flow, real(flow), asked) }
+        Verdict { cut: Some(flow.cut), ..Verdict::at_least(self.flow, flow.value, asked) }
     }
 
     fn needs_query(&self) -> bool {

@@ -19,9 +19,13 @@
 mod all;
 mod any;
 mod attaching;
+mod barrier_trend;
 mod connectivity;
 mod coverage;
+mod disjoint_paths;
 mod expansion;
+mod flow;
+mod flow_ratio;
 mod information_gain;
 mod lowest_barrier;
 mod max_flow;
@@ -44,14 +48,20 @@ methods! {
         MaxFlow(max_flow::MaxFlow),
         InformationGain(information_gain::InformationGain),
         LowestBarrier(lowest_barrier::LowestBarrier),
+        FlowRatio(flow_ratio::FlowRatio),
+        BarrierTrend(barrier_trend::BarrierTrend),
+        DisjointPaths(disjoint_paths::DisjointPaths),
     }
 }
 
 pub use all::All;
 pub use any::Any;
+pub use barrier_trend::BarrierTrend;
 pub use connectivity::Connectivity;
 pub use coverage::Coverage;
+pub use disjoint_paths::DisjointPaths;
 pub use expansion::Expansion;
+pub use flow_ratio::FlowRatio;
 pub use information_gain::InformationGain;
 pub use lowest_barrier::LowestBarrier;
 pub use max_flow::MaxFlow;
@@ -132,6 +142,15 @@ fn complaint_of_parts(name: &'static str, parts: &[EvaluatorKind]) -> Option<Com
 /// Brings configurations among the settings of `parts` into stored form, and checks what depends on the problem.
 fn accept_parts(parts: &mut [EvaluatorKind], cx: &Context) -> Result<(), String> {
     parts.iter_mut().try_for_each(|part| part.method_mut().accept(cx))
+}
+
+/// Refuses a model without energies, for which the criterion, for people to read, is not defined.
+fn accept_energies(cx: &Context, criterion: &str) -> Result<(), String> {
+    let energy = |q: &[f64]| cx.model.energy(q, &mut Scratch::new());
+    match cx.query.as_ref().and_then(|query| energy(&query.start)) {
+        Some(_) => Ok(()),
+        None => Err(format!("{criterion} found, a model with energies expected")),
+    }
 }
 
 /// What is wrong with a percentage at which a change counts as none.

@@ -202,3 +202,107 @@ fn problems_of_models_with_energies_may_ask_for_a_lowest_barrier() {
     let problem = Problem::parse(Path::new("p.toml"), text);
     assert!(matches!(problem.map(|problem| problem.evaluators.len()), Ok(1)));
 }
+
+/// A round hill in the middle of a plane, and two points on either side of it.
+const HILL: &str = "[landscape]\nmin = [-2, -2]\nmax = [2, 2]\ntolerance = 0.01\n\
+    energy = { terms = [{ height = 50, centre = [0, 0], xx = -2, yy = -2 }] }\n\
+    [query]\nstart = [-1.5, 0.1]\ngoal = [1.6, 0]\n[img]\nsets_per_round = 1\n\
+    [[strategies]]\nlabel = \"u\"\nnodes = 30\nsampler = { uniform = {} }\n";
+
+fn on_the_hill(evaluators: &str, sets: u32) -> Vec<Verdict> {
+    let text = format!("evaluators = [{evaluators}]\n{HILL}[limits]\nsets = {sets}\n");
+    let problem = Problem::parse(Path::new("hill.toml"), &text).unwrap();
+    let built = build(&Arc::new(Setup::new(problem)));
+    built.judgement.expect("its rounds are judged").verdicts
+}
+
+#[test]
+fn the_flow_is_compared_with_the_widest_path_in_both_directions() {
+    let verdicts = on_the_hill(
+        "{ flow-ratio = { ratio = 1e9 } }, { max-flow = { flow = 1e9, least_weight = 1 } }",
+        4,
+    );
+    let [ratio, flow] = &verdicts[..] else { panic!("two verdicts") };
+    let [there, widest, back, widest_back] = ratio.measures[..] else { panic!("four measures") };
+    assert_eq!(there, flow.value);
+    assert!(widest <= there && widest_back <= back && widest > 0.0 && widest_back > 0.0);
+    assert_eq!(ratio.value, (there / widest).min(back / widest_back));
+    assert!(ratio.value > 1.5 && !ratio.satisfied, "{}", ratio.value);
+    // The cut is what bounds the flow of the direction with the smaller ratio.
+    let severed: f64 = ratio.cut.iter().flatten().map(|edge| edge.capacity).sum();
+    let worse = if ratio.value == there / widest { there } else { back };
+    assert!((severed - worse).abs() < 1e-6 * worse, "{severed} {worse}");
+    assert!(on_the_hill("{ flow-ratio = { ratio = 1.5 } }", 4)[0].satisfied);
+    // A weight that no edge exceeds makes of the ratio the number of disjoint ways.
+    let level = &on_the_hill("{ flow-ratio = { least_weight = 1e6 } }", 4)[0];
+    assert!(
+        (level.value - level.value.round()).abs() < 1e-9 && level.value >= 5.0,
+        "{}",
+        level.value
+    );
+    // Where the ends are apart there is no flow, and no ratio.
+    let apart = verdict("{ flow-ratio = {} }");
+    assert_eq!((apart.value, apart.satisfied, apart.threshold), (0.0, false, 5.0));
+    let within = verdict("{ flow-ratio = {} }, { query = {} }");
+    assert_eq!(within.measures, [0.0; 4]);
+}
+
+#[test]
+fn the_barrier_is_compared_with_what_it_was_at_half_the_nodes() {
+    let trend = |sets| {
+        on_the_hill(
+            "{ barrier-trend = { energy = 0.5 } }, { lowest-barrier = { energy = -1 } }",
+            sets,
+        )
+    };
+    let mut last = f64::INFINITY;
+    for sets in [2, 5, 8] {
+        let now = trend(sets);
+        let then = trend(sets / 2);
+        let [barrier, before, nodes] = now[0].measures[..] else { panic!("three measures") };
+        assert_eq!((barrier, before), (now[1].value, then[1].value), "{sets} sets");
+        assert_eq!(nodes, f64::from(sets / 2 * 30));
+        assert_eq!(now[0].value, before - barrier);
+        assert_eq!(now[0].satisfied, before - barrier <= 0.5);
+        assert!(before >= barrier && barrier <= last);
+        last = barrier;
+    }
+    // With one round there is no half, but the direct motion joins the ends, over the hill.
+    let first = &trend(1)[0];
+    assert!(first.measures[1] > 45.0 && first.measures[2] == 0.0, "{:?}", first.measures);
+    let refused = |evaluator: &str| {
+        let text = format!("evaluators = [{evaluator}]\n{ROOMS}");
+        Problem::parse(Path::new("rooms.toml"), &text)
+            .expect_err("a room has no energies")
+            .to_string()
+    };
+    for evaluator in ["{ barrier-trend = { energy = 1 } }", "{ disjoint-paths = { above = 1 } }"] {
+        assert!(refused(evaluator).contains("a model with energies expected"), "{evaluator}");
+    }
+    assert!(refused("{ disjoint-paths = {} }").contains("one of the two"));
+    assert!(refused("{ disjoint-paths = { above = 1, energy = 2 } }").contains("one of the two"));
+    assert!(refused("{ flow-ratio = { ratio = 0 } }").contains("a positive number"));
+}
+
+#[test]
+fn disjoint_paths_are_counted_under_a_barrier() {
+    let count = |settings: &str| {
+        let verdict = on_the_hill(&format!("{{ disjoint-paths = {{ {settings} }} }}"), 4).remove(0);
+        (verdict.value, verdict.satisfied, verdict.measures[0], verdict.measures[1])
+    };
+    let (lowest_only, satisfied, highest, lowest) = count("count = 1, above = 0");
+    assert!(lowest_only >= 1.0 && satisfied && highest == lowest);
+    let below = count(&format!("energy = {}", lowest - 1e-6));
+    assert_eq!((below.0, below.1), (0.0, false));
+    let (mut last, mut grew) = (lowest_only, 0);
+    for above in [0.1, 1.0, 10.0, 60.0] {
+        let (value, _, highest, _) = count(&format!("above = {above}"));
+        assert_eq!(highest, lowest + above);
+        assert!(value >= last);
+        grew += u32::from(value > last);
+        last = value;
+    }
+    // Ten edges attach an end at the end of every round; all of them can be used where nothing is forbidden.
+    assert!(grew > 1 && last >= 10.0, "{last}");
+    assert_eq!(count("energy = 1e6").0, last);
+}

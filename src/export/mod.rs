@@ -22,6 +22,7 @@
 mod animation;
 mod contours;
 mod csv;
+mod dcd;
 mod drawing;
 mod format;
 mod graphml;
@@ -42,18 +43,28 @@ mod vtk;
 
 pub use animation::animation;
 pub use csv::{edges_csv, nodes_csv};
+pub use dcd::dcd;
 pub use format::{CannotExport, ExportFile, Exported, RoadmapFormat};
 pub use graphml::graphml;
 pub use npz::npz;
 pub use parasol::{parasol_map, parasol_path};
 pub use path_csv::path_csv;
+pub use pdb::pdb;
 pub use svg::svg;
 
 use crate::local::Planner;
 
 /// The formats of roadmaps.
-pub const FORMATS: &[&dyn RoadmapFormat] =
-    &[&graphml::Graphml, &csv::Csv, &npz::Npz, &parasol::Map, &pdb::Pdb, &svg::Svg, &vtk::Vtk];
+pub const FORMATS: &[&dyn RoadmapFormat] = &[
+    &graphml::Graphml,
+    &csv::Csv,
+    &npz::Npz,
+    &parasol::Map,
+    &pdb::Pdb,
+    &dcd::Dcd,
+    &svg::Svg,
+    &vtk::Vtk,
+];
 
 /// The name of the local planner that a tag stands for.
 fn planner_name(tag: u8) -> String {

@@ -1,6 +1,7 @@
 //! A path, or a roadmap's nodes, as the models of a PDB file: for PyMOL, ChimeraX, VMD and what else shows molecules.
 
 use super::format::{CannotExport, ExportFile, Exported, RoadmapFormat};
+use crate::model::Molecule;
 use crate::structure::Residue;
 use std::fmt::Write;
 
@@ -33,21 +34,33 @@ impl RoadmapFormat for Pdb {
             Some(path) => path.configs.iter().collect(),
             None => roadmap.configs().iter().collect(),
         };
-        if configs.len() > MODELS_MAX {
-            let found = configs.len();
-            return Err(CannotExport(format!(
-                "{found} models found; at most {MODELS_MAX} fit into a PDB file"
-            )));
-        }
-        let mut out = String::new();
-        for (index, q) in configs.into_iter().enumerate() {
-            writeln!(out, "MODEL     {:>4}", index + 1).expect("writing to memory cannot fail");
-            model(&molecule.chains_at(q), &mut out)?;
-            out += "ENDMDL\n";
-        }
-        out += "END\n";
-        Ok(vec![ExportFile::named(out)])
+        Ok(vec![ExportFile::named(pdb(molecule, configs.into_iter())?)])
     }
+}
+
+/// Conformations of a molecule as the models of a PDB file, numbered from 1 on, with all atoms of the source structure, in
+/// Å.
+///
+/// # Errors
+/// Says what does not fit into the columns of the format.
+pub fn pdb<'a>(
+    molecule: &dyn Molecule,
+    configs: impl ExactSizeIterator<Item = &'a [f64]>,
+) -> Result<String, CannotExport> {
+    if configs.len() > MODELS_MAX {
+        let found = configs.len();
+        return Err(CannotExport(format!(
+            "{found} models found; at most {MODELS_MAX} fit into a PDB file"
+        )));
+    }
+    let mut out = String::new();
+    for (index, q) in configs.enumerate() {
+        writeln!(out, "MODEL     {:>4}", index + 1).expect("writing to memory cannot fail");
+        model(&molecule.chains_at(q), &mut out)?;
+        out += "ENDMDL\n";
+    }
+    out += "END\n";
+    Ok(out)
 }
 
 /// The atoms of one model.

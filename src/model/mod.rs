@@ -39,7 +39,7 @@ pub use cost::{Cost, Directed};
 pub use description::{Description, Documents, ForeignProblem};
 pub use elasticity::{Draw, Elastic};
 pub use figure::{Figure, Placement};
-pub use molecule::Molecule;
+pub use molecule::{Energies, Molecule};
 pub use scratch::{Asked, ModelScratch, Scratch};
 
 pub(crate) use description::{Resolve, import};

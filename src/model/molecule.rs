@@ -4,4 +4,16 @@ use crate::structure::Residue;
 pub trait Molecule {
     /// The chains, first that which moves, with all atoms where they are at the configuration `q`, in Å.
     fn chains_at(&self, q: &[f64]) -> Vec<Vec<Residue>>;
+
+    /// What energies a configuration has, part by part.
+    fn energies(&self) -> Energies<'_>;
+}
+
+/// The parts of a molecule's energy, and the whole.
+pub struct Energies<'a> {
+    /// The name of each, with its unit, as `energy [kJ/mol]`; the last is the whole.
+    pub columns: Vec<&'static str>,
+    /// The numbers at a configuration, in that order.
+    #[allow(clippy::type_complexity, reason = "a function of a configuration")]
+    pub at: Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>,
 }

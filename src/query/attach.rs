@@ -6,7 +6,7 @@ use crate::local;
 use crate::model::Scratch;
 use crate::neighbor::{Best, Neighbor};
 use crate::numbers::NodeId;
-use crate::roadmap::{Edge, Roadmap};
+use crate::roadmap::{Edge, Extent, Roadmap};
 use std::collections::BTreeSet;
 
 /// The edges by which `q`, as node `id`, attaches to its nearest nodes, nearest first. Each is
@@ -33,9 +33,21 @@ pub(crate) fn attach_for_good(
     attachment: &Attachment,
     scratch: &mut Scratch,
 ) -> Vec<Edge> {
+    let near = once_nearest(cx, roadmap, q, attachment, roadmap.rounds());
+    to_nodes(cx, roadmap, q, id, near.into_iter(), attachment, scratch)
+}
+
+/// The nodes that were among the nearest to `q` at the end of one of the first `rounds` of the roadmap.
+pub(super) fn once_nearest(
+    cx: &Context,
+    roadmap: &Roadmap,
+    q: &[f64],
+    attachment: &Attachment,
+    rounds: &[Extent],
+) -> BTreeSet<NodeId> {
     let mut best = Best::new(attachment.neighbors as usize);
     let (mut near, mut next) = (BTreeSet::new(), 0);
-    for extent in roadmap.rounds() {
+    for extent in rounds {
         for node in next..extent.nodes {
             let config = roadmap.configs().get(node);
             if let Some(distance) = cx.space.distance_unless_above(q, config, best.bound()) {
@@ -43,9 +55,9 @@ pub(crate) fn attach_for_good(
             }
         }
         next = extent.nodes;
-        near.extend(best.clone().into_items().into_iter().map(|near| near.id));
+        near.extend(best.clone().into_items().into_iter().map(|near| NodeId(near.id)));
     }
-    to_nodes(cx, roadmap, q, id, near.into_iter().map(NodeId), attachment, scratch)
+    near
 }
 
 fn to_nodes(

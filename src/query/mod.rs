@@ -18,19 +18,23 @@ mod attach;
 mod direct;
 mod path;
 mod shorten;
+mod ways;
 
+use attach::once_nearest;
 pub(crate) use attach::{attach, attach_for_good};
 pub use path::Path;
 pub use shorten::shorten;
+pub(crate) use ways::Ways;
 
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::numbers::NodeId;
-use crate::roadmap::{Edge, Graph, Roadmap, Route};
+use crate::roadmap::{Edge, Extent, Graph, Roadmap, Route};
 use bincode::{Decode, Encode};
 use std::collections::BTreeSet;
+use ways::end_ids;
 
 /// A path's edges are checked this many times finer than the problem's resolution before it is
 /// given out.
@@ -162,10 +166,38 @@ pub fn lowest_barrier(
     (if answer.path.is_some() { barrier } else { f64::INFINITY }, answer)
 }
 
-/// The ids that start and goal have beside a roadmap's nodes while a path is looked for: those that follow.
-fn end_ids(roadmap: &Roadmap) -> [NodeId; 2] {
-    let next = NodeId(roadmap.configs().len() as u32);
-    [next, next.next()]
+/// The value of [`lowest_barrier`] for the roadmap as it was when it went as far as `before`, the end of one of its rounds or
+/// nothing, and for the roadmap as it is. Edges that attach the ends are found once for both.
+pub(crate) fn lowest_barriers(
+    cx: &Context,
+    roadmap: &Roadmap,
+    before: Extent,
+    (start, goal): (&[f64], &[f64]),
+    attachment: &Attachment,
+    scratch: &mut Scratch,
+) -> [f64; 2] {
+    let [from, to] = end_ids(roadmap);
+    let ends = [start, goal];
+    let direct = direct::edge(cx, ends, from, attachment, scratch);
+    let now = [(start, from), (goal, to)]
+        .map(|(q, id)| attach_for_good(cx, roadmap, q, id, attachment, scratch));
+    let rounds = roadmap.rounds().iter().take_while(|extent| extent.nodes <= before.nodes).count();
+    let then = [(start, &now[0]), (goal, &now[1])].map(|(q, edges)| {
+        let near = once_nearest(cx, roadmap, q, attachment, &roadmap.rounds()[..rounds]);
+        edges.iter().filter(|edge| near.contains(&edge.low)).copied().collect::<Vec<_>>()
+    });
+    let energy = cx.model.energy(start, scratch).unwrap_or(f64::NEG_INFINITY);
+    [(before.edges, then), (roadmap.edges().len(), now)].map(|(count, attached)| {
+        let edges = roadmap.edges().iter().take(count);
+        let mut ways = Ways::of(cx, roadmap, ends, edges, attached, direct);
+        while let Some((barrier, route)) = ways.graph.lowest_barrier(from, to, energy, &ways.failed)
+        {
+            if ways.passes(&route, scratch) {
+                return barrier;
+            }
+        }
+        f64::INFINITY
+    })
 }
 
 /// A question to a roadmap: its ends, and the edges that attach them.
@@ -186,59 +218,29 @@ impl Search<'_> {
         mut find: impl FnMut(&Graph, &BTreeSet<u32>) -> Option<Route>,
         scratch: &mut Scratch,
     ) -> Answer {
-        let Search { cx, roadmap, ends: [start, goal], attached, direct } = self;
-        let [from_start, from_goal] = attached;
+        let Search { cx, roadmap, ends, attached, direct } = self;
         let reached = |edges: &[Edge]| -> BTreeSet<NodeId> {
             edges.iter().map(|edge| roadmap.components().of_node(edge.low).name).collect()
         };
+        let [from_start, from_goal] = &attached;
         let mut answer = Answer {
             attached: [from_start.len() as u32, from_goal.len() as u32],
-            connected: direct.is_some() || !reached(&from_start).is_disjoint(&reached(&from_goal)),
+            connected: direct.is_some() || !reached(from_start).is_disjoint(&reached(from_goal)),
             path: None,
             dropped_edges: 0,
         };
         if !answer.connected {
             return answer;
         }
-
-        let mut edges: Vec<Edge> = roadmap.edges().iter().collect();
-        edges.extend(from_start);
-        edges.extend(from_goal);
-        let mut passed: BTreeSet<u32> = direct.iter().map(|_| edges.len() as u32).collect();
-        edges.extend(direct);
-        let [from, to] = end_ids(roadmap);
-        let config = |node: NodeId| match node {
-            node if node == from => start,
-            node if node == to => goal,
-            node => roadmap.configs().get(node.index()),
-        };
-        let graph = Graph::new(to.index() + 1, &edges);
-        let mut failed = BTreeSet::new();
-        while let Some(route) = find(&graph, &failed) {
-            let blocked = route.edges.iter().find(|index| {
-                let edge = &edges[**index as usize];
-                !passed.contains(*index) && {
-                    let ends = (config(edge.low), config(edge.high));
-                    let planner = Planner::from_tag(edge.planner).into_iter().collect::<Vec<_>>();
-                    let free =
-                        local::connect(cx, &planner, ends, PATH_REFINEMENT, scratch).is_some();
-                    if free {
-                        passed.insert(**index);
-                    }
-                    !free
-                }
-            });
-            match blocked {
-                Some(index) => {
-                    failed.insert(*index);
-                }
-                None => {
-                    answer.path = Some(Path::along(cx, &route, &edges, config));
-                    break;
-                }
+        let edges = roadmap.edges().iter();
+        let mut ways = Ways::of(cx, roadmap, ends, edges, attached, direct);
+        while let Some(route) = find(&ways.graph, &ways.failed) {
+            if ways.passes(&route, scratch) {
+                answer.path = Some(ways.path(&route));
+                break;
             }
         }
-        answer.dropped_edges = failed.len() as u64;
+        answer.dropped_edges = ways.failed.len() as u64;
         answer
     }
 }

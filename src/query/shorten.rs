@@ -1,10 +1,10 @@
 use super::PATH_REFINEMENT;
 use super::path::{OnPath, Path, on_path};
 use crate::context::Context;
-use crate::model::{Cost, Scratch};
+use crate::model::{Cost, Directed, Scratch};
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Number of window sizes. Tries take turns with windows of the whole path, a half, a quarter, and so on: where a path
 /// winds, only places close to each other can be joined by a straight motion.
@@ -52,13 +52,14 @@ fn without_needless(cx: &Context, path: &Path, scratch: &mut Scratch) -> Path {
     path.configs.iter().for_each(|q| all.push_if_new(q));
     let mut kept: Vec<usize> = (0..all.len()).collect();
     let mut tried = BTreeSet::new();
+    let mut known = BTreeMap::new();
     let mut legs = kept.len().saturating_sub(1);
     while legs > 1 {
         let mut first = 0;
         while first + legs < kept.len() && tried.len() < PAIRS_MAX {
             let between = &kept[first..=first + legs];
             let is_new = tried.insert((between[0], between[legs]));
-            if is_new && is_needless(cx, &all, between, scratch) {
+            if is_new && is_needless(cx, &all, between, &mut known, scratch) {
                 kept.drain(first + 1..first + legs);
             }
             first += 1;
@@ -77,17 +78,41 @@ fn without_needless(cx: &Context, path: &Path, scratch: &mut Scratch) -> Path {
 
 /// Whether the straight motion from the first to the last of these configurations of a path does as well as the legs
 /// between them: it is free, and in a model with energies it costs no more and reaches no higher. That it is no longer
-/// follows from the metric.
-fn is_needless(cx: &Context, all: &Configs, between: &[usize], scratch: &mut Scratch) -> bool {
-    let ends = [all.get(between[0]), all.get(between[between.len() - 1])];
+/// follows from the metric. `known` keeps what legs cost, by the indices of their ends.
+fn is_needless(
+    cx: &Context,
+    all: &Configs,
+    between: &[usize],
+    known: &mut BTreeMap<(usize, usize), Directed>,
+    scratch: &mut Scratch,
+) -> bool {
+    let (first, last) = (between[0], between[between.len() - 1]);
+    let ends = [all.get(first), all.get(last)];
     if cx.model.energy(ends[0], scratch).is_none() {
         return cx.model.motion(ends[0], ends[1], PATH_REFINEMENT, scratch).is_some();
     }
-    let before = climb(cx, between.iter().map(|index| all.get(*index)), scratch);
-    let after = climb(cx, ends.into_iter(), scratch);
-    before
-        .zip(after)
-        .is_some_and(|((cost, highest), (after, reached))| after <= cost && reached <= highest)
+    let at_rest = Directed { forward: 0.0, backward: 0.0, peak: f64::NEG_INFINITY };
+    let mut leg = |from: usize, to: usize| {
+        if let Some(leg) = known.get(&(from, to)) {
+            return Some(*leg);
+        }
+        let leg = match (all.get(from), all.get(to)) {
+            (a, b) if a == b => at_rest,
+            (a, b) => match cx.model.motion(a, b, PATH_REFINEMENT, scratch)? {
+                Cost::Directed(leg) => leg,
+                Cost::Metric => return None,
+            },
+        };
+        known.insert((from, to), leg);
+        Some(leg)
+    };
+    let Some(after) = leg(first, last) else { return false };
+    let mut before = at_rest;
+    for (from, to) in between.iter().zip(&between[1..]) {
+        let Some(leg) = leg(*from, *to) else { return false };
+        before = before.then(leg);
+    }
+    after.forward <= before.forward && after.peak <= before.peak
 }
 
 /// The path along these configurations; `None` if in a model with energies a motion between them is not valid.

@@ -14,6 +14,7 @@ mod search;
 mod searches;
 mod shapes;
 mod tally;
+mod trees;
 
 pub use crate::digest::Digest;
 pub use crate::space::Configs;
@@ -27,6 +28,8 @@ pub use round::{Joined, Round, RoundSet};
 pub use search::{Graph, Route};
 pub use shapes::Shapes;
 pub use tally::{Outline, Tally};
+pub use trees::Rank;
+pub(crate) use trees::{Tree, Value};
 
 use crate::neighbor::Neighbor;
 use crate::numbers::NodeId;

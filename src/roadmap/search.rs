@@ -82,8 +82,18 @@ impl Graph {
     /// A shortest route from `from` to `to` that avoids the edges in `without`; of several, the
     /// one that Dijkstra's algorithm finds when ties go to the lower node id.
     pub fn shortest(&self, from: NodeId, to: NodeId, without: &BTreeSet<u32>) -> Option<Route> {
+        self.shortest_where(from, to, |_, edge| !without.contains(&edge))
+    }
+
+    /// [`Graph::shortest`] among the routes each of whose arcs is allowed, by the node that it leads to and its edge.
+    pub(crate) fn shortest_where(
+        &self,
+        from: NodeId,
+        to: NodeId,
+        is_allowed: impl Fn(NodeId, u32) -> bool,
+    ) -> Option<Route> {
         let through = |length: f64, from: NodeId, to: NodeId, edge: u32| {
-            (!without.contains(&edge)).then(|| length + self.weight(from, to, edge))
+            is_allowed(to, edge).then(|| length + self.weight(from, to, edge))
         };
         self.search(from, to, 0.0, through).map(|(_, route)| route)
     }
@@ -98,16 +108,52 @@ impl Graph {
         start: f64,
         without: &BTreeSet<u32>,
     ) -> Option<(f64, Route)> {
-        let peak = |edge: u32| {
-            (!without.contains(&edge)).then(|| self.peaks.get(edge as usize).copied()).flatten()
+        self.lowest_barrier_where(from, to, start, |_, edge| !without.contains(&edge))
+    }
+
+    /// [`Graph::lowest_barrier`] among the routes each of whose arcs is allowed, by the node that it leads to and its edge.
+    pub(crate) fn lowest_barrier_where(
+        &self,
+        from: NodeId,
+        to: NodeId,
+        start: f64,
+        is_allowed: impl Fn(NodeId, u32) -> bool,
+    ) -> Option<(f64, Route)> {
+        let peak = |to: NodeId, edge: u32| {
+            is_allowed(to, edge).then(|| self.peaks.get(edge as usize).copied()).flatten()
         };
         let highest =
-            |barrier: f64, _: NodeId, _: NodeId, edge: u32| Some(barrier.max(peak(edge)?));
+            |barrier: f64, _: NodeId, to: NodeId, edge: u32| Some(barrier.max(peak(to, edge)?));
         let (barrier, _) = self.search(from, to, start, highest)?;
         let through = |length: f64, from: NodeId, to: NodeId, edge: u32| {
-            (peak(edge)? <= barrier).then(|| length + self.weight(from, to, edge))
+            (peak(to, edge)? <= barrier).then(|| length + self.weight(from, to, edge))
         };
         self.search(from, to, 0.0, through).map(|(_, route)| (barrier, route))
+    }
+
+    /// The least over all ways from `from` to `to` of the largest weight on the way, in its direction, weights below `least`
+    /// counting as that; `least` where the two are the same node.
+    pub(crate) fn least_largest_weight(&self, from: NodeId, to: NodeId, least: f64) -> Option<f64> {
+        let largest = |largest: f64, from: NodeId, to: NodeId, edge: u32| {
+            Some(largest.max(self.weight(from, to, edge)))
+        };
+        self.search(from, to, least, largest).map(|(largest, _)| largest)
+    }
+
+    /// The edges that lead away from a node, each with the node at its other end, in the order of the edges.
+    pub(super) fn arcs_from(&self, node: NodeId) -> impl Iterator<Item = (NodeId, u32)> {
+        let range = self.start[node.index()] as usize..self.start[node.index() + 1] as usize;
+        self.arcs[range].iter().map(|arc| (arc.to, arc.edge))
+    }
+
+    /// The number of nodes.
+    pub(super) fn nodes(&self) -> usize {
+        self.start.len() - 1
+    }
+
+    /// The highest energy on an edge; below every energy where edges have none.
+    pub(crate) fn peak(&self, edge: u32) -> f64 {
+        self.peaks.get(edge as usize).copied().unwrap_or(f64::NEG_INFINITY)
     }
 
     /// Dijkstra's algorithm: the route from `from` to `to` whose value is least, and that value. It is `start`
@@ -120,7 +166,7 @@ impl Graph {
         start: f64,
         through: impl Fn(f64, NodeId, NodeId, u32) -> Option<f64>,
     ) -> Option<(f64, Route)> {
-        let mut best: Vec<Option<Reached>> = vec![None; self.start.len() - 1];
+        let mut best: Vec<Option<Reached>> = vec![None; self.nodes()];
         let mut is_final = vec![false; best.len()];
         let mut open = BinaryHeap::new();
         open.push(Reverse((in_order(start), from)));
@@ -135,13 +181,12 @@ impl Graph {
             if node == to {
                 return Some((value, self.trace(from, to, &best)));
             }
-            let range = self.start[node.index()] as usize..self.start[node.index() + 1] as usize;
-            for Arc { to: next, edge } in &self.arcs[range] {
-                let Some(through) = through(value, node, *next, *edge) else { continue };
+            for (next, edge) in self.arcs_from(node) {
+                let Some(through) = through(value, node, next, edge) else { continue };
                 let best = &mut best[next.index()];
                 if best.is_none_or(|known| through < known.value) {
-                    *best = Some(Reached { value: through, before: node, edge: *edge });
-                    open.push(Reverse((in_order(through), *next)));
+                    *best = Some(Reached { value: through, before: node, edge });
+                    open.push(Reverse((in_order(through), next)));
                 }
             }
         }
@@ -149,7 +194,7 @@ impl Graph {
     }
 
     /// What an edge costs from one of its ends to the other.
-    fn weight(&self, from: NodeId, to: NodeId, edge: u32) -> f64 {
+    pub(crate) fn weight(&self, from: NodeId, to: NodeId, edge: u32) -> f64 {
         let weights = if from < to || self.back.is_empty() { &self.weights } else { &self.back };
         weights[edge as usize]
     }
@@ -173,7 +218,7 @@ impl Graph {
 }
 
 /// The bits of a number, changed so that they are in the order of the numbers.
-fn in_order(value: f64) -> u64 {
+pub(super) fn in_order(value: f64) -> u64 {
     let bits = value.to_bits();
     if value.is_sign_negative() { !bits } else { bits | 1 << 63 }
 }

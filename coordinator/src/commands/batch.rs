@@ -2,12 +2,11 @@
 
 use super::asker::{Asker, TimedAnswer};
 use crate::exit::{Code, Failure};
-use crate::files::{cannot_write, write_whole};
+use crate::files::{make_empty, write_whole};
 use crate::output::note;
 use roadmill::problem::configuration;
 use std::fmt::Write;
 use std::fs;
-use std::io::ErrorKind;
 use std::path::Path;
 
 /// Answers every query of a file into a new folder: a path per solved query, named by its index from
@@ -91,25 +90,4 @@ fn read(asker: &Asker, file: &Path) -> Result<Vec<[Vec<f64>; 2]>, Failure> {
         )));
     }
     Ok(queries)
-}
-
-/// Makes a folder, or takes one that is empty.
-fn make_empty(folder: &Path) -> Result<(), Failure> {
-    let cannot = |error: std::io::Error| {
-        let Failure { code, .. } = cannot_write(folder, &error);
-        Failure::new(code, format!("{}: cannot make the folder: {error}", folder.display()))
-    };
-    match fs::read_dir(folder) {
-        Ok(mut entries) => match entries.next() {
-            None => Ok(()),
-            Some(_) => Err(Failure::usage(format!(
-                "{}: holds something; a new or an empty folder expected",
-                folder.display()
-            ))),
-        },
-        Err(error) if error.kind() == ErrorKind::NotFound => {
-            fs::create_dir_all(folder).map_err(cannot)
-        }
-        Err(error) => Err(cannot(error)),
-    }
 }

@@ -4,7 +4,7 @@ use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
 use crate::files::write_whole;
 use crate::output::{self, note};
-use crate::work::Run;
+use crate::work::{Recorded, Run};
 use roadmill::export::animation;
 use roadmill::problem::configuration;
 use roadmill::query::{Answer, PATH_REFINEMENT};
@@ -17,20 +17,10 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
         Some(stopped) => note(format_args!("the build ended: {}", stopped.reason)),
     }
     let asker = Asker::new(&run, arguments);
-    let cx = asker.cx();
     if let (Some(file), Some(folder)) = (&arguments.queries, &arguments.out) {
         return batch::batch(&asker, file, folder);
     }
-    let given = run.problem().query();
-    let end = |name: &str, text: &Option<String>, given: Option<&Vec<f64>>| match (text, given) {
-        (Some(text), _) => {
-            configuration(cx, text).map_err(|error| Failure::usage(format!("--{name}: {error}")))
-        }
-        (None, Some(q)) => Ok(q.clone()),
-        (None, None) => Err(Failure::usage(format!("--{name} expected: the problem has no query"))),
-    };
-    let start = end("start", &arguments.start, given.map(|query| &query.start))?;
-    let goal = end("goal", &arguments.goal, given.map(|query| &query.goal))?;
+    let (start, goal) = ends(&run, &arguments.start, &arguments.goal)?;
 
     let TimedAnswer { answer, seconds } = asker.ask(&start, &goal);
     let dropped = answer.dropped_edges;
@@ -62,6 +52,26 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
         "path of {configs} configuration{plural}, length {length:.6}, in {seconds:.3} s"
     ));
     Ok(Code::Done)
+}
+
+/// The start and the goal that the command line gives, or else the problem's.
+///
+/// # Errors
+/// Exit code 2: one is given that cannot be used, or none where the problem has no query.
+pub(super) fn ends(
+    run: &Recorded,
+    start: &Option<String>,
+    goal: &Option<String>,
+) -> Result<(Vec<f64>, Vec<f64>), Failure> {
+    let given = run.problem().query();
+    let end = |name: &str, text: &Option<String>, given: Option<&Vec<f64>>| match (text, given) {
+        (Some(text), _) => configuration(run.context(), text)
+            .map_err(|error| Failure::usage(format!("--{name}: {error}"))),
+        (None, Some(q)) => Ok(q.clone()),
+        (None, None) => Err(Failure::usage(format!("--{name} expected: the problem has no query"))),
+    };
+    let start = end("start", start, given.map(|query| &query.start))?;
+    Ok((start, end("goal", goal, given.map(|query| &query.goal))?))
 }
 
 /// Why there is no path.

@@ -1,7 +1,8 @@
 //! All atoms of a protein at a configuration: what the rules and the energy do not know moves rigidly along.
 
 use super::Protein;
-use crate::model::Molecule;
+use super::chain_in_energy::ChainInEnergy;
+use crate::model::{Energies, Model, Molecule};
 use crate::structure::Residue;
 
 impl Molecule for Protein {
@@ -16,5 +17,22 @@ impl Molecule for Protein {
             }
         }
         std::iter::once(chain).chain(self.obstacles.clone()).collect()
+    }
+
+    /// Each set of constraints on its own, the hydrophobic pairs, and the whole, in model kJ/mol.
+    fn energies(&self) -> Energies<'_> {
+        let model = ChainInEnergy::of(self);
+        let count = model.native().map_or(1, |native| model.basins(native).len());
+        let sets = match count {
+            2 => vec!["energy_source [kJ/mol]", "energy_target [kJ/mol]"],
+            _ => vec!["energy_constraints [kJ/mol]"],
+        };
+        let rest = ["energy_hydrophobic [kJ/mol]", "energy [kJ/mol]"];
+        let at = move |q: &[f64]| {
+            let mut energies = model.basins(q);
+            energies.extend([model.hydrophobic(q), model.energy_at(q)]);
+            energies
+        };
+        Energies { columns: sets.into_iter().chain(rest).collect(), at: Box::new(at) }
     }
 }

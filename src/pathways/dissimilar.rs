@@ -1,0 +1,160 @@
+use super::via_nodes::{Tried, ViaNodes};
+use super::{Pathway, Pathways, pairs};
+use crate::context::{Context, Ends};
+use crate::model::Scratch;
+use crate::query::{Attachment, Ways, shorten};
+use crate::roadmap::{Rank, Roadmap, Route};
+use rayon::prelude::*;
+
+/// How far apart pathways of molecules are at least, Å of Cα RMSD, unless told otherwise.
+pub const DISTANCE: f64 = 1.5;
+
+/// So many penalised routes are found before what becomes of them is looked at.
+const BATCH: usize = 8;
+
+/// More edges that fail the finer check are not left out one after the other; the search then ends with what was found.
+const FAILED_MAX: usize = 1000;
+
+/// What is asked for: pathways that are at least a distance apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dissimilar {
+    /// How many.
+    pub count: usize,
+    /// By what they are ranked.
+    pub rank: Rank,
+    /// The least discrete Fréchet distance of any two, Å of Cα RMSD or in the space's metric.
+    pub distance: f64,
+    /// How far apart neighbouring frames are at most, see [`Frames`](super::Frames).
+    pub spacing: f64,
+    /// How many candidates are shortened and measured, first of those over single nodes, then, if there are still too few
+    /// pathways, of penalised searches: at most so many of either.
+    pub tries: usize,
+    /// How often a shortcut is tried on each, see [`shorten`].
+    pub shortcuts: u32,
+}
+
+/// Pathways from the start to the goal each two of which are at least a distance apart, as many as are asked for where that
+/// many are found.
+///
+/// - *Candidates* are routes over single nodes, the best first, which do not share more than 80 % of their length with one
+///   before. Where these do not suffice, penalised searches add others: the shortest route when every edge costs more by how
+///   many candidates go along it, both as a multiple of its cost and by the mean cost of the edges of the best route.
+/// - Every edge of a candidate passes the finer check of paths that are given out; one that fails is left out, and routes are
+///   found anew. Then the candidate is [shortened](shorten), which raises neither cost nor highest energy.
+/// - The shortened candidates are *ranked* by what they then come to, ties by the order in which they were found. The best is
+///   accepted, and then each whose frames have a discrete Fréchet distance of at least `distance` from those of all that
+///   were accepted before: the distance is that of what is given out.
+///
+/// The work is bounded by `tries`. Candidates are shortened in several threads; the outcome does not depend on how many.
+pub fn dissimilar(
+    cx: &Context,
+    roadmap: &Roadmap,
+    ends: &Ends,
+    attachment: &Attachment,
+    asked: &Dissimilar,
+    scratch: &mut Scratch,
+) -> Pathways {
+    let configs = [&ends.start[..], &ends.goal];
+    let mut ways = Ways::between(cx, roadmap, configs, attachment, scratch);
+    let mut tried = Tried::default();
+    let routes = over_nodes(&mut ways, &mut tried, asked, scratch);
+    let [from, to] = ways.ends();
+    let connected = ways.graph.shortest_where(from, to, |_, _| true).is_some();
+    let mut found = shortened(&ways, &routes, asked);
+    let mut chosen = choose(cx, &mut found, asked);
+    let (mut looked_at, mut penalised) = (routes.len(), 0);
+    let scale = routes.first().map_or(0.0, |best| best.length / best.edges.len().max(1) as f64);
+    while chosen.len() < asked.count && penalised < asked.tries && !routes.is_empty() {
+        let most = BATCH.min(asked.tries - penalised);
+        let more = penalised_routes(&mut ways, &mut tried, scale, most, scratch);
+        if more.is_empty() {
+            break;
+        }
+        penalised += more.len();
+        looked_at += more.len();
+        found.extend(shortened(&ways, &more, asked));
+        chosen = choose(cx, &mut found, asked);
+    }
+    let pathways: Vec<Pathway> = chosen.into_iter().map(|index| found[index].clone()).collect();
+    let dropped_edges = ways.failed.len() as u64;
+    Pathways { pairs: pairs(cx, &pathways), pathways, connected, tried: looked_at, dropped_edges }
+}
+
+/// The best routes over single nodes that pass the finer check.
+fn over_nodes(
+    ways: &mut Ways,
+    tried: &mut Tried,
+    asked: &Dissimilar,
+    scratch: &mut Scratch,
+) -> Vec<Route> {
+    let mut routes = Vec::new();
+    let mut candidates = ViaNodes::of(ways, asked.rank);
+    while routes.len() < asked.tries && ways.failed.len() <= FAILED_MAX {
+        let Some(route) = candidates.next(ways, tried) else { break };
+        if ways.passes(&route, scratch) {
+            tried.add(&route);
+            routes.push(route);
+        } else {
+            candidates = ViaNodes::of(ways, asked.rank);
+        }
+    }
+    routes
+}
+
+/// At most `most` routes that avoid the edges of those that were tried as far as that costs little. `scale` is what an edge
+/// usually costs.
+fn penalised_routes(
+    ways: &mut Ways,
+    tried: &mut Tried,
+    scale: f64,
+    most: usize,
+    scratch: &mut Scratch,
+) -> Vec<Route> {
+    let ([from, to], mut routes) = (ways.ends(), Vec::new());
+    while routes.len() < most && ways.failed.len() <= FAILED_MAX {
+        let weigh = |edge: u32, weight: f64| {
+            let uses = tried.uses(edge) as f64;
+            let least = if scale > 0.0 { scale } else { 1.0 };
+            (!ways.failed.contains(&edge)).then_some(weight + uses * (weight + least))
+        };
+        let tree = ways.graph.tree(from, false, Rank::Cost, weigh);
+        let Some(route) = tree.route(to) else { break };
+        if ways.passes(&route, scratch) {
+            tried.add(&route);
+            routes.push(route);
+        }
+    }
+    routes
+}
+
+/// Routes as paths, shortened, measured, and cut into frames.
+fn shortened(ways: &Ways, routes: &[Route], asked: &Dissimilar) -> Vec<Pathway> {
+    let paths: Vec<_> = routes.iter().map(|route| ways.path(route)).collect();
+    let cx = ways.cx;
+    let finished = |scratch: &mut Scratch, path: &crate::query::Path| {
+        Pathway::of(cx, shorten(cx, path, asked.shortcuts, scratch), asked.spacing, scratch)
+    };
+    let all: Vec<_> = paths.par_iter().map_init(Scratch::new, finished).collect();
+    all.into_iter().flatten().collect()
+}
+
+/// The indices of the accepted ones among those that were found, the best first. Brings what was found in the order of the
+/// ranking.
+fn choose(cx: &Context, found: &mut [Pathway], asked: &Dissimilar) -> Vec<usize> {
+    // Stable: what was found first stays first among equals.
+    found.sort_by_key(|pathway| pathway.measured.key(asked.rank));
+    let mut chosen: Vec<usize> = Vec::new();
+    for (index, candidate) in found.iter().enumerate() {
+        if chosen.len() == asked.count {
+            break;
+        }
+        let is_apart = |accepted: &usize| {
+            let apart = found[*accepted].frames.frechet(&candidate.frames, &cx.space);
+            apart.value >= asked.distance
+        };
+        if chosen.iter().all(is_apart) {
+            chosen.push(index);
+        }
+    }
+    chosen
+}

@@ -1,0 +1,108 @@
+//! The ways between two configurations: a roadmap's edges, and those that attach the two ends to it.
+
+use super::{Attachment, PATH_REFINEMENT, Path, attach, attach_for_good, direct};
+use crate::context::Context;
+use crate::local::{self, Planner};
+use crate::model::Scratch;
+use crate::numbers::NodeId;
+use crate::roadmap::{Edge, Graph, Roadmap, Route};
+use std::collections::BTreeSet;
+
+/// The ids that start and goal have beside a roadmap's nodes while a path is looked for: those that follow.
+pub(super) fn end_ids(roadmap: &Roadmap) -> [NodeId; 2] {
+    let next = NodeId(roadmap.configs().len() as u32);
+    [next, next.next()]
+}
+
+/// A roadmap with two configurations attached to it, as a graph; and which edges have passed the finer check that every
+/// path passes before it is given out, at a [`PATH_REFINEMENT`]th of the resolution.
+pub(crate) struct Ways<'a> {
+    pub cx: &'a Context,
+    roadmap: &'a Roadmap,
+    ends: [&'a [f64]; 2],
+    /// The edges of the roadmap, then those that attach the start and the goal, then the direct motion, if there is one.
+    pub edges: Vec<Edge>,
+    pub graph: Graph,
+    passed: BTreeSet<u32>,
+    /// Indices of the edges that have failed the finer check.
+    pub failed: BTreeSet<u32>,
+}
+
+impl<'a> Ways<'a> {
+    /// All ways from `start` to `goal`, both valid: through the roadmap, and the direct motion. In a model with energies
+    /// the ends are attached to all nodes that were once their nearest, otherwise to those that are now.
+    pub fn between(
+        cx: &'a Context,
+        roadmap: &'a Roadmap,
+        ends: [&'a [f64]; 2],
+        attachment: &Attachment,
+        scratch: &mut Scratch,
+    ) -> Ways<'a> {
+        let [from, to] = end_ids(roadmap);
+        let direct = direct::edge(cx, ends, from, attachment, scratch);
+        let attach = match cx.model.energy(ends[0], scratch) {
+            Some(_) => attach_for_good,
+            None => attach,
+        };
+        let from_start = attach(cx, roadmap, ends[0], from, attachment, scratch);
+        let from_goal = attach(cx, roadmap, ends[1], to, attachment, scratch);
+        let edges = roadmap.edges().iter();
+        Ways::of(cx, roadmap, ends, edges, [from_start, from_goal], direct)
+    }
+
+    /// The ways by edges that are known: some of the roadmap, and those that attach the start and the goal, under the
+    /// ids of [`end_ids`]. The direct motion has passed the finer check.
+    pub(crate) fn of(
+        cx: &'a Context,
+        roadmap: &'a Roadmap,
+        ends: [&'a [f64]; 2],
+        of_roadmap: impl Iterator<Item = Edge>,
+        attached: [Vec<Edge>; 2],
+        direct: Option<Edge>,
+    ) -> Ways<'a> {
+        let mut edges: Vec<Edge> = of_roadmap.collect();
+        edges.extend(attached.into_iter().flatten());
+        let passed = direct.iter().map(|_| edges.len() as u32).collect();
+        edges.extend(direct);
+        let graph = Graph::new(end_ids(roadmap)[1].index() + 1, &edges);
+        Ways { cx, roadmap, ends, edges, graph, passed, failed: BTreeSet::new() }
+    }
+
+    /// The ids of the start and of the goal.
+    pub fn ends(&self) -> [NodeId; 2] {
+        end_ids(self.roadmap)
+    }
+
+    /// The configuration of a node, or of one of the ends.
+    pub fn config(&self, node: NodeId) -> &'a [f64] {
+        let [from, to] = end_ids(self.roadmap);
+        match node {
+            node if node == from => self.ends[0],
+            node if node == to => self.ends[1],
+            node => self.roadmap.configs().get(node.index()),
+        }
+    }
+
+    /// Whether all edges of a route pass the finer check. The first that does not becomes one of [`Ways::failed`].
+    pub fn passes(&mut self, route: &Route, scratch: &mut Scratch) -> bool {
+        for index in &route.edges {
+            if self.passed.contains(index) {
+                continue;
+            }
+            let edge = &self.edges[*index as usize];
+            let ends = (self.config(edge.low), self.config(edge.high));
+            let planner = Planner::from_tag(edge.planner).into_iter().collect::<Vec<_>>();
+            if local::connect(self.cx, &planner, ends, PATH_REFINEMENT, scratch).is_none() {
+                self.failed.insert(*index);
+                return false;
+            }
+            self.passed.insert(*index);
+        }
+        true
+    }
+
+    /// The path along a route.
+    pub fn path(&self, route: &Route) -> Path {
+        Path::along(self.cx, route, &self.edges, |node| self.config(node))
+    }
+}
