@@ -1,12 +1,15 @@
 //! The command line.
 
+mod transition;
+
+pub use transition::{EndsArguments, TransitionArguments};
+
 use crate::exit;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use roadmill::export::{FORMATS, RoadmapFormat};
 use roadmill::numbers::Ordinal;
 use roadmill::pathways::DomainAngle;
-use roadmill::problem::HOLD;
 use roadmill::structure::{ResidueNumber, parse_range};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -51,6 +54,9 @@ pub enum Command {
     Import(ImportArguments),
     /// Write a roadmap in a format that other programs read
     Export(ExportArguments),
+    /// Find how a protein gets from one structure to another: makes the problem and grows its roadmap
+    #[command(allow_negative_numbers = true)]
+    Transition(TransitionArguments),
     /// Look at structures of proteins
     #[command(subcommand)]
     Protein(ProteinCommand),
@@ -507,35 +513,14 @@ pub struct ProteinProblemArguments {
     pub first: PathBuf,
     /// Another structure of the same residues: the goal is what comes nearest to it
     pub second: Option<PathBuf>,
-    /// The chain; a sole chain of amino acids answers to any name
-    #[arg(long)]
-    pub chain: Option<String>,
-    /// The chain of the second file [default: as --chain]
-    #[arg(long)]
-    pub chain_b: Option<String>,
-    /// Only residues from FIRST to LAST, by their numbers in each file
-    #[arg(long, value_name = "FIRST-LAST", value_parser = residues, allow_hyphen_values = true)]
-    pub residues: Option<(ResidueNumber, ResidueNumber)>,
-    /// What is made of gaps in a chain
-    #[arg(long, value_enum, default_value_t = Gaps::Error)]
-    pub gaps: Gaps,
-    /// Another chain of the first file, which stands still; may be given several times
-    #[arg(long = "obstacle", value_name = "CHAIN")]
-    pub obstacles: Vec<String>,
-    /// Both ends of a transition are relaxed, each Cα held with so many kT/Å²; 0 leaves the ends as they are
-    #[arg(long, value_name = "KT", default_value_t = HOLD, value_parser = hold)]
-    pub hold: f64,
+    #[command(flatten)]
+    pub ends: EndsArguments,
     /// The problem file to be written; structures go beside it into the folder NAME-structures
     #[arg(long, value_name = "NAME.toml")]
     pub out: PathBuf,
     /// Replace what is there
     #[arg(long)]
     pub force: bool,
-}
-
-fn hold(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|hold| (0.0..=1e6).contains(hold));
-    number.ok_or_else(|| "a number from 0 to 1000000 expected".to_owned())
 }
 
 /// What is made of gaps in a chain.

@@ -64,6 +64,7 @@ fn run(command: cli::Command) -> Result<Code, Failure> {
         cli::Command::Check(arguments) => commands::check(&arguments),
         cli::Command::Import(arguments) => commands::import(&arguments),
         cli::Command::Export(arguments) => commands::export(&arguments),
+        cli::Command::Transition(arguments) => commands::transition(&arguments),
         cli::Command::Protein(command) => commands::protein(&command),
         cli::Command::Worker(arguments) => commands::worker(&arguments),
     }

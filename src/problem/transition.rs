@@ -2,9 +2,10 @@
 
 use super::{Problem, ProblemBuilder, StrategySpec};
 use crate::connect::{AmongKind, NodesAndComponents};
+use crate::evaluate::{BarrierTrend, EvaluatorKind, FlowRatio};
 use crate::generator::{ElasticGrowth, GeneratorKind, GrowthAim, Interpolation};
 use crate::model::protein::refit::{Refit, Weights, refit};
-use crate::model::protein::{Protein, ProteinSpec};
+use crate::model::protein::{KT, Protein, ProteinSpec};
 use crate::model::{Description, Draw, Model, ModelKind, Scratch};
 use crate::sampler::{SamplerKind, TorsionNoise};
 use crate::source::{ProblemError, fitting};
@@ -14,6 +15,12 @@ use std::path::Path;
 
 /// Nodes of a set.
 const NODES: u64 = 50;
+
+/// Sets of a round: so many that judging a round takes a small part of its time.
+const SETS_PER_ROUND: u64 = 16;
+
+/// By how much the lowest barrier may have fallen over the last doubling of nodes when the roadmap is large enough, model kJ/mol.
+const FALL_OF_BARRIER: f64 = 5.0 * KT;
 
 /// How strongly each Cα is held to its place while ends are relaxed, kT/Å², if nothing is said: adenylate kinase and calmodulin move by
 /// about 0.3 Å.
@@ -90,7 +97,13 @@ pub fn transition(
     });
     let relaxed = [ends[0].0, ends[1].0];
     let [(_, start), (_, goal)] = ends;
-    let mut problem = builder.query(start, goal).strategies(strategies()).build()?;
+    let mut problem = builder
+        .query(start, goal)
+        .strategies(strategies())
+        .sets_per_round(SETS_PER_ROUND)
+        .evaluator(EvaluatorKind::FlowRatio(FlowRatio::default()))
+        .evaluator(EvaluatorKind::BarrierTrend(BarrierTrend::new(FALL_OF_BARRIER)))
+        .build()?;
     if protein.has_obstacles() {
         problem.notes.push(
             "obstacles: the first residue stands still, so the goal stands beside them where its torsions lead, and not where \

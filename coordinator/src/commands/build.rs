@@ -1,45 +1,61 @@
 use super::crew::{grow, workers};
 use super::load::load;
-use crate::cli::BuildArguments;
+use crate::cli::{BuildArguments, GrowthArguments};
 use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
 use crate::run::SetFiles;
 use crate::signals::Signals;
 use crate::work::{Run, limit};
 use roadmill::problem::{Limits, Problem};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Grows a roadmap.
 pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
     let cpu = CpuClock::start();
-    let problem = problem(arguments)?;
-    let growth = &arguments.growth;
+    let problem = load(&arguments.problem)?;
+    let seed = arguments.seed.unwrap_or(problem.seed());
+    let problem = problem.with_seed(seed);
+    let place = (arguments.out.as_deref(), arguments.force, arguments.or_resume);
+    grow_with(problem, place, &arguments.growth, &arguments.import, cpu)
+}
+
+/// Grows the roadmap of a problem in a run folder, without sets from files: where, whether what is there is replaced, and
+/// whether the build goes on that is there.
+pub(super) fn grown(
+    problem: Problem,
+    place: (Option<&Path>, bool, bool),
+    growth: &GrowthArguments,
+    cpu: CpuClock,
+) -> Result<Code, Failure> {
+    grow_with(problem, place, growth, &[], cpu)
+}
+
+fn grow_with(
+    problem: Problem,
+    (out, force, or_resume): (Option<&Path>, bool, bool),
+    growth: &GrowthArguments,
+    import: &[String],
+    cpu: CpuClock,
+) -> Result<Code, Failure> {
+    let own = problem.limits();
+    let limits = Limits { seconds: growth.max_time.or(own.seconds), ..own };
+    let problem = problem.with_limits(limits).map_err(|error| Failure::usage(error.to_string()))?;
+    let problem = limit(problem, growth.max_nodes, growth.max_sets)?;
     let workers = workers(&growth.crew)?;
-    let imports = SetFiles::open(&arguments.import, &problem)?;
+    let imports = SetFiles::open(import, &problem)?;
     // Listened to from here on, so that a signal never leaves half a folder unexplained.
     let signals = Arc::new(Signals::listen().map_err(Failure::system)?);
     let mut begun = Run::begin(problem).workers(&workers).signals(&signals).import(imports);
-    if let Some(out) = &arguments.out {
+    if let Some(out) = out {
         begun = begun.folder(out);
     }
-    if arguments.force {
+    if force {
         begun = begun.replace();
     }
-    if arguments.or_resume {
+    if or_resume {
         begun = begun.or_resume();
     }
     let begun = begun.max_seconds(growth.max_time).max_memory(growth.max_memory);
     grow(begun.clock(cpu), growth.json)
-}
-
-/// The problem with what the command line changes of it.
-fn problem(arguments: &BuildArguments) -> Result<Problem, Failure> {
-    let growth = &arguments.growth;
-    let problem = load(&arguments.problem)?;
-    let seed = arguments.seed.unwrap_or(problem.seed());
-    let own = problem.limits();
-    let limits = Limits { seconds: growth.max_time.or(own.seconds), ..own };
-    let problem = problem.with_seed(seed).with_limits(limits);
-    let problem = problem.map_err(|error| Failure::usage(error.to_string()))?;
-    limit(problem, growth.max_nodes, growth.max_sets)
 }

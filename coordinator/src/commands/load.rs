@@ -5,6 +5,7 @@ use roadmill::model::bodies::foreign::{self, SceneOptions, Solidity};
 use roadmill::model::bodies::validity::BoundsMeaning;
 use roadmill::problem::Problem;
 use roadmill::scene::{self, Centre};
+use std::path::Path;
 
 /// Reads the problem that the command line names.
 ///
@@ -42,4 +43,12 @@ pub(super) fn load(arguments: &ProblemArguments) -> Result<Problem, Failure> {
         }),
     };
     Problem::load_with(&arguments.file, &options, &Ledgers).map_err(Failure::usage)
+}
+
+/// Reads a problem file of our own.
+///
+/// # Errors
+/// Exit code 2: it cannot be used.
+pub(super) fn load_file(file: &Path) -> Result<Problem, Failure> {
+    Problem::load_with(file, &SceneOptions::default(), &Ledgers).map_err(Failure::usage)
 }

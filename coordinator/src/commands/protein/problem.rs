@@ -1,4 +1,4 @@
-use crate::cli::ProteinProblemArguments;
+use crate::cli::{EndsArguments, ProteinProblemArguments};
 use crate::commands::written::write_problem;
 use crate::exit::{Code, Failure};
 use crate::output::line;
@@ -10,44 +10,64 @@ use std::path::Path;
 
 /// Writes a protein's transition between two structures, or what is about one structure, as a problem file.
 pub fn problem(arguments: &ProteinProblemArguments) -> Result<Code, Failure> {
-    let file = |path: &Path, chain: &Option<String>| {
-        let mut file = FileSpec::new(path);
-        if let Some(chain) = chain {
-            file = file.chain(chain);
-        }
-        match arguments.residues {
-            Some((first, last)) => file.residues(range(first, last)),
-            None => file,
-        }
-    };
-    let second_chain = arguments.chain_b.as_ref().or(arguments.chain.as_ref()).cloned();
-    let mut spec = ProteinSpec::new(file(&arguments.first, &arguments.chain).into())
-        .obstacles(arguments.obstacles.iter().cloned());
-    if arguments.gaps == crate::cli::Gaps::Rigid {
-        spec = spec.gaps(Gaps::Rigid);
-    }
-    let name = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
+    let ProteinProblemArguments { first, second, ends, out, force } = arguments;
     let comment = "# Written by `roadmill protein problem`.\n";
-    let problem = match &arguments.second {
+    match second {
         Some(second) => {
-            let spec = spec.target(file(second, &second_chain).into());
-            let made =
-                transition(&name, Path::new(""), &spec, arguments.hold).map_err(Failure::usage)?;
-            let Transition { problem, refit, relaxed } = made;
-            write_problem(&problem, comment, &arguments.out, arguments.force)?;
-            say(&refit);
-            for (end, relaxed) in ["start", "goal"].iter().zip(relaxed) {
-                let Relaxed { moved, energy: [before, after] } = relaxed;
-                line(format_args!(
-                    "{end:<17}relaxed by {moved:.3} Å, from {before:.1} to {after:.1} model kJ/mol"
-                ));
-            }
-            return Ok(Code::Done);
+            let made = problem_of(first, second, ends, out)?;
+            write_problem(&made.problem, comment, out, *force)?;
+            announce(&made);
         }
-        None => about_native(&name, Path::new(""), &spec).map_err(Failure::usage)?,
-    };
-    write_problem(&problem, comment, &arguments.out, arguments.force)?;
+        None => {
+            let problem = about_native(&name_of(out), Path::new(""), &spec_of(first, ends));
+            write_problem(&problem.map_err(Failure::usage)?, comment, out, *force)?;
+        }
+    }
     Ok(Code::Done)
+}
+
+/// The problem of a transition, named after the file that it is to be written to.
+pub(in crate::commands) fn problem_of(
+    first: &Path,
+    second: &Path,
+    ends: &EndsArguments,
+    out: &Path,
+) -> Result<Transition, Failure> {
+    let chain = ends.chain_b.as_ref().or(ends.chain.as_ref());
+    let spec = spec_of(first, ends).target(file_of(second, chain, ends).into());
+    transition(&name_of(out), Path::new(""), &spec, ends.hold).map_err(Failure::usage)
+}
+
+fn name_of(out: &Path) -> String {
+    out.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn file_of(path: &Path, chain: Option<&String>, ends: &EndsArguments) -> FileSpec {
+    let mut file = FileSpec::new(path);
+    if let Some(chain) = chain {
+        file = file.chain(chain);
+    }
+    match ends.residues {
+        Some((first, last)) => file.residues(range(first, last)),
+        None => file,
+    }
+}
+
+fn spec_of(first: &Path, ends: &EndsArguments) -> ProteinSpec {
+    let spec = ProteinSpec::new(file_of(first, ends.chain.as_ref(), ends).into())
+        .obstacles(ends.obstacles.iter().cloned());
+    if ends.gaps == crate::cli::Gaps::Rigid { spec.gaps(Gaps::Rigid) } else { spec }
+}
+
+/// Says how near the goal is to the target, and how far the ends were relaxed.
+pub(in crate::commands) fn announce(made: &Transition) {
+    say(&made.refit);
+    for (end, relaxed) in ["start", "goal"].iter().zip(made.relaxed) {
+        let Relaxed { moved, energy: [before, after] } = relaxed;
+        line(format_args!(
+            "{end:<17}relaxed by {moved:.3} Å, from {before:.1} to {after:.1} model kJ/mol"
+        ));
+    }
 }
 
 /// A range of residues as a problem file writes it.

@@ -1,0 +1,61 @@
+//! Arguments about the two ends of a protein's transition.
+
+use super::{Gaps, GrowthArguments, exit, residues};
+use clap::Args;
+use roadmill::problem::HOLD;
+use roadmill::structure::ResidueNumber;
+use std::path::PathBuf;
+
+/// What is taken of the structures at both ends, and what is done to them.
+#[derive(Debug, Args)]
+pub struct EndsArguments {
+    /// The chain; a sole chain of amino acids answers to any name
+    #[arg(long)]
+    pub chain: Option<String>,
+    /// The chain of the second file [default: as --chain]
+    #[arg(long)]
+    pub chain_b: Option<String>,
+    /// Only residues from FIRST to LAST, by their numbers in each file
+    #[arg(long, value_name = "FIRST-LAST", value_parser = residues, allow_hyphen_values = true)]
+    pub residues: Option<(ResidueNumber, ResidueNumber)>,
+    /// What is made of gaps in a chain
+    #[arg(long, value_enum, default_value_t = Gaps::Error)]
+    pub gaps: Gaps,
+    /// Another chain of the first file, which stands still; may be given several times
+    #[arg(long = "obstacle", value_name = "CHAIN")]
+    pub obstacles: Vec<String>,
+    /// Both ends of a transition are relaxed, each Cα held with so many kT/Å²; 0 leaves the ends as they are
+    #[arg(long, value_name = "KT", default_value_t = HOLD, value_parser = hold)]
+    pub hold: f64,
+}
+
+/// Of `transition`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct TransitionArguments {
+    /// A PDB or mmCIF file (docs/structures.md): its bonds, angles and omegas are kept, and it is the start
+    pub first: PathBuf,
+    /// Another structure of the same residues: the goal is what comes nearest to it
+    pub second: PathBuf,
+    #[command(flatten)]
+    pub ends: EndsArguments,
+    /// Base seed [default: 1]
+    #[arg(long, value_name = "SEED")]
+    pub seed: Option<u64>,
+    /// Run folder to be made; the problem goes beside it as FOLDER.toml
+    #[arg(long, value_name = "FOLDER")]
+    pub out: PathBuf,
+    /// Replace the problem and the run that are there
+    #[arg(long)]
+    pub force: bool,
+    /// Go on with the run that is there, if it is of this problem
+    #[arg(long, conflicts_with = "force")]
+    pub or_resume: bool,
+    #[command(flatten)]
+    pub growth: GrowthArguments,
+}
+
+fn hold(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|hold| (0.0..=1e6).contains(hold));
+    number.ok_or_else(|| "a number from 0 to 1000000 expected".to_owned())
+}

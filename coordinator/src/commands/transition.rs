@@ -1,0 +1,49 @@
+use super::build::grown;
+use super::load::load_file;
+use super::protein::{announce, problem_of};
+use super::written::write_problem;
+use crate::cli::TransitionArguments;
+use crate::cpu::CpuClock;
+use crate::exit::{Code, Failure};
+use crate::output::note;
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+/// Makes the problem of a protein's transition between two structures, and grows its roadmap.
+///
+/// The problem is written beside the run folder first, and read from there, so that whatever becomes of the build it can
+/// be looked at, changed, and built again. A problem file that is there already is used if it is the same problem.
+pub fn transition(arguments: &TransitionArguments) -> Result<Code, Failure> {
+    let cpu = CpuClock::start();
+    let TransitionArguments { first, second, ends, seed, out, force, or_resume, growth } =
+        arguments;
+    if out.file_name().is_none() {
+        let message = format!("--out: {} found; the name of a folder expected", out.display());
+        return Err(Failure::usage(message));
+    }
+    let mut file = OsString::from(out);
+    file.push(".toml");
+    let file = PathBuf::from(file);
+    let made = problem_of(first, second, ends, &file)?;
+    let seed = seed.unwrap_or(made.problem.seed());
+    let problem = made.problem.clone().with_seed(seed);
+    match file.try_exists() {
+        Ok(true) if !force => {
+            let there = load_file(&file)?;
+            if there.digest() != problem.digest() {
+                let message = format!(
+                    "{}: another problem found; the same, or --force, or another --out expected",
+                    file.display()
+                );
+                return Err(Failure::usage(message));
+            }
+            note(format_args!("{}: the problem is there already", file.display()));
+        }
+        _ => {
+            let comment = "# Written by `roadmill transition`.\n";
+            write_problem(&problem, comment, &file, *force)?;
+        }
+    }
+    announce(&made);
+    grown(load_file(&file)?, (Some(out), *force, *or_resume), growth, cpu)
+}
