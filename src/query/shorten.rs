@@ -106,20 +106,46 @@ fn is_needless(
         known.insert((from, to), leg);
         Some(leg)
     };
-    let Some(after) = leg(first, last) else { return false };
     let mut before = at_rest;
     for (from, to) in between.iter().zip(&between[1..]) {
         let Some(leg) = leg(*from, *to) else { return false };
         before = before.then(leg);
     }
-    after.forward <= before.forward && after.peak <= before.peak
+    let does_as_well =
+        |after: Directed| after.forward <= before.forward && after.peak <= before.peak;
+    is_promising(cx, ends, does_as_well, scratch)
+        && motion(cx, ends, PATH_REFINEMENT, scratch).is_some_and(does_as_well)
+}
+
+/// Whether a motion, looked at as coarsely as edges are, is free and does as is asked. What does not then hardly ever does when
+/// it is looked at [`PATH_REFINEMENT`] times finer, which takes as many times longer.
+fn is_promising(
+    cx: &Context,
+    ends: [&[f64]; 2],
+    does: impl Fn(Directed) -> bool,
+    scratch: &mut Scratch,
+) -> bool {
+    motion(cx, ends, 1, scratch).is_some_and(does)
+}
+
+/// What a motion costs in a model with energies; `None` if it is not valid.
+fn motion(
+    cx: &Context,
+    [a, b]: [&[f64]; 2],
+    refinement: u32,
+    scratch: &mut Scratch,
+) -> Option<Directed> {
+    match cx.model.motion(a, b, refinement, scratch)? {
+        Cost::Directed(directed) => Some(directed),
+        Cost::Metric => None,
+    }
 }
 
 /// The path along these configurations; `None` if in a model with energies a motion between them is not valid.
 fn with_length(cx: &Context, configs: Configs, scratch: &mut Scratch) -> Option<Path> {
     let mut path = Path { configs, length: 0.0 };
     path.length = match cx.model.energy(path.configs.get(0), scratch) {
-        Some(_) => climb(cx, path.configs.iter(), scratch)?.0,
+        Some(_) => climb(cx, path.configs.iter(), PATH_REFINEMENT, scratch)?.0,
         None => path.lengths(&cx.space).last().copied().unwrap_or(0.0),
     };
     Some(path)
@@ -154,9 +180,17 @@ fn shortcut(cx: &Context, path: &Path, from: f64, to: f64, scratch: &mut Scratch
     let ends = (path.configs.get(first.leg), path.configs.get(last.leg + 1));
     if cx.model.energy(&a, scratch).is_some() {
         let valid = cx.model.is_valid(&a, scratch) && cx.model.is_valid(&b, scratch);
-        let replaced = (first.leg..=last.leg + 1).map(|i| path.configs.get(i));
-        let (before, highest) = climb(cx, replaced, scratch)?;
-        let (after, reached) = climb(cx, [ends.0, &a, &b, ends.1].into_iter(), scratch)?;
+        // As coarsely as edges are looked at, first: see `is_promising`.
+        let compared = |refinement: u32, scratch: &mut Scratch| {
+            let replaced = (first.leg..=last.leg + 1).map(|i| path.configs.get(i));
+            let before = climb(cx, replaced, refinement, scratch)?;
+            Some((before, climb(cx, [ends.0, &a, &b, ends.1].into_iter(), refinement, scratch)?))
+        };
+        let ((before, _), (after, _)) = compared(1, scratch)?;
+        if after >= before {
+            return None;
+        }
+        let ((before, highest), (after, reached)) = compared(PATH_REFINEMENT, scratch)?;
         if !(valid && after < before && reached <= highest) {
             return None;
         }
@@ -173,19 +207,19 @@ fn shortcut(cx: &Context, path: &Path, from: f64, to: f64, scratch: &mut Scratch
     (motions && cx.model.is_valid(&a, scratch) && cx.model.is_valid(&b, scratch)).then_some(shorter)
 }
 
-/// What the motions along these configurations cost and how high they reach, in a model with energies, looked at
-/// [`PATH_REFINEMENT`] times finer than the problem asks for; `None` if one of them is not valid.
+/// What the motions along these configurations cost and how high they reach, in a model with energies, looked at so many
+/// times finer than the problem asks for; `None` if one of them is not valid.
 fn climb<'a>(
     cx: &Context,
     mut along: impl Iterator<Item = &'a [f64]>,
+    refinement: u32,
     scratch: &mut Scratch,
 ) -> Option<(f64, f64)> {
     let (mut cost, mut highest) = (0.0, f64::NEG_INFINITY);
     let mut before = along.next()?;
     for next in along {
         if next != before {
-            let Cost::Directed(own) = cx.model.motion(before, next, PATH_REFINEMENT, scratch)?
-            else {
+            let Cost::Directed(own) = cx.model.motion(before, next, refinement, scratch)? else {
                 return None;
             };
             (cost, highest) = (cost + own.forward, own.peak.max(highest));
@@ -312,7 +346,9 @@ mod tests {
         let (setup, path) = solved("landscape.toml", text);
         let (cx, scratch) = (&setup.cx, &mut Scratch::new());
         let short = shorten(cx, &path, 300, scratch);
-        let along = |path: &Path| climb(cx, path.configs.iter(), &mut Scratch::new()).unwrap();
+        let along = |path: &Path| {
+            climb(cx, path.configs.iter(), PATH_REFINEMENT, &mut Scratch::new()).unwrap()
+        };
         let ((cost, highest), (short_cost, short_highest)) = (along(&path), along(&short));
         assert!(short_cost < cost && short_highest <= highest, "{cost} → {short_cost}");
         assert!(short.length == short_cost && short.length < path.length);
