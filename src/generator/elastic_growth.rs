@@ -1,4 +1,4 @@
-use super::elastic_walk::{Aim, LENGTH_MAX, Node, Place, Walks, complaint, residues, suits};
+use super::elastic_walk::{Aim, DRAWN, LENGTH_MAX, Node, Place, Walks, complaint, residues, suits};
 use super::{Generator, Reads};
 use crate::context::Context;
 use crate::methods::Complaint;
@@ -30,6 +30,10 @@ pub struct ElasticGrowth {
     /// How far the Cα move in a step, RMSD in Å after superposition: the walks take turns with these.
     #[serde(default = "default_lengths")]
     pub lengths: Vec<f64>,
+    /// How strongly every torsion is held in random steps, kT/rad²: the walks take turns with these, for each length. Held weakly,
+    /// large parts of the chain move against one another along few directions; held strongly, everything moves a little.
+    #[serde(default = "default_holds")]
+    pub holds: Vec<f64>,
     /// The most steps of a walk.
     #[serde(default = "default_steps")]
     pub steps: u32,
@@ -57,6 +61,8 @@ pub enum GrowthAim {
 }
 
 const LENGTHS_MAX: usize = 100;
+const HOLD_MIN: f64 = 1e-6;
+const HOLD_MAX: f64 = 1e6;
 const STEPS_MAX: u32 = 100_000;
 
 /// How many pairs are drawn for one walk, of which the nearest is taken.
@@ -73,6 +79,7 @@ impl Default for ElasticGrowth {
         ElasticGrowth {
             aim: GrowthAim::default(),
             lengths: default_lengths(),
+            holds: default_holds(),
             steps: default_steps(),
             kt: default_kt(),
             attempts: default_attempts(),
@@ -82,6 +89,10 @@ impl Default for ElasticGrowth {
 
 fn default_lengths() -> Vec<f64> {
     vec![0.25, 0.5, 1.0]
+}
+
+fn default_holds() -> Vec<f64> {
+    vec![4.0, 0.1, 0.002]
 }
 
 fn default_steps() -> u32 {
@@ -157,6 +168,16 @@ impl Generator for ElasticGrowth {
         if let Some(complaint) = self.lengths.iter().find_map(of_length) {
             return Some(complaint);
         }
+        if self.holds.is_empty() || self.holds.len() > LENGTHS_MAX {
+            return Some(Complaint::new(
+                "holds",
+                format!("{} numbers", self.holds.len()),
+                "1 to 100",
+            ));
+        }
+        if let Some(hold) = self.holds.iter().find(|hold| !(HOLD_MIN..=HOLD_MAX).contains(*hold)) {
+            return Some(Complaint::new("holds", hold, "1e-6 to 1e6 kT/rad²"));
+        }
         if !(1..=STEPS_MAX).contains(&self.steps) {
             return Some(Complaint::new("steps", self.steps, "1 to 100000"));
         }
@@ -189,6 +210,10 @@ impl ElasticGrowth {
         number: usize,
     ) -> Result<(), GaveUp> {
         let length = self.lengths[number % self.lengths.len()];
+        walks.hold = match toward {
+            Some(_) => DRAWN,
+            None => self.holds[number / self.lengths.len() % self.holds.len()],
+        };
         let mut place = from;
         let aim = match toward {
             Some(target) => Aim::Toward(target.q, walks.window(residues)),

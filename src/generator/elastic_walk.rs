@@ -55,6 +55,8 @@ pub(super) struct Walks<'a> {
     pub count: usize,
     /// A step from energy E to E′ > E is kept with the probability e^(−(E′ − E)/kT).
     pub kt: f64,
+    /// How strongly every torsion is held in the steps of the present walk, kT/rad².
+    pub hold: f64,
     /// Steps that may still be tried.
     pub attempts: u64,
 }
@@ -62,6 +64,9 @@ pub(super) struct Walks<'a> {
 /// The longest step, Å.
 pub(super) const LENGTH_MAX: f64 = 10.0;
 const KT_MAX: f64 = 1e9;
+
+/// How strongly every torsion is held where a walk goes toward a configuration, kT/rad².
+pub(super) const DRAWN: f64 = 4.0;
 
 /// How strongly residues are drawn toward a configuration, kT/Å². With a tenth of it walks end within 1 Å of their aim, with ten
 /// times as much hydrogen bonds break that need not.
@@ -90,6 +95,7 @@ impl<'a> Walks<'a> {
             made: Increment::empty(cx.space.len()),
             count,
             kt,
+            hold: DRAWN,
             // A set of many milestones may take as many times more.
             attempts: attempts.saturating_mul(count as u64),
         }
@@ -131,7 +137,7 @@ impl<'a> Walks<'a> {
     /// One step of a walk, of `length` Å at most: where it leads, which is a milestone now. `None` where no step is kept.
     pub fn step(&mut self, from: &Place, aim: &Aim, length: f64) -> Option<Place> {
         let cx = self.cx;
-        let elastic = cx.model.elastic(&from.q)?;
+        let elastic = cx.model.elastic(&from.q, self.hold)?;
         let mut length = length;
         for _ in 0..=HALVINGS {
             if let Some(next) = self.proposal(&*elastic, aim, length)
@@ -213,7 +219,7 @@ impl<'a> Walks<'a> {
 /// The residues of the context's model; `None` where it is no elastic chain.
 pub(super) fn residues(cx: &Context) -> Option<usize> {
     let query = cx.query.as_ref()?;
-    cx.model.elastic(&query.start)?;
+    cx.model.elastic(&query.start, DRAWN)?;
     cx.model.shape(&query.start, &mut Scratch::new()).map(|shape| shape.len())
 }
 

@@ -58,9 +58,9 @@ impl ChainInEnergy {
     /// Of a sound description.
     pub fn of(protein: &Protein) -> ChainInEnergy {
         let linkage = protein.linkage();
-        let network = network_of(protein, &linkage);
         let conformer = Conformer::of(&protein.source, &linkage)
             .expect("a sound description has all backbone atoms");
+        let network = network_of(protein, &linkage, &conformer);
         let atoms = protein.obstacles.iter().flatten().flat_map(|residue| &residue.atoms);
         let heavy = atoms.filter(|atom| atom.is_heavy());
         let obstacles = Obstacles { points: heavy.map(|atom| atom.position).collect() };
@@ -133,14 +133,12 @@ impl ChainInEnergy {
 }
 
 /// The elastic network of the constraints of all ends.
-fn network_of(protein: &Protein, linkage: &Linkage) -> Network {
-    let atoms =
-        ResidueAtoms::of(&protein.source).expect("a sound description has all backbone atoms");
-    let sites = Sites::of(&atoms, linkage);
+fn network_of(protein: &Protein, linkage: &Linkage, conformer: &Conformer) -> Network {
+    let sites = Sites::of(conformer.atoms(), linkage);
     let basins = basins_of(protein);
     let constraints: Vec<Constraint> = basins.iter().flat_map(Constraints::list).copied().collect();
     let springs = Springs::new(&constraints, protein.rules.at_nodes(), &sites);
-    Network::new(linkage.clone(), sites, springs)
+    Network::new(linkage.clone(), sites, springs, conformer.clone())
 }
 
 fn alphas_of(placed: &Placed) -> Vec<Point> {
@@ -220,8 +218,8 @@ impl Model for ChainInEnergy {
         Some(alphas_of(self.placed(q, &mut scratch.placed)))
     }
 
-    fn elastic<'a>(&'a self, q: &[f64]) -> Option<Box<dyn Elastic + 'a>> {
-        Some(Box::new(Prepared::of(self.network.about(q))))
+    fn elastic<'a>(&'a self, q: &[f64], hold: f64) -> Option<Box<dyn Elastic + 'a>> {
+        Some(Box::new(Prepared::of(self.network.about(q, hold))))
     }
 
     fn native(&self) -> Option<&[f64]> {

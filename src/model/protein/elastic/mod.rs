@@ -17,18 +17,18 @@ mod tests;
 pub(super) use springs::Springs;
 
 use super::equations::{
-    Factor, Kind, NormalEquations, POSE, Pull, Screw, Sites, add_pulls, columns, distance_gradient,
+    Factor, Kind, Line, NormalEquations, POSE, Pull, Screw, Sites, add_lines, add_pulls, columns,
     screws,
 };
+use super::kinematics::Conformer;
 use super::linkage::Linkage;
+use super::placed::Placed;
 use crate::math;
 use crate::model::{Draw, Elastic};
 use crate::structure::Point;
 use crate::structure::measure::{CentredPoints, superpose};
 use springs::Spring;
-
-/// ρ, per rad²: torsions that nothing holds turn by about half a radian.
-const FREE_TORSION: f64 = 4.0;
+use std::cell::RefCell;
 
 /// What holds the pose where nothing is drawn, so that the equations have a solution; the pose is not part of a step.
 const FREE_POSE: f64 = 1e-6;
@@ -54,54 +54,46 @@ pub(super) struct Network {
     sites: Sites,
     alphas: Vec<usize>,
     springs: Springs,
+    /// Places the chain faster than the motions of bodies do.
+    conformer: Conformer,
 }
 
 impl Network {
     /// Of a chain whose sites are these.
-    pub fn new(linkage: Linkage, sites: Sites, springs: Springs) -> Network {
+    pub fn new(linkage: Linkage, sites: Sites, springs: Springs, conformer: Conformer) -> Network {
         let alpha =
             |residue| sites.number(residue, Kind::AlphaCarbon).expect("every residue has one");
         let alphas = (0..sites.residues()).map(alpha).collect();
-        Network { linkage, sites, alphas, springs }
+        Network { linkage, sites, alphas, springs, conformer }
     }
 
-    /// The network about a configuration.
-    pub fn about(&self, q: &[f64]) -> About<'_> {
+    /// The network about a configuration, in which every torsion is held with ρ = `hold`, kT/rad².
+    pub fn about(&self, q: &[f64], hold: f64) -> About<'_> {
         let motions = self.linkage.motions(q);
         let positions = self.sites.place(&motions);
         let torsions = screws(&self.linkage, &motions);
         let columns = columns(&torsions);
         let mut equations = NormalEquations::zeros(columns.len());
         for column in 0..columns.len() {
-            let ridge = if column < POSE { FREE_POSE } else { FREE_TORSION };
+            let ridge = if column < POSE { FREE_POSE } else { hold };
             equations.matrix.row_mut(column)[0] += ridge;
         }
-        for spring in self.springs.about(&self.sites, &positions) {
+        let line = |spring: Spring| {
             let Spring { first, second, stiffness, force } = spring;
             let is_ordered = self.sites.body(first) <= self.sites.body(second);
             let (a, b) = if is_ordered { (first, second) } else { (second, first) };
             let bodies = (self.sites.body(a), self.sites.body(b));
-            let root = stiffness.sqrt();
-            let row: Vec<f64> = distance_gradient(&torsions, bodies, &positions[a], &positions[b])
-                .map(|slope| root * slope)
-                .collect();
-            equations.add(POSE + bodies.0, &row, force / root);
-        }
+            Line { bodies, ends: [positions[a], positions[b]], stiffness, force }
+        };
+        let springs = self.springs.about(&self.sites, &positions).into_iter();
+        add_lines(&mut equations, &torsions, &springs.map(line).collect::<Vec<_>>());
         let shape = CentredPoints::new(&self.alphas(&positions));
-        About { network: self, q: q.to_vec(), positions, columns, equations, shape }
+        let placed = RefCell::new(self.conformer.placed());
+        About { network: self, q: q.to_vec(), positions, columns, equations, shape, placed }
     }
 
     fn alphas(&self, positions: &[Point]) -> Vec<Point> {
         self.alphas.iter().map(|site| positions[*site]).collect()
-    }
-
-    fn alphas_at(&self, q: &[f64]) -> Vec<Point> {
-        let motions = self.linkage.motions(q);
-        let place = |site: &usize| {
-            let carried = &self.sites.sites[*site].carried;
-            motions[carried.body].apply(&carried.position)
-        };
-        self.alphas.iter().map(place).collect()
     }
 }
 
@@ -114,14 +106,23 @@ pub(super) struct About<'a> {
     /// What the springs and free torsions come to.
     equations: NormalEquations,
     shape: CentredPoints,
+    /// A conformation to be placed.
+    placed: RefCell<Placed>,
 }
 
 impl About<'_> {
+    /// Where the Cα are at a configuration.
+    fn alphas_at(&self, q: &[f64]) -> Vec<Point> {
+        let mut placed = self.placed.borrow_mut();
+        self.network.conformer.place(q, &mut placed);
+        (0..placed.len()).map(|residue| placed.ca.at(residue)).collect()
+    }
+
     /// The configuration a step away, and how far its shape is from here, Å.
     fn after(&self, step: impl Fn(usize) -> f64) -> (Vec<f64>, f64) {
         let turned = |(k, value): (usize, &f64)| math::wrap_angle(value + step(k));
         let q: Vec<f64> = self.q.iter().enumerate().map(turned).collect();
-        let length = CentredPoints::new(&self.network.alphas_at(&q)).rmsd(&self.shape);
+        let length = CentredPoints::new(&self.alphas_at(&q)).rmsd(&self.shape);
         (q, length)
     }
 
@@ -195,7 +196,7 @@ impl Elastic for Prepared<'_> {
         if draw.target.len() != q.len() || drawn.start >= drawn.end || drawn.end > alphas.len() {
             return None;
         }
-        let target = network.alphas_at(draw.target);
+        let target = self.about.alphas_at(draw.target);
         let is_whole = drawn.len() == alphas.len();
         let laid_by = || (0..alphas.len()).filter(|at| is_whole || !drawn.contains(at));
         let from: Vec<Point> = laid_by().map(|at| target[at]).collect();

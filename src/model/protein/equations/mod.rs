@@ -5,6 +5,7 @@
 
 mod cholesky;
 mod contacts;
+mod lines;
 mod normal;
 mod pulls;
 mod screws;
@@ -12,6 +13,7 @@ mod sites;
 
 pub use cholesky::{Factor, Symmetric};
 pub use contacts::{Contact, Contacts, Exceptions};
+pub use lines::{Line, add_lines};
 pub use normal::NormalEquations;
 pub use pulls::{POSE, Pull, add_pulls, columns};
 pub use screws::{Screw, distance_gradient, screws};
