@@ -6,7 +6,7 @@ use super::energy::{
 };
 use super::kinematics::Conformer;
 use super::motion::{Limits as MotionLimits, MotionScratch, MotionValidity, Profile, profile};
-use super::placed::Placed;
+use super::placed::{Placed, Site};
 use super::validity::{Counts, Limits, Obstacles, Screen, Violation};
 use super::{ENERGY, Protein};
 use crate::model::{Cost, Directed, Model, ModelScratch, NodeValue, Scratch, Validity};
@@ -128,7 +128,7 @@ impl ChainInEnergy {
 }
 
 fn alphas_of(placed: &Placed) -> Vec<Point> {
-    (0..placed.len()).map(|residue| placed.ca.at(residue)).collect()
+    (0..placed.len()).map(|residue| placed.at(Site::CA, residue)).collect()
 }
 
 /// The constraints of the source, and those of the target between residues that the source has, too.
