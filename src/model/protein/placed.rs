@@ -29,16 +29,16 @@ pub enum Site {
 }
 
 /// How many sites a residue has.
-pub const SITES: usize = 8;
+pub(super) const SITES: usize = 8;
 
 /// Where the middle of a residue is on the way from its CA to its C: about as far from N and CB as from O, so that all
 /// backbone atoms lie within 1.9 Å of it.
-pub const MIDDLE: f64 = 0.42;
+pub(super) const MIDDLE: f64 = 0.42;
 
 /// The sites of a residue, in the order of [`Site`]: x, y and z, Å, in the source's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct Row(pub [[f64; SITES]; 3]);
+pub(super) struct Row(pub [[f64; SITES]; 3]);
 
 impl Row {
     /// Puts a site somewhere.

@@ -1,6 +1,6 @@
 //! Whether a conformation keeps the rules: single precision says who may be too close, double precision who is.
 
-use super::known::{Shortcut, Window};
+use super::known::Shortcut;
 use super::pairs::{Counts, Flow, Obstacles, Violation};
 use super::rules::{Limits, Rules};
 use super::screen::Screen;

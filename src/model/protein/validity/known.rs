@@ -5,14 +5,14 @@
 //! i < j with i ≤ b and j ≥ a.
 //!
 //! The verdict is the one of a check from the beginning, to the last bit. Before a no coordinate has changed. After b
-//! distances have changed by rounding, which is below 10⁻⁷ Å for the longest chains that a problem may have (5000 residues, 10⁵ Å
-//! from the origin: sums of some thousand roundings of 10⁻¹¹ Å). Single precision passed over a pair only if it is farther apart
-//! than its rule asks by much more than that: [`Screen::margin`] is 64 ε (M² + M d + 1), of which rounding in
-//! single precision needs less than an eighth, and what is left is at least 10⁻⁶ Å². The few pairs that were not
-//! passed over are kept, and double precision looks at them again each time.
+//! distances have changed by rounding, by less than 2 · 10⁻⁷ Å in the longest chains that a problem may have: 5000 residues,
+//! 10⁵ Å from the origin, so some thousand roundings of 10⁻¹¹ Å. Single precision passed over a pair only if it is farther
+//! apart than its rule asks, and by more than that: of [`Screen::margin`], 64 ε (M² + M d + 1), rounding in single precision
+//! needs less than an eighth, and what is left is 3 · 10⁻⁶ Å² of half the square of a distance at least; the looser tests
+//! before it leave more. The few pairs that were not passed over are kept, and double precision looks at them again.
 //!
-//! Unlike the rest of a [`Screen`]'s memory this is no guess that a check would put right, so it has to be true: it is about one
-//! chain, which a [`Placed`] names that this chain's `place` made, and nobody else changed.
+//! Unlike the rest of a [`Screen`]'s memory this is no guess that a check would put right, so it has to be true. It is about
+//! one chain, which a [`Placed`] names that this chain's `place` made and nobody changed since.
 
 use super::pairs::Flow;
 use super::rules::Limits;
@@ -127,7 +127,7 @@ impl Screen {
         pairs.filter(|(i, j)| !window.has(*i, *j)).try_for_each(look)
     }
 
-    /// Remembers a conformation that is valid, after those pairs of a window that single precision did not pass over were looked at.
+    /// Remembers a conformation that is valid, those pairs of a window being the suspects that were looked at now.
     pub(super) fn know(&mut self, placed: &Placed, limits: &Limits, window: Window) {
         let (Some(chain), true) = (&placed.chain, self.is_taken) else {
             self.known = None;

@@ -1,7 +1,7 @@
 //! A conformation in single precision, by blocks of eight residues, to see quickly which pairs double precision has to look
 //! at.
 //!
-//! Coordinates are taken from the CA in the middle of the chain, the differences being formed in double precision. Of every
+//! Coordinates are taken from where the CA in the middle of the chain is, or was, the differences being formed in double precision. Of every
 //! point half its square is kept, s = |a|²/2, so that half the square of a distance is s_a + s_b − a·b: three products.
 //!
 //! Rounding never makes two points seem apart that are not. With ε = 2⁻²⁴, and all points within M of the origin: a
