@@ -38,8 +38,8 @@ impl<S: Simd> Lanes8<S> {
     }
 }
 
-/// What of a residue is looked at: a row of `Screen::near_blocks`, and of radii of balls.
-#[derive(Clone, Copy, PartialEq, Eq)]
+/// What of residues is looked at: the number of a list in `Screen::near_blocks`.
+#[derive(Clone, Copy)]
 enum Part {
     Middles,
     Sides,
