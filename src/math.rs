@@ -6,7 +6,7 @@
 //! (`clippy.toml` forbids the others).
 
 use fearless_simd::prelude::*;
-use fearless_simd::{f64x4, u64x4};
+use fearless_simd::{f64x8, u64x8};
 use std::f64::consts::{FRAC_2_PI, PI};
 
 /// One full turn, in radians.
@@ -48,9 +48,9 @@ pub fn atan2(y: f64, x: f64) -> f64 {
 /// The largest angle, in radians, that [`sin_cos`] takes.
 pub(crate) const SIN_COS_WITHIN: f64 = 2048.0;
 
-/// Sines and cosines of four angles in radians at once, for angles of at most [`SIN_COS_WITHIN`]; beyond, and for what is
+/// Sines and cosines of eight angles in radians at once, for angles of at most [`SIN_COS_WITHIN`]; beyond, and for what is
 /// no number, they are any numbers. The same bits with any lanes; other bits than [`sin`] and [`cos`] give, in the
-/// last place.
+/// last place. Eight, where processors do four at once, so that they need not wait for one result before the next.
 ///
 /// The angle is n π/2 + r with |r| ≤ π/4 (and a little). π/2 is taken off in two parts: the first has 41 bits, so that n times
 /// it is exact, n having at most 12; its difference to the angle is exact too. The second is rounded where it cannot be
@@ -58,12 +58,12 @@ pub(crate) const SIN_COS_WITHIN: f64 = 2048.0;
 /// over |r| ≤ π/4, off by less than 2⁻⁵⁸), and n says which of the two, and which sign. The error is below 1 unit in the last
 /// place, and below 2⁻⁹⁰ n near zeros, where units are smaller than that.
 #[inline(always)]
-pub(crate) fn sin_cos<S: Simd>(simd: S, angle: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
+pub(crate) fn sin_cos<S: Simd>(simd: S, angle: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
     // Added to a small number, this puts the nearest integer into the last bits.
     const LAST_BITS: f64 = 6_755_399_441_055_744.0;
     const HALF_PI_FIRST: f64 = 1.570_796_326_794_152_3;
     const HALF_PI_REST: f64 = 7.443_547_480_486_623e-13;
-    let number = |value: f64| f64x4::splat(simd, value);
+    let number = |value: f64| f64x8::splat(simd, value);
 
     let shifted = angle * number(FRAC_2_PI) + number(LAST_BITS);
     let n = shifted - number(LAST_BITS);
@@ -90,13 +90,13 @@ pub(crate) fn sin_cos<S: Simd>(simd: S, angle: f64x4<S>) -> (f64x4<S>, f64x4<S>)
     let cosine = most + (((number(1.0) - most) - half) + (z * z) * c);
 
     let quarter = shifted.to_bits();
-    let one = u64x4::splat(simd, 1);
-    let two = u64x4::splat(simd, 2);
+    let one = u64x8::splat(simd, 1);
+    let two = u64x8::splat(simd, 2);
     let is_odd = (quarter & one).simd_eq(one);
     let sine_sign = (quarter & two) << 62;
     let cosine_sign = ((quarter + one) & two) << 62;
-    let sines = f64x4::from_bits(is_odd.select(cosine, sine).to_bits() ^ sine_sign);
-    let cosines = f64x4::from_bits(is_odd.select(sine, cosine).to_bits() ^ cosine_sign);
+    let sines = f64x8::from_bits(is_odd.select(cosine, sine).to_bits() ^ sine_sign);
+    let cosines = f64x8::from_bits(is_odd.select(sine, cosine).to_bits() ^ cosine_sign);
     (sines, cosines)
 }
 
@@ -144,7 +144,7 @@ mod tests {
         let mut worst = 0.0f64;
         let mut look = |angle: f64| {
             let plain = Fallback::new();
-            let (sine, cosine) = sin_cos(plain, f64x4::splat(plain, angle));
+            let (sine, cosine) = sin_cos(plain, f64x8::splat(plain, angle));
             let (sine, cosine) = (sine[0], cosine[0]);
             // Near zeros the error is in units of numbers that are not as small.
             for (value, exact) in [(sine, sin(angle)), (cosine, cos(angle))] {
@@ -155,10 +155,11 @@ mod tests {
             }
             for lanes in Lanes::all() {
                 with_lanes!(lanes, simd => {
-                    let angles = f64x4::load_array(simd, [0.1, angle, 0.2, angle]);
+                    let angles = [0.1, angle, 0.2, 0.3, 0.4, 0.5, angle, 0.6];
+                    let angles = f64x8::load_array(simd, angles);
                     let (sines, cosines) = sin_cos(simd, angles);
                     assert_eq!(sines[1].to_bits(), sine.to_bits(), "{lanes:?}");
-                    assert_eq!(cosines[3].to_bits(), cosine.to_bits(), "{lanes:?}");
+                    assert_eq!(cosines[6].to_bits(), cosine.to_bits(), "{lanes:?}");
                 });
             }
         };

@@ -11,7 +11,7 @@ use super::linkage::Linkage;
 use super::motion::{
     EnergySteps, Limits as MotionLimits, MotionScratch, MotionValidity, Profile, profile,
 };
-use super::placed::Placed;
+use super::placed::{Placed, Site};
 use super::validity::{Counts, Limits, Obstacles, Screen, Violation};
 use super::{ENERGY, KT, Protein};
 use crate::model::{Cost, Directed, Elastic, Model, ModelScratch, NodeValue, Scratch, Validity};
@@ -142,7 +142,7 @@ fn network_of(protein: &Protein, linkage: &Linkage, conformer: &Conformer) -> Ne
 }
 
 fn alphas_of(placed: &Placed) -> Vec<Point> {
-    (0..placed.len()).map(|residue| placed.ca.at(residue)).collect()
+    (0..placed.len()).map(|residue| placed.at(Site::CA, residue)).collect()
 }
 
 /// The constraints of the source, and those of the target between residues that the source has, too.

@@ -1,85 +1,124 @@
 //! A conformation: where the atoms of every residue are.
+//!
+//! Positions stand residue by residue: a residue has eight [`Site`]s, and a [`Row`] has the eight x, the eight y and the eight z of
+//! these. Four residues are placed at once, each of which writes a row of its own; the rules and the energy
+//! look at many sites of few residues, so that what is needed at one time stands in one place.
 
 use crate::structure::Point;
+use std::sync::Arc;
 
-/// The coordinates of one kind of atom, by residue, Å.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Coordinates {
-    /// Along the first axis of the source's frame.
-    pub x: Vec<f64>,
-    /// Along the second.
-    pub y: Vec<f64>,
-    /// Along the third.
-    pub z: Vec<f64>,
+/// A point of a residue that rules and energies know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Site {
+    /// The amide nitrogen.
+    N,
+    /// The alpha carbon.
+    CA,
+    /// The carbonyl carbon.
+    C,
+    /// The carbonyl oxygen.
+    O,
+    /// The beta carbon; glycine's is its CA.
+    CB,
+    /// The amide hydrogen.
+    H,
+    /// The centroid of the side chain.
+    Centroid,
+    /// A point between CA and C near which all backbone atoms are, see [`MIDDLE`].
+    Middle,
 }
 
-impl Coordinates {
-    /// Of this many residues, all at the origin.
-    pub fn zeros(len: usize) -> Coordinates {
-        Coordinates { x: vec![0.0; len], y: vec![0.0; len], z: vec![0.0; len] }
-    }
+/// How many sites a residue has.
+pub(super) const SITES: usize = 8;
 
-    /// The number of residues.
-    pub fn len(&self) -> usize {
-        self.x.len()
-    }
+/// Where the middle of a residue is on the way from its CA to its C: about as far from N and CB as from O, so that all
+/// backbone atoms lie within 1.9 Å of it.
+pub(super) const MIDDLE: f64 = 0.42;
 
-    /// Whether there is no residue.
-    pub fn is_empty(&self) -> bool {
-        self.x.is_empty()
-    }
+/// The sites of a residue, in the order of [`Site`]: x, y and z, Å, in the source's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub(super) struct Row(pub [[f64; SITES]; 3]);
 
-    /// The position of a residue's atom.
-    #[inline(always)]
-    pub fn at(&self, residue: usize) -> Point {
-        Point::new(self.x[residue], self.y[residue], self.z[residue])
+impl Row {
+    /// Puts a site somewhere.
+    pub(super) fn put(&mut self, site: Site, position: &Point) {
+        for (axis, value) in self.0.iter_mut().zip(position.iter()) {
+            axis[site as usize] = *value;
+        }
     }
+}
 
-    /// Puts a residue's atom somewhere.
-    pub fn put(&mut self, residue: usize, position: &Point) {
-        self.x[residue] = position.x;
-        self.y[residue] = position.y;
-        self.z[residue] = position.z;
-    }
+/// Into how many parts a chain is cut, which are placed at once.
+pub(super) const SEGMENTS: usize = 4;
+
+/// Angles of turns with their sines and cosines: phi and then psi of one residue in each segment of the chain.
+#[derive(Clone, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub(super) struct Turn {
+    /// Radians.
+    pub angles: [f64; 2 * SEGMENTS],
+    /// Of `angles`.
+    pub sines: [f64; 2 * SEGMENTS],
+    /// Of `angles`.
+    pub cosines: [f64; 2 * SEGMENTS],
+}
+
+impl Turn {
+    /// Of angles that no turn has.
+    pub const UNKNOWN: Turn = Turn {
+        angles: [f64::INFINITY; 2 * SEGMENTS],
+        sines: [f64::NAN; 2 * SEGMENTS],
+        cosines: [f64::NAN; 2 * SEGMENTS],
+    };
 }
 
 /// The atoms of a conformation. What a residue lacks stands where its CA is, so that coordinates are always numbers:
 /// `has_cb`, `has_centroid` and `has_hydrogen` say what there is.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Placed {
-    /// The amide nitrogens.
-    pub n: Coordinates,
-    /// The alpha carbons.
-    pub ca: Coordinates,
-    /// The carbonyl carbons.
-    pub c: Coordinates,
-    /// The carbonyl oxygens.
-    pub o: Coordinates,
-    /// The beta carbons; glycine's is its CA.
-    pub cb: Coordinates,
-    /// The centroids of side chains.
-    pub centroid: Coordinates,
-    /// The amide hydrogens.
-    pub h: Coordinates,
+    /// By residue.
+    pub(super) rows: Vec<Row>,
     /// Which residues have a CB.
-    pub has_cb: Vec<bool>,
+    pub(super) has_cb: Vec<bool>,
     /// Which residues have a side chain.
-    pub has_centroid: Vec<bool>,
+    pub(super) has_centroid: Vec<bool>,
     /// Which residues have an amide hydrogen.
-    pub has_hydrogen: Vec<bool>,
-    /// What is computed on the way.
-    pub(super) turns: Vec<[[f64; 4]; 2]>,
+    pub(super) has_hydrogen: Vec<bool>,
+    /// The turns about its bonds when it was placed last. They are kept because the next conformation may differ in few.
+    pub(super) turns: Vec<Turn>,
+    /// The chain whose atoms stand where `turns` put them; `None` if some were put elsewhere.
+    pub(super) chain: Option<Arc<()>>,
 }
 
 impl Placed {
     /// The number of residues.
     pub fn len(&self) -> usize {
-        self.ca.len()
+        self.rows.len()
     }
 
     /// Whether there is no residue.
     pub fn is_empty(&self) -> bool {
-        self.ca.is_empty()
+        self.rows.is_empty()
+    }
+
+    /// The position of a residue's site, Å.
+    #[inline(always)]
+    pub fn at(&self, site: Site, residue: usize) -> Point {
+        let [x, y, z] = &self.rows[residue].0;
+        let site = site as usize;
+        Point::new(x[site], y[site], z[site])
+    }
+
+    /// Puts a residue's site somewhere, and with CA or C the middle between them.
+    pub fn put(&mut self, site: Site, residue: usize, position: &Point) {
+        self.chain = None;
+        let row = &mut self.rows[residue];
+        row.put(site, position);
+        for axis in &mut row.0 {
+            let (ca, c) = (axis[Site::CA as usize], axis[Site::C as usize]);
+            axis[Site::Middle as usize] = ca + MIDDLE * (c - ca);
+        }
     }
 
     /// Whether the residues of both lack the same atoms, so that one can be placed where the other was.
@@ -88,14 +127,10 @@ impl Placed {
             == (&other.has_cb, &other.has_centroid, &other.has_hydrogen)
     }
 
-    /// Fills it with what could mislead.
+    /// Fills it with what could mislead, and forgets what it knows.
     pub fn poison(&mut self) {
-        let Placed { n, ca, c, o, cb, centroid, h, .. } = self;
-        for kind in [n, ca, c, o, cb, centroid, h] {
-            [&mut kind.x, &mut kind.y, &mut kind.z]
-                .into_iter()
-                .for_each(|axis| axis.fill(f64::NAN));
-        }
-        self.turns.fill([[f64::NAN; 4]; 2]);
+        self.rows.fill(Row([[f64::NAN; SITES]; 3]));
+        self.turns.fill(Turn::UNKNOWN);
+        self.chain = None;
     }
 }

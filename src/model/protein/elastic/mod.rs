@@ -22,7 +22,7 @@ use super::equations::{
 };
 use super::kinematics::Conformer;
 use super::linkage::Linkage;
-use super::placed::Placed;
+use super::placed::{Placed, Site};
 use crate::math;
 use crate::model::{Draw, Elastic};
 use crate::structure::Point;
@@ -115,7 +115,7 @@ impl About<'_> {
     fn alphas_at(&self, q: &[f64]) -> Vec<Point> {
         let mut placed = self.placed.borrow_mut();
         self.network.conformer.place(q, &mut placed);
-        (0..placed.len()).map(|residue| placed.ca.at(residue)).collect()
+        (0..placed.len()).map(|residue| placed.at(Site::CA, residue)).collect()
     }
 
     /// The configuration a step away, and how far its shape is from here, Å.

@@ -7,7 +7,7 @@
 
 use crate::lanes::{Lanes, with_lanes};
 use crate::model::protein::KT;
-use crate::model::protein::placed::Placed;
+use crate::model::protein::placed::{Placed, Site};
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
@@ -102,10 +102,11 @@ impl Constraints {
         let apart = |constraint: &Constraint| {
             let Constraint { kind, first: i, second: j, distance } = *constraint;
             let (a, b) = match kind {
-                ConstraintKind::HydrogenBond => (&placed.h, &placed.o),
-                ConstraintKind::Disulphide => (&placed.centroid, &placed.centroid),
+                ConstraintKind::HydrogenBond => (Site::H, Site::O),
+                ConstraintKind::Disulphide => (Site::Centroid, Site::Centroid),
             };
-            [a.x[i] - b.x[j], a.y[i] - b.y[j], a.z[i] - b.z[j], distance]
+            let between = placed.at(a, i) - placed.at(b, j);
+            [between.x, between.y, between.z, distance]
         };
         for four in self.list.chunks(4) {
             // What is missing in the last four is at its native distance, and its term is 0.

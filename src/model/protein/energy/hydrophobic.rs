@@ -5,7 +5,7 @@
 
 use crate::lanes::{Lanes, with_lanes};
 use crate::model::protein::atoms::ResidueAtoms;
-use crate::model::protein::placed::Placed;
+use crate::model::protein::placed::{Placed, Site};
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
@@ -42,15 +42,15 @@ impl Hydrophobic {
 
     #[inline(always)]
     fn count<S: Simd>(&self, simd: S, placed: &Placed) -> usize {
-        let centroids = &placed.centroid;
         // By fours; behind the last one are no numbers, which are close to nothing.
         let fours = self.residues.len().div_ceil(LANES);
         let mut at = vec![[[f64::NAN; LANES]; 3]; fours];
         for (number, residue) in self.residues.iter().enumerate() {
             let (four, lane, residue) = (number / LANES, number % LANES, *residue as usize);
-            at[four][0][lane] = centroids.x[residue];
-            at[four][1][lane] = centroids.y[residue];
-            at[four][2][lane] = centroids.z[residue];
+            let centroid = placed.at(Site::Centroid, residue);
+            at[four][0][lane] = centroid.x;
+            at[four][1][lane] = centroid.y;
+            at[four][2][lane] = centroid.z;
         }
         let mut count = 0;
         for (number, residue) in self.residues.iter().enumerate() {

@@ -4,7 +4,7 @@ use crate::math;
 use crate::model::protein::chains::{Numbers, crooked, read};
 use crate::model::protein::kinematics::Conformer;
 use crate::model::protein::linkage::{Linkage, TorsionKind};
-use crate::model::protein::placed::Placed;
+use crate::model::protein::placed::{Placed, Site};
 use crate::structure::{Point, Residue};
 
 fn conformer(residues: &[Residue]) -> (Conformer, Linkage) {
@@ -33,9 +33,11 @@ fn constraints_are_summed_as_their_formula_says_and_to_the_same_bits_in_all_lane
         };
         let mut constraints = Constraints::new((0..count).map(constraint).collect());
         let of = |c: &Constraint| match c.kind {
-            ConstraintKind::HydrogenBond => placed.h.at(c.first) - placed.o.at(c.second),
+            ConstraintKind::HydrogenBond => {
+                placed.at(Site::H, c.first) - placed.at(Site::O, c.second)
+            }
             ConstraintKind::Disulphide => {
-                placed.centroid.at(c.first) - placed.centroid.at(c.second)
+                placed.at(Site::Centroid, c.first) - placed.at(Site::Centroid, c.second)
             }
         };
         let terms = constraints.list().iter().map(|c| term(of(c).norm(), c.distance));
@@ -62,7 +64,7 @@ fn hydrophobic_pairs_are_those_that_a_plain_count_finds() {
         let mut expected = 0;
         for i in (0..len).filter(|i| counts(*i)) {
             for j in (i + 2..len).filter(|j| counts(*j)) {
-                let distance = (placed.centroid.at(i) - placed.centroid.at(j)).norm();
+                let distance = (placed.at(Site::Centroid, i) - placed.at(Site::Centroid, j)).norm();
                 expected += usize::from(distance < 6.0);
             }
         }
@@ -94,8 +96,8 @@ fn union_and_intersection_take_common_constraints_once() {
     let (conformer, _) = conformer(&crooked(20, 2));
     let mut placed = conformer.placed();
     for i in 0..20 {
-        placed.h.put(i, &Point::new(0.0, 0.0, i as f64));
-        placed.o.put(i, &Point::new(2.0, 0.0, 2.0 * i as f64));
+        placed.put(Site::H, i, &Point::new(0.0, 0.0, i as f64));
+        placed.put(Site::O, i, &Point::new(2.0, 0.0, 2.0 * i as f64));
     }
     let bonds = |pairs: &[(usize, usize)]| {
         Constraints::new(pairs.iter().map(|(i, j)| Constraint::hydrogen_bond(*i, *j)).collect())

@@ -2,17 +2,18 @@
 //!
 //! Everything done with lanes must be inlined, closures too, to use wide instructions.
 
+use super::super::placed::SEGMENTS;
 use super::frames::Frame;
 use crate::structure::Point;
 use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 use std::ops::{Add, Mul, Sub};
 
-/// As many segments as there are lanes in a vector.
-pub(super) const SEGMENTS: usize = 4;
-
 /// A number of each segment.
 pub(super) type Four = [f64; SEGMENTS];
+
+/// A number of each segment for phi, and then one for psi.
+pub(super) type Eight = [f64; 2 * SEGMENTS];
 
 /// A vector of each segment, by coordinate.
 pub(super) type FourPoints = [Four; 3];
@@ -50,8 +51,9 @@ impl<S: Simd> Vectors<S> {
         }
     }
 
+    /// The vector of a lane.
     #[inline(always)]
-    fn lane(&self, lane: usize) -> Point {
+    pub fn lane(&self, lane: usize) -> Point {
         Point::new(self.x[lane], self.y[lane], self.z[lane])
     }
 }
@@ -119,8 +121,7 @@ impl<S: Simd> Frames<S> {
 
     /// Turns about the third vector.
     #[inline(always)]
-    pub fn turn(&mut self, simd: S, [sin, cos]: &[Four; 2]) {
-        let (sin, cos) = (f64x4::load_array_ref(simd, sin), f64x4::load_array_ref(simd, cos));
+    pub fn turn(&mut self, [sin, cos]: [f64x4<S>; 2]) {
         let (x, y) = (self.x, self.y);
         self.x = x * cos + y * sin;
         self.y = y * cos - x * sin;

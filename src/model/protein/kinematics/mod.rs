@@ -11,17 +11,20 @@ mod frames;
 
 use super::atoms::ResidueAtoms;
 use super::linkage::Linkage;
-use super::placed::{Coordinates, Placed};
+use super::placed::{Placed, Row, SITES};
 use crate::lanes::{Lanes, with_lanes};
 use crate::structure::Residue;
 use chain::Chain;
 use fearless_simd::prelude::*;
+use std::sync::Arc;
 
 /// A chain prepared for being placed at any configuration.
 #[derive(Clone, Debug)]
 pub struct Conformer {
     atoms: Vec<ResidueAtoms>,
     chain: Chain,
+    /// By which conformations of this chain are known.
+    name: Arc<()>,
     lanes: Lanes,
 }
 
@@ -30,7 +33,7 @@ impl Conformer {
     pub fn of(residues: &[Residue], linkage: &Linkage) -> Option<Conformer> {
         let atoms = ResidueAtoms::of(residues)?;
         let chain = Chain::new(&atoms, linkage)?;
-        Some(Conformer { atoms, chain, lanes: Lanes::widest() })
+        Some(Conformer { atoms, chain, name: Arc::new(()), lanes: Lanes::widest() })
     }
 
     /// The atoms of the source.
@@ -40,20 +43,14 @@ impl Conformer {
 
     /// A conformation of this chain to be filled by [`place`](Conformer::place).
     pub fn placed(&self) -> Placed {
-        let zeros = || Coordinates::zeros(self.atoms.len());
         let has = |what: fn(&ResidueAtoms) -> bool| self.atoms.iter().map(what).collect();
         Placed {
-            n: zeros(),
-            ca: zeros(),
-            c: zeros(),
-            o: zeros(),
-            cb: zeros(),
-            centroid: zeros(),
-            h: zeros(),
+            rows: vec![Row([[0.0; SITES]; 3]); self.atoms.len()],
             has_cb: has(|atoms| atoms.cb.is_some()),
             has_centroid: has(|atoms| atoms.centroid.is_some()),
             has_hydrogen: has(|atoms| atoms.hydrogen.is_some()),
             turns: Vec::new(),
+            chain: None,
         }
     }
 
@@ -64,6 +61,9 @@ impl Conformer {
             #[inline(always)]
             || self.chain.place(simd, q, out)
         ));
+        if !out.chain.as_ref().is_some_and(|chain| Arc::ptr_eq(chain, &self.name)) {
+            out.chain = Some(self.name.clone());
+        }
     }
 }
 

@@ -1,15 +1,13 @@
 use super::*;
 use crate::math;
 use crate::model::protein::chains::{Numbers, crooked, read};
+use crate::model::protein::placed::Site;
 use crate::structure::Point;
 use fearless_simd::Fallback;
 
 /// All coordinates of a conformation, in one order.
 fn bits(placed: &Placed) -> Vec<u64> {
-    let Placed { n, ca, c, o, cb, centroid, h, .. } = placed;
-    let kinds = [n, ca, c, o, cb, centroid, h];
-    let coordinates = kinds.iter().flat_map(|kind| [&kind.x, &kind.y, &kind.z]);
-    coordinates.flatten().map(|value| value.to_bits()).collect()
+    placed.rows.iter().flat_map(|row| row.0).flatten().map(f64::to_bits).collect()
 }
 
 /// The greatest distance of an atom from where the plain linkage puts it, Å.
@@ -23,13 +21,13 @@ fn off(conformer: &Conformer, linkage: &Linkage, q: &[f64]) -> f64 {
             let expected = motions[linkage.body(i, name)].apply(source);
             off = off.max((expected - at).norm());
         };
-        look("N", &atoms.n, placed.n.at(i));
-        look("CA", &atoms.ca, placed.ca.at(i));
-        look("C", &atoms.c, placed.c.at(i));
-        look("O", &atoms.o, placed.o.at(i));
-        look("CB", &atoms.cb.unwrap_or(atoms.ca), placed.cb.at(i));
-        look("CB", &atoms.centroid.unwrap_or(atoms.ca), placed.centroid.at(i));
-        look("H", &atoms.hydrogen.unwrap_or(atoms.ca), placed.h.at(i));
+        look("N", &atoms.n, placed.at(Site::N, i));
+        look("CA", &atoms.ca, placed.at(Site::CA, i));
+        look("C", &atoms.c, placed.at(Site::C, i));
+        look("O", &atoms.o, placed.at(Site::O, i));
+        look("CB", &atoms.cb.unwrap_or(atoms.ca), placed.at(Site::CB, i));
+        look("CB", &atoms.centroid.unwrap_or(atoms.ca), placed.at(Site::Centroid, i));
+        look("H", &atoms.hydrogen.unwrap_or(atoms.ca), placed.at(Site::H, i));
     }
     off
 }
@@ -97,6 +95,30 @@ fn lanes_and_what_was_there_before_change_no_bit() {
 }
 
 #[test]
+fn a_few_torsions_that_turn_give_the_bits_of_all() {
+    for len in [1, 6, 37] {
+        let residues = crooked(len, len as u64);
+        let linkage = Linkage::of(&residues).expect("it is whole");
+        let mut conformer = Conformer::of(&residues, &linkage).expect("it is whole");
+        let mut numbers = Numbers::new(8);
+        for lanes in Lanes::all() {
+            conformer.lanes = lanes;
+            let (mut kept, mut q) = (conformer.placed(), linkage.source());
+            for turned in [0, 1, 1, 1, 2, 3, q.len(), 1, 1] {
+                for _ in 0..turned.min(q.len()) {
+                    let torsion = (numbers.next() * q.len() as f64) as usize;
+                    q[torsion] += numbers.normal();
+                }
+                let mut placed = conformer.placed();
+                conformer.place(&q, &mut placed);
+                conformer.place(&q, &mut kept);
+                assert_eq!(bits(&kept), bits(&placed), "{turned} torsions, {lanes:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn torsions_that_are_no_numbers_are_no_panic() {
     let residues = crooked(9, 1);
     let linkage = Linkage::of(&residues).expect("it is whole");
@@ -105,7 +127,7 @@ fn torsions_that_are_no_numbers_are_no_panic() {
     for value in [f64::NAN, f64::INFINITY, f64::MAX] {
         conformer.place(&vec![value; linkage.torsions.len()], &mut placed);
     }
-    assert!(!placed.ca.x[5].is_nan(), "the largest number is an angle");
+    assert!(!placed.at(Site::CA, 5).x.is_nan(), "the largest number is an angle");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::chain::{Chain, STRIDE, Turning};
 use super::points::{Four, Points, cross, dot, minus, same};
 use super::straight::Straight;
-use crate::model::protein::placed::{Coordinates, Placed};
+use crate::model::protein::placed::{Placed, Site};
 use crate::structure::Point;
 use fearless_simd::prelude::*;
 use nalgebra::Matrix3;
@@ -127,23 +127,23 @@ impl Sample {
         self.frames.clear();
         let mut twist = Twist { spin: Point::zeros(), drift: Point::zeros() };
         for (residue, link) in chain.links.iter().enumerate() {
-            let at = |atoms: &Coordinates, residue| atoms.at(residue) - chain.origin;
-            let (n, alpha) = (at(&placed.n, residue), at(&placed.ca, residue));
-            let c = at(&placed.c, residue);
+            let at = |site, residue| placed.at(site, residue) - chain.origin;
+            let (n, alpha) = (at(Site::N, residue), at(Site::CA, residue));
+            let c = at(Site::C, residue);
             let velocity = twist.velocity(&alpha);
             self.put(residue, alpha, velocity);
             if residue % STRIDE == 0 {
                 let rotation = match residue.checked_sub(1) {
                     // What is before the first torsion stands still.
                     None => Matrix3::identity(),
-                    Some(before) => axes(&(alpha - n), &(at(&placed.c, before) - n)),
+                    Some(before) => axes(&(alpha - n), &(at(Site::C, before) - n)),
                 };
                 let spin = twist.spin;
                 self.frames.push(Frame { rotation, origin: alpha, velocity, spin });
             }
             twist.pass(&link.phi, motion, alpha - n, &alpha);
             if let Some(point) = chain.side_chain(residue) {
-                let centroid = at(&placed.centroid, residue);
+                let centroid = at(Site::Centroid, residue);
                 self.put(point, centroid, twist.velocity(&centroid));
             }
             twist.pass(&link.psi, motion, c - alpha, &alpha);

@@ -1,5 +1,6 @@
 //! Whether a conformation keeps the rules: single precision says who may be too close, double precision who is.
 
+use super::known::Shortcut;
 use super::pairs::{Counts, Flow, Obstacles, Violation};
 use super::rules::{Limits, Rules};
 use super::screen::Screen;
@@ -8,36 +9,49 @@ use crate::model::protein::placed::Placed;
 use fearless_simd::prelude::*;
 
 impl Limits {
-    /// Calls `each` for every violation, in an order that is the same everywhere, but no one's wish.
+    /// Calls `each` for every violation that a shortcut does not leave out, in an order that is the same everywhere, but no one's
+    /// wish.
     fn visit(
         &self,
         placed: &Placed,
         obstacles: &Obstacles,
         screen: &mut Screen,
+        Shortcut { window, from }: Shortcut,
         each: &mut dyn FnMut(Violation) -> Flow,
     ) -> Flow {
         let len = placed.len();
+        let mut suspects = std::mem::take(&mut screen.suspects);
+        suspects.clear();
         with_lanes!(screen.lanes, simd => simd.vectorize(
             #[inline(always)]
             || {
-                if !screen.take(simd, placed) {
+                screen.is_taken = screen.take(simd, placed, from);
+                if !screen.is_taken {
                     return self.of_all(placed, &Obstacles::default(), each);
                 }
-                // Both closures need `each`; only one of them runs at a time.
-                let each = std::cell::RefCell::new(&mut *each);
+                // Both closures need these; only one of them runs at a time.
+                let both = std::cell::RefCell::new((&mut *each, &mut suspects));
                 screen.suspects(
                     simd,
                     self,
-                    &mut |pair| self.of_backbones(placed, pair, *each.borrow_mut()),
+                    window,
+                    &mut |pair| {
+                        let (each, suspects) = &mut *both.borrow_mut();
+                        suspects.push((pair.0 as u32, pair.1 as u32));
+                        self.of_backbones(placed, pair, each)
+                    },
                     &mut |pair: (usize, usize)| {
                         if pair.1 >= len {
                             return Flow::Continue(());
                         }
-                        self.of_side_chains(placed, pair, *each.borrow_mut())
+                        let (each, suspects) = &mut *both.borrow_mut();
+                        suspects.push((pair.0 as u32, pair.1 as u32));
+                        self.of_side_chains(placed, pair, each)
                     },
                 )
             }
         ))?;
+        screen.suspects = suspects;
         for residue in 0..if obstacles.points.is_empty() { 0 } else { len } {
             for obstacle in obstacles.points.iter().enumerate() {
                 self.of_obstacle(placed, residue, obstacle, each)?;
@@ -46,15 +60,27 @@ impl Limits {
         Flow::Continue(())
     }
 
-    /// Whether no rule is violated.
+    /// Whether no rule is violated. The screen remembers the last conformation for which this was so: one that differs from
+    /// it in torsions that are near one another is checked in less time.
     pub fn is_valid(&self, placed: &Placed, obstacles: &Obstacles, screen: &mut Screen) -> bool {
-        self.visit(placed, obstacles, screen, &mut Flow::Break).is_continue()
+        let shortcut = screen.shortcut(placed, self);
+        let window = shortcut.window;
+        let again = screen.look_again(window, &mut |pair| {
+            self.of_backbones(placed, pair, &mut Flow::Break)?;
+            self.of_side_chains(placed, pair, &mut Flow::Break)
+        });
+        let is_valid = again.is_continue()
+            && self.visit(placed, obstacles, screen, shortcut, &mut Flow::Break).is_continue();
+        if is_valid {
+            screen.know(placed, self, window);
+        }
+        is_valid
     }
 
     /// How many pairs violate each rule; every rule is run to its end.
     pub fn count(&self, placed: &Placed, obstacles: &Obstacles, screen: &mut Screen) -> Counts {
-        let mut counts = Counts::default();
-        let _ = self.visit(placed, obstacles, screen, &mut |violation| {
+        let (mut counts, everything) = (Counts::default(), screen.everything());
+        let _ = self.visit(placed, obstacles, screen, everything, &mut |violation| {
             counts.add(violation.rule);
             Flow::Continue(())
         });

@@ -1,6 +1,7 @@
 //! Which conformations are possible: no two parts of the chain are too close.
 
 mod check;
+mod known;
 mod list;
 mod near;
 mod pairs;

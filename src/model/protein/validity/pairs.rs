@@ -1,7 +1,7 @@
 //! The rules pair by pair: what they say of every pair of atoms, and who violates them.
 
 use super::rules::Limits;
-use crate::model::protein::placed::{Coordinates, Placed};
+use crate::model::protein::placed::{Placed, Site};
 use crate::structure::Point;
 use std::ops::ControlFlow;
 
@@ -98,11 +98,14 @@ pub(super) fn square(a: &Point, b: &Point) -> f64 {
     x * x + y * y + z * z
 }
 
-/// The backbone atoms of a conformation, CB among them.
-pub(super) fn backbone(placed: &Placed) -> [(Atom, &Coordinates); 5] {
-    let Placed { n, ca, c, o, cb, .. } = placed;
-    [(Atom::N, n), (Atom::CA, ca), (Atom::C, c), (Atom::O, o), (Atom::CB, cb)]
-}
+/// The backbone atoms of a residue, CB among them.
+const BACKBONE: [(Atom, Site); 5] = [
+    (Atom::N, Site::N),
+    (Atom::CA, Site::CA),
+    (Atom::C, Site::C),
+    (Atom::O, Site::O),
+    (Atom::CB, Site::CB),
+];
 
 /// Everybody who looks at violations: goes on, or not.
 pub(super) type Flow = ControlFlow<Violation>;
@@ -126,11 +129,11 @@ impl Limits {
             }
             each(Violation { rule, first: (i, one), second: (j, other), distance: square.sqrt() })
         };
-        let (a, b) = (placed.ca.at(i), placed.ca.at(j));
+        let (a, b) = (placed.at(Site::CA, i), placed.at(Site::CA, j));
         test(Rule::AlphaCarbons, self.alpha_carbons, Atom::CA, &a, Atom::CA, &b)?;
         let is_lacking = |atom, residue: usize| atom == Atom::CB && !placed.has_cb[residue];
-        for (one, a) in backbone(placed) {
-            for (other, b) in backbone(placed) {
+        for (one, a) in BACKBONE {
+            for (other, b) in BACKBONE {
                 if is_lacking(one, i) || is_lacking(other, j) {
                     continue;
                 }
@@ -140,7 +143,7 @@ impl Limits {
                     }
                     _ => (Rule::Backbone, self.backbone),
                 };
-                test(rule, least, one, &a.at(i), other, &b.at(j))?;
+                test(rule, least, one, &placed.at(a, i), other, &placed.at(b, j))?;
             }
         }
         Flow::Continue(())
@@ -157,7 +160,7 @@ impl Limits {
         if least <= 0.0 || !placed.has_centroid[i] || !placed.has_centroid[j] {
             return Flow::Continue(());
         }
-        let square = square(&placed.centroid.at(i), &placed.centroid.at(j));
+        let square = square(&placed.at(Site::Centroid, i), &placed.at(Site::Centroid, j));
         if square >= least * least {
             return Flow::Continue(());
         }
@@ -181,14 +184,14 @@ impl Limits {
             let second = (number, Atom::Obstacle);
             each(Violation { rule, first: (residue, atom), second, distance: square.sqrt() })
         };
-        for (atom, at) in backbone(placed) {
-            let at = at.at(residue);
+        for (atom, site) in BACKBONE {
+            let at = placed.at(site, residue);
             if atom != Atom::CB || placed.has_cb[residue] {
                 test(Rule::ObstacleBackbone, self.obstacle_backbone, atom, &at)?;
             }
         }
         if placed.has_centroid[residue] {
-            let at = placed.centroid.at(residue);
+            let at = placed.at(Site::Centroid, residue);
             test(Rule::ObstacleSideChains, self.obstacle_side_chains, Atom::SideChain, &at)?;
         }
         Flow::Continue(())

@@ -1,7 +1,7 @@
 //! A conformation in single precision, by blocks of eight residues, to see quickly which pairs double precision has to look
 //! at.
 //!
-//! Coordinates are taken from the CA in the middle of the chain, the differences being formed in double precision. Of every
+//! Coordinates are taken from where the CA in the middle of the chain is, or was, the differences being formed in double precision. Of every
 //! point half its square is kept, s = |a|²/2, so that half the square of a distance is s_a + s_b − a·b: three products.
 //!
 //! Rounding never makes two points seem apart that are not. With ε = 2⁻²⁴, and all points within M of the origin: a
@@ -9,9 +9,10 @@
 //! 3 ε M²/2 at most; the sum of products, each partial sum of which is below 3 M²/2, by 5 ε M². So [`Screen::margin`], 64 ε (M² + M d + 1), is more than all of it. Products and sums may be fused, which rounds
 //! less often.
 
-use super::list::List;
+use super::known::Known;
+use super::list::{List, Tiles};
 use crate::lanes::Lanes;
-use crate::model::protein::placed::{Coordinates, Placed};
+use crate::model::protein::placed::{Placed, Row, SITES, Site};
 use crate::structure::Point;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x8, f64x4};
@@ -23,11 +24,10 @@ const LARGEST: f32 = 1e20;
 pub(super) const BLOCK: usize = 8;
 
 /// Half the square of what is not there: farther than all else, and yet no sum of it overflows.
-const FAR: f32 = 1e30;
+pub(super) const FAR: f32 = 1e30;
 
-/// Where the middle of a residue is on the way from its CA to its C: about as far from N and CB as from O, so that all
-/// backbone atoms lie within 1.9 Å of it.
-const MIDDLE: f32 = 0.42;
+/// How many of the sites of a residue are backbone atoms: N, CA, C, O and CB.
+pub(super) const BACKBONE: usize = 5;
 
 /// Coordinates of eight points and half their squares.
 pub(super) type Points = [[f32; BLOCK]; 4];
@@ -42,7 +42,7 @@ pub(super) struct Block {
     pub sides: Points,
 }
 
-/// The backbone atoms of a residue, N, CA, C, O and four times CB.
+/// The sites of a residue, in the order of [`Site`]: the first [`BACKBONE`] are its backbone atoms.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(super) struct Atoms(pub Points);
@@ -61,12 +61,21 @@ pub struct Screen {
     pub(super) alpha_reach: f32,
     /// No point is farther than this from the origin, Å.
     pub(super) extent: f32,
+    /// Where the origin is, in the source's frame.
+    pub(super) origin: Point,
+    /// Of all blocks up to each, by the sites of a residue: the greatest square of a distance from the middle, the greatest half
+    /// of a square, and the sum of these.
+    pub(super) totals: Vec<[[f32; SITES]; 3]>,
     /// Pairs of blocks whose middles may be close, and of those whose side chains may be.
     pub(super) near_blocks: [List; 2],
-    /// Blocks, and residues before them or in them that may be close to one of theirs.
-    pub(super) rows: List,
     /// Pairs of residues i < j whose backbones may be close.
-    pub(super) near: List,
+    pub(super) tiles: Tiles,
+    /// The conformation that was valid last.
+    pub(super) known: Option<Known>,
+    /// Whether the last conformation was taken.
+    pub(super) is_taken: bool,
+    /// Pairs of residues that double precision looked at.
+    pub(super) suspects: Vec<(u32, u32)>,
 }
 
 impl Default for Screen {
@@ -79,9 +88,13 @@ impl Default for Screen {
             reach: 0.0,
             alpha_reach: 0.0,
             extent: 0.0,
+            origin: Point::zeros(),
+            totals: Vec::new(),
             near_blocks: Default::default(),
-            rows: List::default(),
-            near: List::default(),
+            tiles: Tiles::default(),
+            known: None,
+            is_taken: false,
+            suspects: Vec::new(),
         }
     }
 }
@@ -95,29 +108,18 @@ struct Eight<S: Simd> {
     half: f32x8<S>,
 }
 
-/// Eight numbers of a slice from an origin; behind its end the last one.
+/// Eight numbers from an origin.
 #[inline(always)]
-fn eight<S: Simd>(simd: S, from: &[f64], block: usize, origin: f64) -> f32x8<S> {
-    let origin = f64x4::splat(simd, origin);
-    let rest;
-    let eight = if let Some(whole) = from.as_chunks::<BLOCK>().0.get(block) {
-        whole
-    } else {
-        let last = from.len() - 1;
-        rest = std::array::from_fn(|lane| from[(block * BLOCK + lane).min(last)]);
-        &rest
-    };
-    let (low, high) = (f64x4::from_slice(simd, &eight[..4]), f64x4::from_slice(simd, &eight[4..]));
+fn eight<S: Simd>(simd: S, from: &[f64; SITES], origin: f64x4<S>) -> f32x8<S> {
+    let (low, high) = (f64x4::from_slice(simd, &from[..4]), f64x4::from_slice(simd, &from[4..]));
     (low - origin).narrow(high - origin)
 }
 
 impl<S: Simd> Eight<S> {
     #[inline(always)]
-    fn load(simd: S, from: &Coordinates, block: usize, origin: &Point) -> Eight<S> {
-        let x = eight(simd, &from.x, block, origin.x);
-        let y = eight(simd, &from.y, block, origin.y);
-        let z = eight(simd, &from.z, block, origin.z);
-        Eight::new(simd, x, y, z)
+    fn of_row(simd: S, Row([x, y, z]): &Row, origin: &[f64x4<S>; 3]) -> Eight<S> {
+        let [x0, y0, z0] = *origin;
+        Eight::new(simd, eight(simd, x, x0), eight(simd, y, y0), eight(simd, z, z0))
     }
 
     #[inline(always)]
@@ -143,28 +145,30 @@ impl<S: Simd> Eight<S> {
     }
 }
 
-/// Columns of four numbers become rows.
+/// Of four rows of four, the last two columns.
 #[inline(always)]
-fn rows<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
-    let (odd, even) = (a.zip_low(c), b.zip_low(d));
-    let (first, second) = (odd.zip_low(even), odd.zip_high(even));
+fn last_two<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 2] {
     let (odd, even) = (a.zip_high(c), b.zip_high(d));
-    [first, second, odd.zip_low(even), odd.zip_high(even)]
+    [odd.zip_low(even), odd.zip_high(even)]
 }
 
-/// Gives each of eight residues one coordinate of its atoms, N, CA, C, O and CB.
+/// Of one coordinate of eight residues: that of their centroids, and that of their middles.
 #[inline(always)]
-fn deal<S: Simd>(simd: S, atoms: &mut [Atoms], axis: usize, kinds: [f32x8<S>; 5]) {
-    let [n, ca, c, o, cb] = kinds;
-    let ((n, n2), (ca, ca2), (c, c2), (o, o2)) = (n.split(), ca.split(), c.split(), o.split());
-    let (low, high) = (rows([n, ca, c, o]), rows([n2, ca2, c2, o2]));
-    let cb = cb.to_array();
-    for (lane, atoms) in atoms.iter_mut().take(BLOCK).enumerate() {
-        let four = if lane < 4 { low[lane % 4] } else { high[lane % 4] };
-        let to = &mut atoms.0[axis];
-        four.store_slice(&mut to[..4]);
-        f32x4::splat(simd, cb[lane]).store_slice(&mut to[4..]);
-    }
+fn ends<S: Simd>(simd: S, [a, b, c, d, e, f, g, h]: [f32x8<S>; BLOCK]) -> [f32x8<S>; 2] {
+    let (a, b, c, d) = (a.split().1, b.split().1, c.split().1, d.split().1);
+    let (e, f, g, h) = (e.split().1, f.split().1, g.split().1, h.split().1);
+    let [centroids, middles] = last_two([a, b, c, d]);
+    let [centroids2, middles2] = last_two([e, f, g, h]);
+    [simd.combine_f32x4(centroids, centroids2), simd.combine_f32x4(middles, middles2)]
+}
+
+/// The last of eight numbers, eight times.
+#[inline(always)]
+fn last<S: Simd>(simd: S, of: f32x8<S>) -> f32x8<S> {
+    let four = of.split().1;
+    let two = four.zip_high(four);
+    let one = two.zip_high(two);
+    simd.combine_f32x4(one, one)
 }
 
 impl Screen {
@@ -174,22 +178,25 @@ impl Screen {
         (far * far + far * distance.max(1.0) + 1.0) * (64.0 / (1u32 << 24) as f32)
     }
 
-    /// Fills it with what could mislead.
+    /// Fills it with what could mislead, and forgets what it knows.
     pub(in crate::model::protein) fn poison(&mut self) {
         let nonsense = Block { middles: [[0.0; BLOCK]; 4], sides: [[f32::NAN; BLOCK]; 4] };
         self.blocks.fill(nonsense);
         self.atoms.fill(Atoms([[0.0; BLOCK]; 4]));
         self.balls.fill([[f32::NAN; BLOCK]; 5]);
         (self.reach, self.alpha_reach, self.extent) = (f32::NAN, f32::NAN, f32::NAN);
-        let [middles, sides] = &mut self.near_blocks;
-        for list in [middles, sides, &mut self.rows, &mut self.near] {
-            list.poison();
-        }
+        self.near_blocks.iter_mut().for_each(List::poison);
+        self.tiles.poison();
+        self.totals.fill([[f32::NAN; SITES]; 3]);
+        self.origin.fill(f64::NAN);
+        self.known = None;
+        self.suspects.fill((u32::MAX, u32::MAX));
     }
 
-    /// Takes a conformation; false if it is none, or too large for single precision.
+    /// Takes a conformation; false if it is none, or too large for single precision. Residues before `from` are as
+    /// when the last one was taken.
     #[inline(always)]
-    pub(super) fn take<S: Simd>(&mut self, simd: S, placed: &Placed) -> bool {
+    pub(super) fn take<S: Simd>(&mut self, simd: S, placed: &Placed, from: usize) -> bool {
         let len = placed.len();
         let count = len.div_ceil(BLOCK);
         if len == 0 || len > usize::from(u16::MAX) {
@@ -199,39 +206,46 @@ impl Screen {
         self.blocks.resize(count, Block { middles: nothing, sides: nothing });
         self.atoms.resize(count * BLOCK, Atoms(nothing));
         self.balls.resize(count.div_ceil(BLOCK), [[0.0; BLOCK]; 5]);
-        let origin = placed.ca.at(len / 2);
+        self.totals.resize(count, [[0.0; SITES]; 3]);
+        let from = from / BLOCK;
+        if from == 0 {
+            self.origin = placed.at(Site::CA, len / 2);
+        }
+        let origin = self.origin;
+        let number = |axis: f64| f64x4::splat(simd, axis);
+        let origin = [number(origin.x), number(origin.y), number(origin.z)];
         let zero = f32x8::splat(simd, 0.0);
-        let (mut reach, mut alpha_reach, mut extent, mut sum) = (zero, zero, zero, zero);
-        for number in 0..count {
-            let n = Eight::load(simd, &placed.n, number, &origin);
-            let ca = Eight::load(simd, &placed.ca, number, &origin);
-            let c = Eight::load(simd, &placed.c, number, &origin);
-            let o = Eight::load(simd, &placed.o, number, &origin);
-            let cb = Eight::load(simd, &placed.cb, number, &origin);
-            let side = Eight::load(simd, &placed.centroid, number, &origin);
-            let part = f32x8::splat(simd, MIDDLE);
-            let middle = Eight::new(
-                simd,
-                (c.x - ca.x).mul_add(part, ca.x),
-                (c.y - ca.y).mul_add(part, ca.y),
-                (c.z - ca.z).mul_add(part, ca.z),
-            );
-
-            let at = [middle.x, middle.y, middle.z];
-            let alphas = ca.squares(at);
-            alpha_reach = alpha_reach.max(alphas);
-            reach = reach.max(n.squares(at)).max(alphas).max(c.squares(at));
-            reach = reach.max(o.squares(at)).max(cb.squares(at));
-            extent = extent.max(n.half).max(ca.half).max(c.half);
-            extent = extent.max(o.half).max(cb.half).max(side.half);
-            // A maximum may pass over what is no number; a sum does not.
-            sum += (n.half + ca.half) + (c.half + o.half) + (cb.half + side.half);
-
+        let (mut reach, mut extent, mut sum) = (zero, zero, zero);
+        if let Some(before) = from.checked_sub(1) {
+            let before = &self.totals[before];
+            reach = f32x8::load_array_ref(simd, &before[0]);
+            extent = f32x8::load_array_ref(simd, &before[1]);
+            sum = f32x8::load_array_ref(simd, &before[2]);
+        }
+        for number in from..count {
             let atoms = &mut self.atoms[number * BLOCK..][..BLOCK];
-            deal(simd, atoms, 0, [n.x, ca.x, c.x, o.x, cb.x]);
-            deal(simd, atoms, 1, [n.y, ca.y, c.y, o.y, cb.y]);
-            deal(simd, atoms, 2, [n.z, ca.z, c.z, o.z, cb.z]);
-            deal(simd, atoms, 3, [n.half, ca.half, c.half, o.half, cb.half]);
+            let [mut xs, mut ys, mut zs] = [[zero; BLOCK]; 3];
+            for (lane, atoms) in atoms.iter_mut().enumerate() {
+                // Behind the end of the chain is the last residue.
+                let row = &placed.rows[(number * BLOCK + lane).min(len - 1)];
+                let sites = Eight::of_row(simd, row, &origin);
+                sites.store(&mut atoms.0);
+                let middle = [last(simd, sites.x), last(simd, sites.y), last(simd, sites.z)];
+                reach = reach.max(sites.squares(middle));
+                extent = extent.max(sites.half);
+                // A maximum may pass over what is no number; a sum does not.
+                sum += sites.half;
+                (xs[lane], ys[lane], zs[lane]) = (sites.x, sites.y, sites.z);
+            }
+            let totals = &mut self.totals[number];
+            reach.store_array(&mut totals[0]);
+            extent.store_array(&mut totals[1]);
+            sum.store_array(&mut totals[2]);
+            let [side_x, middle_x] = ends(simd, xs);
+            let [side_y, middle_y] = ends(simd, ys);
+            let [side_z, middle_z] = ends(simd, zs);
+            let middle = Eight::new(simd, middle_x, middle_y, middle_z);
+            let side = Eight::new(simd, side_x, side_y, side_z);
 
             let block = &mut self.blocks[number];
             middle.store(&mut block.middles);
@@ -256,8 +270,10 @@ impl Screen {
                 }
             }
         }
-        self.reach = reach.reduce_max().sqrt();
-        self.alpha_reach = alpha_reach.reduce_max().sqrt();
+        let squares = reach.to_array();
+        self.reach =
+            squares[..BACKBONE].iter().fold(0.0, |most: f32, square| most.max(*square)).sqrt();
+        self.alpha_reach = squares[Site::CA as usize].sqrt();
         self.extent = (2.0 * extent.reduce_max()).sqrt();
         sum.reduce_sum() < LARGEST
     }

@@ -4,7 +4,7 @@ use crate::lanes::Lanes;
 use crate::model::protein::chains::{Numbers, crooked, read};
 use crate::model::protein::kinematics::Conformer;
 use crate::model::protein::linkage::Linkage;
-use crate::model::protein::placed::Placed;
+use crate::model::protein::placed::{Placed, Site};
 use crate::structure::{Point, Residue};
 
 fn conformer(residues: &[Residue]) -> (Conformer, Linkage) {
@@ -28,13 +28,13 @@ fn apart(len: usize) -> Placed {
     let mut placed = conformer.placed();
     for i in 0..len {
         let x = 10.0 * i as f64;
-        placed.n.put(i, &Point::new(x - 1.4, 0.0, 0.0));
-        placed.ca.put(i, &Point::new(x, 0.0, 0.0));
-        placed.c.put(i, &Point::new(x + 1.4, 0.0, 0.0));
-        placed.o.put(i, &Point::new(x + 1.4, 1.2, 0.0));
-        placed.cb.put(i, &Point::new(x, 0.0, 1.5));
-        placed.centroid.put(i, &Point::new(x, 0.0, 3.0));
-        placed.h.put(i, &Point::new(x - 1.4, -1.0, 0.0));
+        placed.put(Site::N, i, &Point::new(x - 1.4, 0.0, 0.0));
+        placed.put(Site::CA, i, &Point::new(x, 0.0, 0.0));
+        placed.put(Site::C, i, &Point::new(x + 1.4, 0.0, 0.0));
+        placed.put(Site::O, i, &Point::new(x + 1.4, 1.2, 0.0));
+        placed.put(Site::CB, i, &Point::new(x, 0.0, 1.5));
+        placed.put(Site::Centroid, i, &Point::new(x, 0.0, 3.0));
+        placed.put(Site::H, i, &Point::new(x - 1.4, -1.0, 0.0));
     }
     placed.has_cb.fill(true);
     placed.has_centroid.fill(true);
@@ -59,16 +59,16 @@ fn every_rule_finds_its_pair_and_can_be_switched_off() {
     let away = Point::new(-50.0, -50.0, -50.0);
 
     let mut placed = apart(40);
-    placed.ca.put(21, &(placed.ca.at(3) + Point::new(0.0, -2.9, 0.0)));
+    placed.put(Site::CA, 21, &(placed.at(Site::CA, 3) + Point::new(0.0, -2.9, 0.0)));
     violates(&placed, Rule::AlphaCarbons, [(3, Atom::CA), (21, Atom::CA)], |rules| {
         rules.alpha_carbons = 0.0;
     });
     // Within two residues of one another two CA are as close as they like.
-    placed.ca.put(21, &(placed.ca.at(23) + Point::new(0.0, -2.9, 0.0)));
+    placed.put(Site::CA, 21, &(placed.at(Site::CA, 23) + Point::new(0.0, -2.9, 0.0)));
     assert_eq!(Rules::default().first_violation(&placed), None);
 
     let mut placed = apart(40);
-    placed.centroid.put(9, &(placed.centroid.at(8) + Point::new(0.0, 2.3, 0.0)));
+    placed.put(Site::Centroid, 9, &(placed.at(Site::Centroid, 8) + Point::new(0.0, 2.3, 0.0)));
     violates(&placed, Rule::SideChains, [(8, Atom::SideChain), (9, Atom::SideChain)], |rules| {
         rules.side_chains = 0.0;
     });
@@ -76,15 +76,15 @@ fn every_rule_finds_its_pair_and_can_be_switched_off() {
     assert_eq!(Rules::default().first_violation(&placed), None);
 
     let mut placed = apart(40);
-    placed.o.put(12, &(placed.n.at(30) + Point::new(-2.35, 0.0, 0.0)));
+    placed.put(Site::O, 12, &(placed.at(Site::N, 30) + Point::new(-2.35, 0.0, 0.0)));
     violates(&placed, Rule::NitrogenOxygen, [(12, Atom::O), (30, Atom::N)], |rules| {
         rules.nitrogen_oxygen = 0.0;
     });
-    placed.o.put(12, &(placed.n.at(30) + Point::new(-2.45, 0.0, 0.0)));
+    placed.put(Site::O, 12, &(placed.at(Site::N, 30) + Point::new(-2.45, 0.0, 0.0)));
     assert_eq!(Rules::default().first_violation(&placed), None);
 
     let mut placed = apart(40);
-    placed.cb.put(39, &(placed.cb.at(0) + Point::new(0.0, -2.5, 0.0)));
+    placed.put(Site::CB, 39, &(placed.at(Site::CB, 0) + Point::new(0.0, -2.5, 0.0)));
     violates(&placed, Rule::Backbone, [(0, Atom::CB), (39, Atom::CB)], |rules| {
         rules.backbone = 0.0;
     });
@@ -100,11 +100,11 @@ fn every_rule_finds_its_pair_and_can_be_switched_off() {
     let limits = Rules::default().at_nodes();
     let obstacle = |point: Point| Obstacles { points: vec![away, point] };
     let (placed, screen) = (apart(40), &mut Screen::default());
-    let by_backbone = obstacle(placed.o.at(17) + Point::new(0.0, 2.5, 0.0));
+    let by_backbone = obstacle(placed.at(Site::O, 17) + Point::new(0.0, 2.5, 0.0));
     let found = limits.first_violation(&placed, &by_backbone, screen).expect("it is close");
     assert_eq!((found.rule, found.first), (Rule::ObstacleBackbone, (17, Atom::O)));
     assert_eq!(found.second, (1, Atom::Obstacle));
-    let by_side = obstacle(placed.centroid.at(5) + Point::new(0.0, 0.0, 2.3));
+    let by_side = obstacle(placed.at(Site::Centroid, 5) + Point::new(0.0, 0.0, 2.3));
     let found = limits.first_violation(&placed, &by_side, screen).expect("it is close");
     assert_eq!((found.rule, found.first), (Rule::ObstacleSideChains, (5, Atom::SideChain)));
     let none = Rules::none().at_nodes();
@@ -154,6 +154,113 @@ fn single_precision_overlooks_no_violation() {
     assert!(violations > 1_500, "{violations} are few to try it on");
 }
 
+/// These rules, all distances multiplied by the greatest factor with which a conformation keeps them: two atoms are then as close
+/// as they may be.
+fn just_kept(placed: &Placed, limits: &Limits) -> Limits {
+    let times = |factor: f64| Limits {
+        alpha_carbons: limits.alpha_carbons * factor,
+        side_chains: limits.side_chains * factor,
+        nitrogen_oxygen: limits.nitrogen_oxygen * factor,
+        backbone: limits.backbone * factor,
+        ..*limits
+    };
+    let (mut low, mut high) = (0.0, 4.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        let counts = plain(&times(middle), placed, &Obstacles::default());
+        (low, high) = if counts.total() == 0 { (middle, high) } else { (low, middle) };
+    }
+    times(low)
+}
+
+/// Walks from a configuration by steps of few torsions, or of all, and holds each verdict against what every pair says. How many
+/// steps a check knew to be of few torsions, and how many of these led to valid conformations.
+fn walk(
+    (conformer, limits): (&Conformer, &Limits),
+    start: &[f64],
+    steps: usize,
+    numbers: &mut Numbers,
+) -> (usize, usize) {
+    let (mut short, mut valid) = (0, 0);
+    let none = Obstacles::default();
+    for lanes in Lanes::all() {
+        let (mut placed, mut screen) = (conformer.placed(), Screen { lanes, ..Screen::default() });
+        let mut q = start.to_vec();
+        for step in 0..steps {
+            let mut to = q.clone();
+            let size = [1e-9, 1e-4, 1e-2, 0.5][(4.0 * numbers.next()) as usize];
+            let first = (numbers.next() * q.len() as f64) as usize;
+            let turned = [0, 1, 1, 1, 2, 3, q.len()][(7.0 * numbers.next()) as usize];
+            for torsion in first..first + turned {
+                to[torsion % q.len()] += size * numbers.normal();
+            }
+            match step % 16 {
+                5 => screen.poison(),
+                10 => placed.poison(),
+                15 => {
+                    limits.count(&apart(9), &none, &mut screen);
+                }
+                _ => {}
+            }
+            conformer.place(&to, &mut placed);
+            let is_short = screen.shortcut(&placed, limits).window.last != usize::MAX;
+            let expected = plain(limits, &placed, &none).total() == 0;
+            let is_valid = limits.is_valid(&placed, &none, &mut screen);
+            assert_eq!(
+                is_valid, expected,
+                "step {step}, {turned} torsions from {first}, {lanes:?}"
+            );
+            short += usize::from(is_short);
+            valid += usize::from(is_short && is_valid);
+            if is_valid {
+                q = to;
+            }
+        }
+    }
+    (short, valid)
+}
+
+#[test]
+fn what_is_known_of_the_last_valid_conformation_changes_no_verdict() {
+    let mut numbers = Numbers::new(6);
+    let (mut short, mut valid) = (0, 0);
+    for len in [2, 3, 9, 24, 40, 67] {
+        let (conformer, linkage) = conformer(&crooked(len, len as u64));
+        let mut placed = conformer.placed();
+        let start = linkage.source();
+        conformer.place(&start, &mut placed);
+        let limits = just_kept(&placed, &Rules::default().at_nodes());
+        let walked = walk((&conformer, &limits), &start, 96, &mut numbers);
+        (short, valid) = (short + walked.0, valid + walked.1);
+    }
+    assert!(valid > 200 && short - valid > 20, "{valid} of {short} are few to try it on");
+}
+
+#[test]
+fn what_is_known_is_about_one_chain_and_its_rules() {
+    let none = Obstacles::default();
+    let (one, linkage) = conformer(&crooked(40, 3));
+    let (other, _) = conformer(&crooked(40, 4));
+    let (mut placed, screen) = (one.placed(), &mut Screen::default());
+    let q = linkage.source();
+    one.place(&q, &mut placed);
+    let limits = just_kept(&placed, &Rules::default().at_nodes());
+    assert!(limits.is_valid(&placed, &none, screen));
+    // Other rules.
+    let wider = Limits { backbone: 10.0, ..limits };
+    assert!(!wider.is_valid(&placed, &none, screen));
+    // An atom that was put elsewhere, without a torsion that would say so.
+    placed.put(Site::CA, 30, &placed.at(Site::CA, 2));
+    assert!(!limits.is_valid(&placed, &none, screen));
+    one.place(&q, &mut placed);
+    assert!(limits.is_valid(&placed, &none, screen));
+    // Another chain at the same torsions, in the same memory.
+    other.place(&q, &mut placed);
+    let expected = plain(&limits, &placed, &none).total() == 0;
+    assert_eq!(limits.is_valid(&placed, &none, screen), expected);
+    assert!(!expected, "the other chain has atoms elsewhere");
+}
+
 /// Pairs at the limit to the last bit, far from the origin and near it, in chains of any extent.
 #[test]
 fn limits_hold_to_the_last_bit() {
@@ -162,16 +269,17 @@ fn limits_hold_to_the_last_bit() {
         let limits = Rules::default().at_nodes();
         for _ in 0..200 {
             let mut placed = apart(40);
-            for x in [&mut placed.n.x, &mut placed.ca.x, &mut placed.c.x, &mut placed.o.x] {
-                x.iter_mut().for_each(|x| *x *= stretch);
-            }
-            for x in [&mut placed.cb.x, &mut placed.centroid.x] {
-                x.iter_mut().for_each(|x| *x *= stretch);
+            for row in &mut placed.rows {
+                row.0[0].iter_mut().for_each(|x| *x *= stretch);
             }
             let direction = Point::from_fn(|_, _| numbers.normal()).normalize();
             let by = if numbers.next() < 0.5 { 1.0 } else { 1.0 - 1e-15 };
-            placed.ca.put(35, &(placed.ca.at(2) + direction * (3.0 * by)));
-            placed.centroid.put(30, &(placed.centroid.at(6) + direction * (2.4 * by)));
+            placed.put(Site::CA, 35, &(placed.at(Site::CA, 2) + direction * (3.0 * by)));
+            placed.put(
+                Site::Centroid,
+                30,
+                &(placed.at(Site::Centroid, 6) + direction * (2.4 * by)),
+            );
             agrees(&placed, &limits);
         }
     }
@@ -183,8 +291,9 @@ fn what_is_no_number_is_invalid() {
     for value in [f64::NAN, f64::INFINITY, 1e300, -1e18] {
         for what in 0..3 {
             let mut placed = apart(20);
-            let kind = [&mut placed.ca, &mut placed.o, &mut placed.centroid][what].x.as_mut_slice();
-            kind[7] = value;
+            let site = [Site::CA, Site::O, Site::Centroid][what];
+            let at = placed.at(site, 7);
+            placed.put(site, 7, &Point::new(value, at.y, at.z));
             agrees(&placed, &limits);
             let is_valid = limits.is_valid(&placed, &Obstacles::default(), &mut Screen::default());
             assert_eq!(is_valid, !value.is_nan(), "{value}");
@@ -208,5 +317,8 @@ fn native_chains_keep_the_rules_and_noise_is_judged_as_pair_by_pair() {
             agrees(&placed, &Rules::default().at_nodes());
             agrees(&placed, &Rules::default().along_motions(3.9));
         }
+        let limits = Rules::default().at_nodes();
+        let (short, valid) = walk((&conformer, &limits), &linkage.source(), 64, &mut numbers);
+        assert!(valid > 20, "{name}: {valid} of {short} are few to try it on");
     }
 }
