@@ -1,4 +1,4 @@
-use super::elastic_walk::{Aim, DRAWN, LENGTH_MAX, Node, Place, Walks, complaint, residues, suits};
+use super::elastic_walk::{LENGTH_MAX, Node, Place, Walks, complaint, residues, suits};
 use super::{Generator, Reads};
 use crate::context::Context;
 use crate::methods::Complaint;
@@ -30,10 +30,10 @@ pub struct ElasticGrowth {
     /// How far the Cα move in a step, RMSD in Å after superposition: the walks take turns with these.
     #[serde(default = "default_lengths")]
     pub lengths: Vec<f64>,
-    /// How strongly every torsion is held in random steps, kT/rad²: the walks take turns with these, for each length. Held weakly,
-    /// large parts of the chain move against one another along few directions; held strongly, everything moves a little.
-    #[serde(default = "default_holds")]
-    pub holds: Vec<f64>,
+    /// How many random steps are tried at every place of a walk that goes at random. All that are kept become milestones; the
+    /// walk goes on from the first.
+    #[serde(default = "default_children")]
+    pub children: u32,
     /// The most steps of a walk.
     #[serde(default = "default_steps")]
     pub steps: u32,
@@ -61,8 +61,6 @@ pub enum GrowthAim {
 }
 
 const LENGTHS_MAX: usize = 100;
-const HOLD_MIN: f64 = 1e-6;
-const HOLD_MAX: f64 = 1e6;
 const STEPS_MAX: u32 = 100_000;
 
 /// How many pairs are drawn for one walk, of which the nearest is taken.
@@ -79,7 +77,7 @@ impl Default for ElasticGrowth {
         ElasticGrowth {
             aim: GrowthAim::default(),
             lengths: default_lengths(),
-            holds: default_holds(),
+            children: default_children(),
             steps: default_steps(),
             kt: default_kt(),
             attempts: default_attempts(),
@@ -91,8 +89,8 @@ fn default_lengths() -> Vec<f64> {
     vec![0.25, 0.5, 1.0]
 }
 
-fn default_holds() -> Vec<f64> {
-    vec![4.0, 0.1, 0.002]
+fn default_children() -> u32 {
+    4
 }
 
 fn default_steps() -> u32 {
@@ -168,15 +166,8 @@ impl Generator for ElasticGrowth {
         if let Some(complaint) = self.lengths.iter().find_map(of_length) {
             return Some(complaint);
         }
-        if self.holds.is_empty() || self.holds.len() > LENGTHS_MAX {
-            return Some(Complaint::new(
-                "holds",
-                format!("{} numbers", self.holds.len()),
-                "1 to 100",
-            ));
-        }
-        if let Some(hold) = self.holds.iter().find(|hold| !(HOLD_MIN..=HOLD_MAX).contains(*hold)) {
-            return Some(Complaint::new("holds", hold, "1e-6 to 1e6 kT/rad²"));
+        if !(1..=STEPS_MAX).contains(&self.children) {
+            return Some(Complaint::new("children", self.children, "1 to 100000"));
         }
         if !(1..=STEPS_MAX).contains(&self.steps) {
             return Some(Complaint::new("steps", self.steps, "1 to 100000"));
@@ -210,26 +201,43 @@ impl ElasticGrowth {
         number: usize,
     ) -> Result<(), GaveUp> {
         let length = self.lengths[number % self.lengths.len()];
-        walks.hold = match toward {
-            Some(_) => DRAWN,
-            None => self.holds[number / self.lengths.len() % self.holds.len()],
-        };
+        match toward {
+            Some(target) => self.walk_toward(walks, from, target, residues, length),
+            None => self.walk_freely(walks, from, length),
+        }
+    }
+
+    fn walk_toward(
+        &self,
+        walks: &mut Walks,
+        from: Place,
+        Target { node, q }: Target,
+        residues: usize,
+        length: f64,
+    ) -> Result<(), GaveUp> {
+        let window = walks.window(residues);
         let mut place = from;
-        let aim = match toward {
-            Some(target) => Aim::Toward(target.q, walks.window(residues)),
-            None => Aim::Free,
-        };
         for _ in 0..self.steps {
             walks.attempt(self.attempts)?;
-            let Some(next) = walks.step(&place, &aim, length) else { break };
+            let Some(next) = walks.toward(&place, (q, window.clone()), length) else { break };
             let before = std::mem::replace(&mut place, next);
-            if let Some(Target { node, q }) = toward {
-                let is_near = walks.apart(&place.q, q) < NEAR * length;
-                let is_joined = is_near && node.is_some_and(|node| walks.join(node, q, &place));
-                if is_joined || walks.has_arrived(&before, &place, length) {
-                    break;
-                }
+            let is_near = walks.apart(&place.q, q) < NEAR * length;
+            let is_joined = is_near && node.is_some_and(|node| walks.join(node, q, &place));
+            if is_joined || walks.has_arrived(&before, &place, length) || walks.is_full() {
+                break;
             }
+        }
+        Ok(())
+    }
+
+    fn walk_freely(&self, walks: &mut Walks, from: Place, length: f64) -> Result<(), GaveUp> {
+        let mut heading = walks.deviates();
+        let mut place = from;
+        for _ in 0..self.steps {
+            walks.attempt(self.attempts)?;
+            let next = walks.scatter(&place, &mut heading, self.children, length);
+            let Some(next) = next else { break };
+            place = next;
             if walks.is_full() {
                 break;
             }

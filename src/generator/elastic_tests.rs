@@ -107,7 +107,7 @@ fn settings_out_of_range_are_refused() {
     let generators = [
         ("{ elastic-growth = { lengths = [] } }", "lengths"),
         ("{ elastic-growth = { lengths = [0.5, 11.0] } }", "lengths"),
-        ("{ elastic-growth = { holds = [0.0] } }", "holds"),
+        ("{ elastic-growth = { children = 0 } }", "children"),
         ("{ elastic-growth = { steps = 0 } }", "steps"),
         ("{ elastic-growth = { kt = 0.0 } }", "kt"),
         ("{ elastic-growth = { attempts = 0 } }", "attempts"),

@@ -4,7 +4,7 @@ use crate::context::Context;
 use crate::local::Planner;
 use crate::math;
 use crate::methods::Complaint;
-use crate::model::{Draw, Elastic, Scratch};
+use crate::model::{Draw, Scratch};
 use crate::numbers::NodeId;
 use crate::roadmap::{Edge, EdgeCost, Increment};
 use crate::sampler::GaveUp;
@@ -32,15 +32,6 @@ pub(super) enum Node {
     None,
 }
 
-/// By which steps a walk goes on.
-#[derive(Clone, Debug)]
-pub(super) enum Aim<'a> {
-    /// Random ones.
-    Free,
-    /// Toward another configuration, with these residues drawn.
-    Toward(&'a [f64], Range<usize>),
-}
-
 /// The walks of a set.
 pub(super) struct Walks<'a> {
     pub cx: &'a Context,
@@ -55,8 +46,6 @@ pub(super) struct Walks<'a> {
     pub count: usize,
     /// A step from energy E to E′ > E is kept with the probability e^(−(E′ − E)/kT).
     pub kt: f64,
-    /// How strongly every torsion is held in the steps of the present walk, kT/rad².
-    pub hold: f64,
     /// Steps that may still be tried.
     pub attempts: u64,
 }
@@ -65,12 +54,14 @@ pub(super) struct Walks<'a> {
 pub(super) const LENGTH_MAX: f64 = 10.0;
 const KT_MAX: f64 = 1e9;
 
-/// How strongly every torsion is held where a walk goes toward a configuration, kT/rad².
-pub(super) const DRAWN: f64 = 4.0;
-
 /// How strongly residues are drawn toward a configuration, kT/Å². With a tenth of it walks end within 1 Å of their aim, with ten
 /// times as much hydrogen bonds break that need not.
 const STRENGTH: f64 = 10.0;
+
+/// How much of where a walk is heading is kept from step to step, and the rest of it: the squares add up to 1. With fresh directions
+/// in every step a walk would stay about where it began.
+const STEADY: f64 = 0.96;
+const UNSTEADY: f64 = 0.28;
 
 /// How often a step is made half as long where it is refused.
 const HALVINGS: usize = 3;
@@ -95,7 +86,6 @@ impl<'a> Walks<'a> {
             made: Increment::empty(cx.space.len()),
             count,
             kt,
-            hold: DRAWN,
             // A set of many milestones may take as many times more.
             attempts: attempts.saturating_mul(count as u64),
         }
@@ -134,13 +124,67 @@ impl<'a> Walks<'a> {
         first.saturating_sub(len)..first.clamp(1, residues)
     }
 
-    /// One step of a walk, of `length` Å at most: where it leads, which is a milestone now. `None` where no step is kept.
-    pub fn step(&mut self, from: &Place, aim: &Aim, length: f64) -> Option<Place> {
-        let cx = self.cx;
-        let elastic = cx.model.elastic(&from.q, self.hold)?;
+    /// One step of a walk toward a configuration, with these residues drawn, of `length` Å at most: where it leads, which is a
+    /// milestone now. `None` where no step is kept.
+    pub fn toward(
+        &mut self,
+        from: &Place,
+        (target, residues): (&[f64], Range<usize>),
+        length: f64,
+    ) -> Option<Place> {
+        let elastic = self.cx.model.elastic(&from.q)?;
+        let draw = Draw { target, residues, strength: STRENGTH };
+        self.halving(from, length, |length| elastic.toward(&draw, length))
+    }
+
+    /// One random step of a walk, likewise.
+    pub fn random(&mut self, from: &Place, length: f64) -> Option<Place> {
+        let elastic = self.cx.model.elastic(&from.q)?;
+        let deviates = self.deviates();
+        self.halving(from, length, |length| elastic.random(&deviates, length))
+    }
+
+    /// Random steps from one place, as many as are asked for or as the set has room for: the first of those that are kept.
+    /// The first step is about where the walk is heading, and changes that a little; the others go anywhere.
+    pub fn scatter(
+        &mut self,
+        from: &Place,
+        heading: &mut Vec<f64>,
+        children: u32,
+        length: f64,
+    ) -> Option<Place> {
+        let elastic = self.cx.model.elastic(&from.q)?;
+        let fresh = self.deviates();
+        let turned = heading.iter().zip(&fresh).map(|(old, new)| STEADY * old + UNSTEADY * new);
+        *heading = turned.collect();
+        let mut first = self.halving(from, length, |length| elastic.random(heading, length));
+        for _ in 1..children {
+            if self.is_full() {
+                break;
+            }
+            let deviates = self.deviates();
+            let child = elastic.random(&deviates, length);
+            let kept = child.and_then(|child| self.keep(from, &child));
+            first = first.or(kept);
+        }
+        first
+    }
+
+    /// Independent normal deviates, one for each degree of freedom.
+    pub fn deviates(&mut self) -> Vec<f64> {
+        (0..self.cx.space.len()).map(|_| self.moving.normal()).collect()
+    }
+
+    /// A step, half as long where it is refused, and so on.
+    fn halving(
+        &mut self,
+        from: &Place,
+        length: f64,
+        step: impl Fn(f64) -> Option<Vec<f64>>,
+    ) -> Option<Place> {
         let mut length = length;
         for _ in 0..=HALVINGS {
-            if let Some(next) = self.proposal(&*elastic, aim, length)
+            if let Some(next) = step(length)
                 && let Some(place) = self.keep(from, &next)
             {
                 return Some(place);
@@ -148,20 +192,6 @@ impl<'a> Walks<'a> {
             length /= 2.0;
         }
         None
-    }
-
-    fn proposal(&mut self, elastic: &dyn Elastic, aim: &Aim, length: f64) -> Option<Vec<f64>> {
-        match aim {
-            Aim::Free => {
-                let dofs = self.cx.space.len();
-                let deviates: Vec<f64> = (0..dofs).map(|_| self.moving.normal()).collect();
-                elastic.random(&deviates, length)
-            }
-            Aim::Toward(target, residues) => {
-                let draw = Draw { target, residues: residues.clone(), strength: STRENGTH };
-                elastic.toward(&draw, length)
-            }
-        }
     }
 
     /// Makes `next` a milestone with an edge from where the walk is, if it is valid, the motion there is, and chance keeps it.
@@ -219,7 +249,7 @@ impl<'a> Walks<'a> {
 /// The residues of the context's model; `None` where it is no elastic chain.
 pub(super) fn residues(cx: &Context) -> Option<usize> {
     let query = cx.query.as_ref()?;
-    cx.model.elastic(&query.start, DRAWN)?;
+    cx.model.elastic(&query.start)?;
     cx.model.shape(&query.start, &mut Scratch::new()).map(|shape| shape.len())
 }
 

@@ -1,5 +1,5 @@
 use super::Generator;
-use super::elastic_walk::{Aim, LENGTH_MAX, Node, Place, Walks, complaint, residues, suits};
+use super::elastic_walk::{LENGTH_MAX, Node, Place, Walks, complaint, residues, suits};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -78,11 +78,11 @@ impl Generator for Interpolation {
             let mut refused = 0;
             while refused < REFUSED_MAX {
                 walks.attempt(attempts)?;
-                let toward = Aim::Toward(to, window.clone());
-                let Some(next) = walks.step(&place, &toward, self.length) else {
+                let drawn = (&to[..], window.clone());
+                let Some(next) = walks.toward(&place, drawn, self.length) else {
                     refused += 1;
                     window = walks.window(residues);
-                    place = walks.step(&place, &Aim::Free, self.length).unwrap_or(place);
+                    place = walks.random(&place, self.length).unwrap_or(place);
                     if walks.is_full() {
                         return Ok(walks.made);
                     }

@@ -217,9 +217,8 @@ pub trait Model: Any + Send + Sync {
         None
     }
 
-    /// The model as an elastic network about `q`, of a model that is one; see [`Elastic`]. Every torsion is held with
-    /// `hold` kT/rad², more than 0.
-    fn elastic<'a>(&'a self, _q: &[f64], _hold: f64) -> Option<Box<dyn Elastic + 'a>> {
+    /// The model as an elastic network about `q`, of a model that is one; see [`Elastic`].
+    fn elastic<'a>(&'a self, _q: &[f64]) -> Option<Box<dyn Elastic + 'a>> {
         None
     }
 

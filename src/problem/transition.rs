@@ -26,9 +26,6 @@ const FALL_OF_BARRIER: f64 = 5.0 * KT;
 /// about 0.3 Å.
 pub const HOLD: f64 = 10.0;
 
-/// How strongly every torsion is held in a step of relaxing, kT/rad².
-const HELD: f64 = 4.0;
-
 /// The longest step of relaxing, Å, how many are taken at most, and below which length there are no more.
 const RELAXING_STEP: f64 = 0.3;
 const RELAXING_STEPS: usize = 40;
@@ -173,7 +170,7 @@ fn relaxed(model: &dyn Model, end: &[f64], hold: f64) -> Vec<f64> {
     let Some(residues) = model.shape(end, scratch).map(|shape| shape.len()) else { return best.1 };
     let mut here = end.to_vec();
     for _ in 0..RELAXING_STEPS {
-        let Some(elastic) = model.elastic(&here, HELD) else { break };
+        let Some(elastic) = model.elastic(&here) else { break };
         let draw = Draw { target: end, residues: 0..residues, strength: hold };
         let Some(next) = elastic.toward(&draw, RELAXING_STEP) else { break };
         let reached = energy(&next, scratch);

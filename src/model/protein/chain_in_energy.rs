@@ -218,8 +218,8 @@ impl Model for ChainInEnergy {
         Some(alphas_of(self.placed(q, &mut scratch.placed)))
     }
 
-    fn elastic<'a>(&'a self, q: &[f64], hold: f64) -> Option<Box<dyn Elastic + 'a>> {
-        Some(Box::new(Prepared::of(self.network.about(q, hold))))
+    fn elastic<'a>(&'a self, q: &[f64]) -> Option<Box<dyn Elastic + 'a>> {
+        Some(Box::new(Prepared::of(self.network.about(q))))
     }
 
     fn native(&self) -> Option<&[f64]> {

@@ -30,6 +30,10 @@ use crate::structure::measure::{CentredPoints, superpose};
 use springs::Spring;
 use std::cell::RefCell;
 
+/// ρ, per rad²: torsions that nothing holds turn by about half a radian. Held less, loose ends and single hinges take all of a step,
+/// and fewer steps are valid.
+const FREE_TORSION: f64 = 4.0;
+
 /// What holds the pose where nothing is drawn, so that the equations have a solution; the pose is not part of a step.
 const FREE_POSE: f64 = 1e-6;
 
@@ -41,7 +45,11 @@ const OF_TORSIONS: f64 = 2.0;
 const LENGTH_TOLERANCE: f64 = 0.02;
 const SCALINGS: usize = 8;
 
-/// No step turns a torsion by more than this, radians: beyond it what was near one another says little.
+/// By how much a step grows at most from one try to the next.
+const SCALING_MAX: f64 = 10.0;
+
+/// No step turns a torsion by more than this, radians: beyond it what was near one another says little. The torsions of loose ends, which
+/// nothing holds, come to it first, and the others go on.
 const TURN_MAX: f64 = 1.0;
 
 /// No torsion turns by more than this only to relax springs, radians.
@@ -67,15 +75,15 @@ impl Network {
         Network { linkage, sites, alphas, springs, conformer }
     }
 
-    /// The network about a configuration, in which every torsion is held with ρ = `hold`, kT/rad².
-    pub fn about(&self, q: &[f64], hold: f64) -> About<'_> {
+    /// The network about a configuration.
+    pub fn about(&self, q: &[f64]) -> About<'_> {
         let motions = self.linkage.motions(q);
         let positions = self.sites.place(&motions);
         let torsions = screws(&self.linkage, &motions);
         let columns = columns(&torsions);
         let mut equations = NormalEquations::zeros(columns.len());
         for column in 0..columns.len() {
-            let ridge = if column < POSE { FREE_POSE } else { hold };
+            let ridge = if column < POSE { FREE_POSE } else { FREE_TORSION };
             equations.matrix.row_mut(column)[0] += ridge;
         }
         let line = |spring: Spring| {
@@ -127,7 +135,7 @@ impl About<'_> {
     }
 
     /// The configuration a step away whose shape is `length` from here, about: the step is `first`, and then so much of `more`
-    /// as is needed. Where that is bounded, it is at most once `more`.
+    /// as is needed, no torsion turning by more than [`TURN_MAX`]. Where that is bounded, it is at most once `more`.
     fn scaled(
         &self,
         first: &[f64],
@@ -135,22 +143,27 @@ impl About<'_> {
         length: f64,
         is_bounded: bool,
     ) -> Option<Vec<f64>> {
-        let widest = |step: &[f64]| step.iter().fold(0.0f64, |widest, turn| widest.max(turn.abs()));
-        let most = TURN_MAX / widest(more);
-        if !most.is_finite() {
+        if !more.iter().any(|turn| *turn != 0.0) {
             return None;
         }
-        let mut scale = most.min(1.0);
+        let mut scale = 1.0;
         for last in [false; SCALINGS].into_iter().chain([true]) {
-            let (q, reached) = self.after(|k| first[k] + scale * more[k]);
+            let turn = |k: usize| (first[k] + scale * more[k]).clamp(-TURN_MAX, TURN_MAX);
+            let (q, reached) = self.after(turn);
             let is_enough = (reached - length).abs() <= LENGTH_TOLERANCE * length;
-            let is_all = reached <= length && (scale == most || is_bounded && scale >= 1.0);
+            let is_all = is_bounded && scale >= 1.0 && reached <= length;
             if is_enough || is_all || last {
                 return reached.is_finite().then_some(q);
             }
             // The length is nearly proportional to the scale.
-            let next = scale * (length / reached);
-            scale = if next.is_finite() { next.min(most) } else { return None };
+            let factor = length / reached;
+            if !factor.is_finite() {
+                return None;
+            }
+            scale *= factor.min(SCALING_MAX);
+            if is_bounded {
+                scale = f64::min(scale, 1.0);
+            }
         }
         None
     }

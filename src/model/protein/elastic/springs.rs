@@ -27,7 +27,7 @@ const CONTACT_REST: f64 = 0.15;
 
 /// The stiffness of neighbouring Cα, kT/Å², how near they are, Å, and how many residues are between them at least.
 const OF_NEIGHBOURS: f64 = 0.5;
-const NEIGHBOURS: f64 = 10.0;
+const NEIGHBOURS: f64 = 7.5;
 const NEIGHBOURS_APART: usize = 3;
 
 /// What springs a chain can have.

@@ -23,7 +23,7 @@ fn random_steps_are_as_long_as_is_asked_and_stretch_bonds_less_than_noise_does()
     let (model, scratch) = (model(), &mut Scratch::new());
     let native = model.native().expect("a protein has one").to_vec();
     let here = model.shape(&native, scratch).expect("it has Cα");
-    let elastic = model.elastic(&native, 4.0).expect("a protein is a network");
+    let elastic = model.elastic(&native).expect("a protein is a network");
     let energy = |q: &[f64], scratch: &mut Scratch| model.energy(q, scratch).expect("it has one");
     let (mut stretched, mut of_noise) = (0.0, 0.0);
     for set in 0..20 {
@@ -60,7 +60,7 @@ fn steps_toward_a_configuration_get_there() {
     let first = apart(&native, scratch);
     let mut q = native.clone();
     for _ in 0..40 {
-        let elastic = model.elastic(&q, 4.0).unwrap();
+        let elastic = model.elastic(&q).unwrap();
         let draw = Draw { target: &there, residues: 0..target.len(), strength: 100.0 };
         let next = elastic.toward(&draw, 0.3).expect("it moves");
         let here = model.shape(&q, scratch).unwrap();
@@ -75,7 +75,7 @@ fn steps_toward_a_configuration_get_there() {
 fn what_is_not_there_draws_nothing() {
     let model = model();
     let native = model.native().expect("a protein has one").to_vec();
-    let elastic = model.elastic(&native, 4.0).unwrap();
+    let elastic = model.elastic(&native).unwrap();
     for (target, residues) in [(&native[1..], 0..10), (&native[..], 0..11), (&native[..], 5..5)] {
         assert_eq!(elastic.toward(&Draw { target, residues, strength: 1.0 }, 0.5), None);
     }
