@@ -86,7 +86,7 @@ impl Default for ElasticGrowth {
 }
 
 fn default_lengths() -> Vec<f64> {
-    vec![0.25, 0.5, 1.0]
+    vec![0.5, 1.0, 3.0]
 }
 
 fn default_children() -> u32 {
