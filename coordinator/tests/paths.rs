@@ -123,11 +123,13 @@ fn has_python() -> bool {
     there
 }
 
-/// Reads path-1 as PDB and as DCD, and measures its frames anew.
+/// Reads path-1 as PDB, DCD and XTC, and measures its frames anew.
 const READ: &str = r#"
 import csv, mdtraj, numpy
 shapes = mdtraj.load("path-1.pdb", standard_names=False)
 moving = mdtraj.load_dcd("path-1.dcd", top=shapes.topology)
+packed = mdtraj.load_xtc("path-1.xtc", top=shapes.topology)
+assert packed.n_frames == moving.n_frames and abs(packed.xyz - moving.xyz).max() < 1e-4
 assert shapes.n_frames == moving.n_frames and shapes.n_atoms == moving.n_atoms
 # PDB has three decimals of an Å; mdtraj has nm.
 assert abs(shapes.xyz - moving.xyz).max() < 1e-4, abs(shapes.xyz - moving.xyz).max()
@@ -147,8 +149,6 @@ for before in range(len(rows) - 1):
 assert abs(length - float(rows[-1]["length [Å]"])) < 0.02 * len(rows), length
 radii = mdtraj.compute_rg(moving.atom_slice(alphas), masses=numpy.ones(len(alphas))) * 10
 assert abs(radii - [float(row["radius_of_gyration [Å]"]) for row in rows]).max() < 2e-3
-kinds = mdtraj.compute_dssp(shapes)
-print(shapes.n_frames, len(rows))
 "#;
 
 #[test]
@@ -171,7 +171,7 @@ fn a_peptides_paths_are_read_by_other_programs() {
         "--shorten-tries",
         "5",
         "--format",
-        "csv,pdb,dcd",
+        "csv,pdb,dcd,xtc",
         "--angle",
         "bend=1-3/4-6/7-10",
         "--out",
