@@ -410,6 +410,8 @@ pub enum FrameFormat {
     Pdb,
     /// A trajectory of CHARMM and NAMD
     Dcd,
+    /// A trajectory of GROMACS, rounded to 0.001 Å
+    Xtc,
 }
 
 /// Of `check`.

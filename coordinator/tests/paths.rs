@@ -39,7 +39,7 @@ fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
 fn two_ways_around_a_hill_are_printed_and_written() {
     let scratch = Scratch::new();
     scratch.write("hill.toml", HILL);
-    scratch.build("run", &["hill.toml"], 3);
+    scratch.build("run", &["hill.toml"], 0);
     let ask = |out: &str| {
         let distance = ["--dissimilar", "1", "--count", "2", "--spacing", "0.1", "--tries", "20"];
         let done = scratch.run(&[&["paths", "run", "--out", out][..], &distance].concat());
@@ -53,7 +53,7 @@ fn two_ways_around_a_hill_are_printed_and_written() {
     let ways = scratch.path("ways");
     let paths = table(&ways.join("paths.csv"));
     assert_eq!(paths.len(), 2);
-    assert!(number(&paths[0], "peak [1]") <= number(&paths[1], "peak [1]"));
+    assert!(number(&paths[0], "peak [energy]") <= number(&paths[1], "peak [energy]"));
     let pairs = table(&ways.join("matrix.csv"));
     assert!(pairs.len() == 1 && number(&pairs[0], "frechet [length]") >= 1.0, "{pairs:?}");
     for row in &paths {
@@ -123,39 +123,45 @@ fn has_python() -> bool {
     there
 }
 
-/// Reads path-1 as PDB and as DCD, and measures its frames anew.
+/// Reads path-1 as PDB, DCD and XTC, and measures its frames anew.
 const READ: &str = r#"
 import csv, mdtraj, numpy
 shapes = mdtraj.load("path-1.pdb", standard_names=False)
 moving = mdtraj.load_dcd("path-1.dcd", top=shapes.topology)
+packed = mdtraj.load_xtc("path-1.xtc", top=shapes.topology)
+assert packed.n_frames == moving.n_frames and abs(packed.xyz - moving.xyz).max() < 1e-4
 assert shapes.n_frames == moving.n_frames and shapes.n_atoms == moving.n_atoms
 # PDB has three decimals of an Å; mdtraj has nm.
 assert abs(shapes.xyz - moving.xyz).max() < 1e-4, abs(shapes.xyz - moving.xyz).max()
 rows = list(csv.DictReader(open("path-1.frames.csv")))
 assert len(rows) == shapes.n_frames
 alphas = moving.topology.select("name CA")
+# In single precision RMSDs near 0 are off by some 0.002 Å.
 for end, column in ((0, "rmsd_start [Å]"), (-1, "rmsd_goal [Å]")):
     found = mdtraj.rmsd(moving, moving, frame=end % len(rows), atom_indices=alphas) * 10
     told = numpy.array([float(row[column]) for row in rows])
-    assert abs(found - told).max() < 2e-3, abs(found - told).max()
+    assert abs(found - told).max() < 5e-3, abs(found - told).max()
 length = 0
 for before in range(len(rows) - 1):
     pair = moving[before:before + 2]
     step = mdtraj.rmsd(pair, pair, frame=0, atom_indices=alphas)[1] * 10
-    assert step < 0.502, step
+    assert step < 0.505, step
     length += step
 assert abs(length - float(rows[-1]["length [Å]"])) < 0.02 * len(rows), length
 radii = mdtraj.compute_rg(moving.atom_slice(alphas), masses=numpy.ones(len(alphas))) * 10
 assert abs(radii - [float(row["radius_of_gyration [Å]"]) for row in rows]).max() < 2e-3
-kinds = mdtraj.compute_dssp(shapes)
-print(shapes.n_frames, len(rows))
 "#;
 
 #[test]
 fn a_peptides_paths_are_read_by_other_programs() {
     let scratch = Scratch::new();
-    let peptide = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/peptide.toml");
-    scratch.run(&["build", peptide, "--max-sets", "60", "--out", "run"]);
+    // The problem that ships, with a roadmap of a few nodes.
+    let problems = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems");
+    let text = fs::read_to_string(format!("{problems}/peptide.toml")).expect("it ships");
+    let text = text.replace("structures/", &format!("{problems}/structures/"));
+    let text = text.replace("nodes = 60", "nodes = 6").replace("neighbors = 10", "neighbors = 3");
+    scratch.write("peptide.toml", &text.replace("sets_per_round = 5", "sets_per_round = 1"));
+    scratch.build("run", &["peptide.toml"], 0);
     let near = "-3.0 -1.4 1.7 -1.2 2.0 -0.2 -1.0 -0.7 -1.8 -0.4 1.6 0.6 -2.8 2.9 -1.2 2.2 -1.2";
     let done = scratch.run(&[
         "paths",
@@ -171,7 +177,7 @@ fn a_peptides_paths_are_read_by_other_programs() {
         "--shorten-tries",
         "5",
         "--format",
-        "csv,pdb,dcd",
+        "csv,pdb,dcd,xtc",
         "--angle",
         "bend=1-3/4-6/7-10",
         "--out",

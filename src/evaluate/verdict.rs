@@ -20,7 +20,7 @@ pub struct Verdict {
     pub measures: Vec<f64>,
     /// The answer to the query, with the path; of evaluators that look for a path only.
     pub answer: Option<Answer>,
-    /// A minimum cut, the one nearest to the sources; of the max-flow evaluator only.
+    /// A minimum cut, the one nearest to where the flow comes from; of the evaluators of flows only.
     pub cut: Option<Vec<CutEdge>>,
     /// The verdicts of the parts of a combined criterion.
     pub parts: Vec<Verdict>,

@@ -40,6 +40,7 @@ mod union;
 mod vector;
 mod view;
 mod vtk;
+mod xtc;
 
 pub use animation::animation;
 pub use csv::{edges_csv, nodes_csv};
@@ -51,6 +52,7 @@ pub use parasol::{parasol_map, parasol_path};
 pub use path_csv::path_csv;
 pub use pdb::pdb;
 pub use svg::svg;
+pub use xtc::xtc;
 
 use crate::local::Planner;
 
@@ -62,6 +64,7 @@ pub const FORMATS: &[&dyn RoadmapFormat] = &[
     &parasol::Map,
     &pdb::Pdb,
     &dcd::Dcd,
+    &xtc::Xtc,
     &svg::Svg,
     &vtk::Vtk,
 ];

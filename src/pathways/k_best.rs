@@ -113,9 +113,8 @@ impl Parts {
             edge.low == spur || edge.high == spur
         };
         let is_allowed = |node: NodeId, edge: u32| {
-            !ways.failed.contains(&edge)
-                && !is_closed.contains(&node)
-                && !(part.closed.contains(&node) && is_first(edge))
+            let is_closed_next = part.closed.contains(&node) && is_first(edge);
+            !(is_closed_next || is_closed.contains(&node) || ways.failed.contains(&edge))
         };
         let begin = value(ways, from, &part.nodes, &part.edges);
         let rest = match self.rank {

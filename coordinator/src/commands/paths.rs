@@ -5,7 +5,7 @@ use crate::files::{make_empty, write_whole};
 use crate::output::{line, note};
 use crate::work::{Recorded, Run};
 use roadmill::Ends;
-use roadmill::export::{CannotExport, dcd, path_csv, pdb};
+use roadmill::export::{CannotExport, dcd, path_csv, pdb, xtc};
 use roadmill::model::{Molecule, Scratch};
 use roadmill::pathways::{
     DISTANCE, Dissimilar, FrameTable, KBest, Pair, Pathway, Pathways, Rank, SPACING, dissimilar,
@@ -199,11 +199,19 @@ impl<'a> Asked<'a> {
                 let table = FrameTable::of(molecule, &pathway.frames, &arguments.angles);
                 write_whole(&file("frames.csv"), table.csv())?;
                 write_whole(&file("contacts.csv"), table.contacts_csv())?;
-                if arguments.format.contains(&FrameFormat::Pdb) {
-                    write_whole(&file("pdb"), pdb(molecule, frames()).map_err(cannot)?)?;
-                }
-                if arguments.format.contains(&FrameFormat::Dcd) {
-                    write_whole(&file("dcd"), dcd(molecule, frames()).map_err(cannot)?)?;
+                for format in &arguments.format {
+                    match format {
+                        FrameFormat::Csv => {}
+                        FrameFormat::Pdb => {
+                            write_whole(&file("pdb"), pdb(molecule, frames()).map_err(cannot)?)?;
+                        }
+                        FrameFormat::Dcd => {
+                            write_whole(&file("dcd"), dcd(molecule, frames()).map_err(cannot)?)?;
+                        }
+                        FrameFormat::Xtc => {
+                            write_whole(&file("xtc"), xtc(molecule, frames()).map_err(cannot)?)?;
+                        }
+                    }
                 }
             }
         }

@@ -65,7 +65,7 @@ pub struct EvaluatorValue {
     pub dropped_edges: Option<u64>,
     /// Of a solved query: the sum of the costs of the path's edges, of most models its length in the space's metric.
     pub path_length: Option<f64>,
-    /// Of a max-flow: the edges of a least cut.
+    /// Of a max-flow or a flow ratio: the edges of a least cut.
     pub cut: Option<Vec<CutEdge>>,
 }
 
