@@ -295,7 +295,7 @@ fn picture(source: &str, target: &str, frames: &[Frame]) -> String {
     for (way, colour) in colours.into_iter().enumerate() {
         plot.line(&at(way).collect::<Vec<_>>(), colour);
     }
-    for (point, frame) in at(SMOOTH).zip(frames).filter(|(_, frame)| frame.violations > 0) {
+    for (point, _) in at(SMOOTH).zip(frames).filter(|(_, frame)| frame.violations > 0) {
         plot.ring(point, INK);
     }
     plot.finish()

@@ -100,8 +100,8 @@ pub fn in_line(residues: &[Residue]) -> Option<usize> {
         let [c, n, ca] = [pair[0].position("C")?, pair[1].position("N")?, pair[1].position("CA")?];
         let (back, forth) = (c - n, ca - n);
         let sine = back.cross(&forth).norm() / (back.norm() * forth.norm());
-        // Written so that what is no number counts, as it does where two of them are in one place.
-        Some(!(sine >= IN_LINE))
+        // The sine is no number where two of them are in one place.
+        Some(sine.is_nan() || sine < IN_LINE)
     };
     let before = residues.windows(2).position(|pair| is_in_line(pair) == Some(true))?;
     Some(before + 1)
