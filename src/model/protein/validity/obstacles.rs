@@ -168,7 +168,7 @@ mod tests {
         ) {
             // Some are flat, and some so long that cells become large.
             let factor = stretch.map(|k| [0.0, 1.0, 3e4][k]);
-            let points = points.into_iter().map(|point| Point::from(point));
+            let points = points.into_iter().map(Point::from);
             let points: Vec<Point> =
                 points.map(|point| point.component_mul(&Point::from(factor))).collect();
             let obstacles = Obstacles::new(points.clone());
