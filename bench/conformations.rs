@@ -13,10 +13,14 @@
 //! and back, whenever both are valid. Printed are microseconds for a conformation that is placed and judged, with the
 //! memory of the one before and with none, and how many times less the former is: medians over all torsions, and over
 //! those in the middle fifth of the chain.
+//!
+//! Then the same rules beside another chain of the file that stands still (1HVR, 4DFR and 1A28, chain A beside B): with these
+//! obstacles, without them, and with every residue held against every obstacle one by one.
 
 use roadmill::model::protein::energy::{Constraint, Constraints, Hydrophobic, Mixture};
 use roadmill::model::protein::kinematics::Conformer;
 use roadmill::model::protein::linkage::Linkage;
+use roadmill::model::protein::placed::{Placed, Site};
 use roadmill::model::protein::validity::{Limits, Obstacles, Rules, Screen};
 use roadmill::numbers::Ordinal;
 use roadmill::seed::{Purpose, Seed};
@@ -25,6 +29,8 @@ use rustix::time::{ClockId, clock_gettime};
 use std::hint::black_box;
 use std::path::PathBuf;
 
+/// Files of two chains, the first of which moves beside the second.
+const BESIDE: [&str; 3] = ["1HVR", "4DFR", "1A28"];
 const CONFORMATIONS: usize = 256;
 const ROUNDS: usize = 9;
 const SECONDS: f64 = 0.2;
@@ -59,6 +65,84 @@ fn main() {
             "| {name} | {tried} | {with:.2} | {without:.2} | {gain:.2} | {in_the_middle:.2} |"
         );
     }
+    println!();
+    println!("| chain | residues | obstacles | rules/s | beside obstacles/s | one by one/s |");
+    println!("| --- | --- | --- | --- | --- | --- |");
+    for name in BESIDE {
+        let path = PathBuf::from(&data).join("structures").join(name).with_extension("pdb");
+        let file = structure::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        let chains = file.models[0].chains.iter().filter(|chain| !chain.residues.is_empty());
+        let [one, other] = chains.collect::<Vec<_>>()[..] else { panic!("{name}: two chains") };
+        beside(name, &one.residues, &other.residues);
+    }
+}
+
+/// Measures the rules of a chain beside another one.
+fn beside(name: &str, residues: &[Residue], other: &[Residue]) {
+    let linkage = Linkage::of(residues).expect("a whole chain");
+    let conformer = Conformer::of(residues, &linkage).expect("a whole chain");
+    let atoms = other.iter().flat_map(|residue| &residue.atoms).filter(|atom| atom.is_heavy());
+    let obstacles = Obstacles::new(atoms.map(|atom| atom.position).collect());
+    let (rules, none) = (Rules::default().at_nodes(), Obstacles::default());
+    let mut screen = Screen::default();
+    let mut stream = Seed::of_set(1, "beside", Ordinal(0)).stream(Purpose::Sampling);
+    let drawn: Vec<_> = (0..CONFORMATIONS)
+        .map(|_| {
+            let width = 0.25f64.to_radians();
+            let source = linkage.source().into_iter();
+            let q: Vec<f64> = source.map(|value| value + width * stream.normal()).collect();
+            let mut placed = conformer.placed();
+            conformer.place(&q, &mut placed);
+            placed
+        })
+        .collect();
+    let alone = seconds(&drawn, |placed| {
+        black_box(rules.count(placed, &none, &mut screen));
+    });
+    let with = seconds(&drawn, |placed| {
+        black_box(rules.count(placed, &obstacles, &mut screen));
+    });
+    let one_by_one = seconds(&drawn, |placed| {
+        black_box(rules.count(placed, &none, &mut screen));
+        black_box(close_one_by_one((placed, residues), obstacles.points(), &rules));
+    });
+    for placed in &drawn {
+        let counts = rules.count(placed, &obstacles, &mut screen);
+        let close = close_one_by_one((placed, residues), obstacles.points(), &rules);
+        assert_eq!(counts.obstacle_backbone + counts.obstacle_side_chains, close, "{name}");
+    }
+    let [alone, with, one_by_one] = [alone, with, one_by_one].map(f64::recip);
+    println!(
+        "| {name} | {} | {} | {alone:.0} | {with:.0} | {one_by_one:.0} |",
+        residues.len(),
+        obstacles.points().len()
+    );
+}
+
+/// How many pairs of an atom and an obstacle break the rules, each residue held against each obstacle.
+fn close_one_by_one(
+    (placed, residues): (&Placed, &[Residue]),
+    obstacles: &[Point],
+    rules: &Limits,
+) -> usize {
+    let mut close = 0;
+    for residue in 0..placed.len() {
+        for obstacle in obstacles {
+            let mut count = |at: Point, least: f64| {
+                close += usize::from((at - obstacle).norm_squared() < least * least);
+            };
+            for site in [Site::N, Site::CA, Site::C, Site::O] {
+                count(placed.at(site, residue), rules.obstacle_backbone);
+            }
+            if residues[residue].position("CB").is_some() {
+                count(placed.at(Site::CB, residue), rules.obstacle_backbone);
+            }
+            if residues[residue].side_chain_centroid().is_some() {
+                count(placed.at(Site::Centroid, residue), rules.obstacle_side_chains);
+            }
+        }
+    }
+    close
 }
 
 /// What a conformation costs of which one torsion differs from the one before: medians.
@@ -175,12 +259,12 @@ fn one_torsion(conformer: &Conformer, rules: &Limits, drawn: &[Vec<f64>]) -> One
 }
 
 /// Seconds of CPU for one conformation.
-fn seconds(drawn: &[Vec<f64>], mut of: impl FnMut(&[f64])) -> f64 {
+fn seconds<T>(drawn: &[T], mut of: impl FnMut(&T)) -> f64 {
     let mut each = [0.0; ROUNDS];
     for each in &mut each {
         let (begun, mut count) = (cpu_seconds(), 0);
         while cpu_seconds() - begun < SECONDS {
-            drawn.iter().for_each(|q| of(q));
+            drawn.iter().for_each(&mut of);
             count += drawn.len();
         }
         *each = (cpu_seconds() - begun) / count as f64;

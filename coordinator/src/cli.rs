@@ -474,6 +474,9 @@ pub enum ProteinCommand {
 pub struct ProteinInfoArguments {
     /// A PDB or mmCIF file (docs/structures.md)
     pub file: PathBuf,
+    /// The model that chains are shown of, by its number in the file [default: the first]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub model: Option<i32>,
     /// Only this chain; a sole chain of amino acids answers to any name
     #[arg(long)]
     pub chain: Option<String>,

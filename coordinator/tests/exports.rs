@@ -166,6 +166,44 @@ fn a_proteins_path_is_a_pdb_file_and_a_mazes_is_none() {
     refused.assert_stderr(&["--format: this model is no molecule"]);
 }
 
+/// Residues whose names have four letters, or are none of the twenty, are amino acids of their chain in what is exported, by
+/// this program and by gemmi.
+#[test]
+fn residues_of_other_names_stay_in_the_chain() {
+    let scratch = Scratch::new();
+    let peptide = fs::read_to_string(repository("problems/structures/1UAO.pdb")).expect("it ships");
+    let atoms = peptide.lines().take_while(|line| !line.starts_with("ENDMDL"));
+    let atoms = atoms.filter(|line| line.starts_with("ATOM"));
+    let atoms: String = atoms.map(|line| format!("{line}\n")).collect();
+    let renamed = atoms
+        .replace("GLY A   1", "NGLYA   1")
+        .replace("GLU A   5", "GLUPA   5")
+        .replace("THR A   6", "TPO A   6");
+    scratch.write("renamed.pdb", &renamed);
+    scratch.run(&["protein", "problem", "renamed.pdb", "--out", "p.toml"]).assert_code(0);
+    scratch.build("run", &["p.toml", "--threads", "1", "--max-sets", "1"], 0);
+    scratch.run(&["export", "run", "--format", "pdb", "--out", "nodes.pdb"]).assert_code(0);
+    // Of other nodes atoms of side chains, which move rigidly, may stand on one another, which files must not have.
+    let nodes = read(&scratch, "nodes.pdb");
+    let (first, _) = nodes.split_once("ENDMDL\n").expect("a model");
+    scratch.write("first.pdb", &format!("{first}ENDMDL\nEND\n"));
+    let done = scratch.run(&["protein", "info", "first.pdb", "--json"]);
+    done.assert_code(0);
+    let info: Value = serde_json::from_str(&done.stdout).expect("JSON");
+    assert_eq!(info["chains"][0]["sequence"], "GYDPETGTWG");
+    assert_eq!(info["chains"][0]["modified"], serde_json::json!(["TPO 6 (THR)"]));
+    let gemmi = Command::new("python3").args(["-c", "import gemmi"]).output();
+    if !gemmi.is_ok_and(|output| output.status.success()) {
+        println!("not tested: no python3 with gemmi");
+        return;
+    }
+    let script = "import gemmi; s = gemmi.read_structure('nodes.pdb'); s.setup_entities(); m = s[0]; \
+                  print(len(m), [r.name for r in m[0].get_polymer()], m.count_atom_sites())";
+    let said = python(&scratch.path("."), &["-c", script]);
+    let names = "['GLY', 'TYR', 'ASP', 'PRO', 'GLU', 'TPO', 'GLY', 'THR', 'TRP', 'GLY']";
+    assert_eq!(said.trim(), format!("1 {names} 138"));
+}
+
 #[test]
 fn formats_that_are_not_there_are_refused() {
     let scratch = Scratch::new();

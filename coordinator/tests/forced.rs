@@ -305,3 +305,42 @@ fn an_import_that_is_killed_leaves_a_whole_problem_and_the_next_tidies_up() {
     assert_eq!(digest("out/copy.toml"), digests[1]);
     assert_eq!(names().len(), 2, "{:?}", names());
 }
+
+/// Meshes go when a problem of another kind, or one without any, comes to stand there, and so do structures; a folder that the
+/// problem did not use stays.
+#[test]
+fn what_a_replaced_problem_used_goes_whatever_comes_after_it() {
+    let scratch = Scratch::new();
+    scratch.write(
+        "corner.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
+    );
+    let shape = "{ mesh = { file = \"corner.obj\", scale = 0.2 } }";
+    let meshes = format!("{ENDLESS}[[obstacles]]\nshape = {shape}\nposition = [0.1, 0.1, 0.1]\n");
+    scratch.write("meshes.toml", &meshes);
+    scratch.write("plain.toml", ENDLESS);
+    fs::create_dir(scratch.path("out")).expect("a folder can be made");
+    let peptide = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/structures/1UAO.pdb");
+    let write = |command: &[&str]| {
+        let out = ["--out", "out/copy.toml", "--force"];
+        scratch.run(&[command, &out].concat()).assert_code(0);
+        scratch.run(&["check", "out/copy.toml"]).assert_code(0);
+        let mut names: Vec<String> = children(&scratch.path("out"))
+            .iter()
+            .filter_map(|path| Some(path.file_name()?.to_str()?.to_owned()))
+            .collect();
+        names.sort();
+        names
+    };
+    let (meshes, plain) = (["import", "meshes.toml"], ["import", "plain.toml"]);
+    let protein = ["protein", "problem", peptide];
+    assert_eq!(write(&meshes), ["copy-meshes", "copy.toml"]);
+    assert_eq!(write(&protein), ["copy-structures", "copy.toml"]);
+    assert_eq!(write(&plain), ["copy.toml"]);
+    assert_eq!(write(&meshes), ["copy-meshes", "copy.toml"]);
+    assert_eq!(write(&plain), ["copy.toml"]);
+    fs::create_dir(scratch.path("out/copy-structures-3")).expect("a folder can be made");
+    scratch.write("out/copy-structures-3/mine.cif", "data_mine\n");
+    assert_eq!(write(&meshes), ["copy-meshes", "copy-structures-3", "copy.toml"]);
+    assert_eq!(write(&plain), ["copy-structures-3", "copy.toml"]);
+}

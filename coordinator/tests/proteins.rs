@@ -59,6 +59,39 @@ fn info_says_what_a_file_holds() {
     assert_eq!(info["chains"][0]["sequence"], "AGM");
 }
 
+/// Two models, numbered 2 and 5, of which the second lacks the glycine.
+#[test]
+fn info_shows_the_model_that_is_asked_for() {
+    let scratch = Scratch::new();
+    let lines: Vec<&str> = FRAGMENT.lines().collect();
+    let (whole, short) = (lines.join("\n"), [&lines[..4], &lines[8..12]].concat().join("\n"));
+    let text = format!("MODEL        2\n{whole}\nENDMDL\nMODEL        5\n{short}\nENDMDL\n");
+    scratch.write("models.pdb", &text);
+    let info = |model: &[&str]| {
+        let done = scratch.run(&[&["protein", "info", "models.pdb"], model].concat());
+        done.assert_code(0);
+        done.stdout
+    };
+    let first = info(&[]);
+    assert_lines(&first, &["model 2: 13 atoms, 4 residues; chains: 1", "1 AGM"]);
+    assert_eq!(info(&["--model", "2"]), first);
+    assert_lines(
+        &info(&["--model", "5"]),
+        &[
+            "models.pdb: PDB, models: 2",
+            "model 5: 8 atoms, 2 residues; chains: 1",
+            "1 AM",
+            "alternative locations: MSE 4 (A 0.40, B 0.60: B taken)",
+        ],
+    );
+    let json: Value = serde_json::from_str(&info(&["--model", "5", "--json"])).expect("JSON");
+    assert_eq!((&json["model"], &json["chains"][0]["residues"]), (&5.into(), &2.into()));
+    assert_eq!(json["models"].as_array().map(Vec::len), Some(2));
+    let done = scratch.run(&["protein", "info", "models.pdb", "--model", "3"]);
+    done.assert_code(2);
+    done.assert_stderr(&["models.pdb: no model 3 found; one of 2, 5 expected"]);
+}
+
 #[test]
 fn compare_says_how_two_conformations_differ() {
     let scratch = Scratch::new();

@@ -28,7 +28,7 @@ pub use error::StructureError;
 pub use mmcif::mmcif;
 pub use read::{COORDINATE_MAX, read, read_bytes};
 pub use residue::{Atom, Residue, ResidueNumber};
-pub use selection::{ChainSelection, find_chain, parse_range, select_chain};
+pub use selection::{ChainSelection, find_chain, parse_range, select_chain, select_model};
 pub use torsion::torsion;
 
 use crate::digest::SourceFile;

@@ -1,4 +1,4 @@
-use super::{Chain, ResidueNumber, StructureError, StructureModel};
+use super::{Chain, ResidueNumber, Structure, StructureError, StructureModel};
 
 /// Which part of a model is meant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,6 +22,23 @@ fn parse_number(text: &str) -> Option<ResidueNumber> {
     let insertion = text.chars().next_back().filter(char::is_ascii_alphabetic);
     let number = if insertion.is_some() { &text[..text.len() - 1] } else { text };
     Some(ResidueNumber { number: number.parse().ok()?, insertion })
+}
+
+/// The model of this number, or the first if no number is asked for.
+///
+/// # Errors
+/// No such model; the numbers that there are, are listed.
+pub fn select_model(
+    structure: &Structure,
+    number: Option<i32>,
+) -> Result<&StructureModel, StructureError> {
+    let models = &structure.models;
+    let Some(number) = number else { return Ok(&models[0]) };
+    models.iter().find(|model| model.number == number).ok_or_else(|| {
+        let numbers: Vec<String> = models.iter().map(|model| model.number.to_string()).collect();
+        let numbers = numbers.join(", ");
+        StructureError::pathless(format!("no model {number} found; one of {numbers} expected"))
+    })
 }
 
 /// The index in the model of the chain that is meant by its name, or of the only chain of amino acids.

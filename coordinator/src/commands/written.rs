@@ -64,11 +64,14 @@ struct Companions {
     extension: &'static str,
 }
 
+const MESHES: Companions = Companions { suffix: "meshes", extension: "obj" };
+const STRUCTURES: Companions = Companions { suffix: "structures", extension: "cif" };
+
 impl Companions {
     fn of(problem: &Problem) -> Companions {
         match problem.model() {
-            ModelKind::Protein(_) => Companions { suffix: "structures", extension: "cif" },
-            _ => Companions { suffix: "meshes", extension: "obj" },
+            ModelKind::Protein(_) => STRUCTURES,
+            _ => MESHES,
         }
     }
 }
@@ -77,9 +80,9 @@ impl Companions {
 struct Destination {
     folder: PathBuf,
     file_name: String,
-    /// What the other files are.
-    companions: Companions,
-    /// What the names of folders of companions begin with.
+    /// The name of the problem file without its extension, with which the names of folders of companions begin.
+    stem: String,
+    /// The plain name of a folder of the companions.
     plain_name: String,
     /// The name of the folder of the companions.
     chosen: String,
@@ -106,7 +109,7 @@ impl Destination {
         Ok(Destination {
             folder,
             file_name: name.to_owned(),
-            companions,
+            stem: stem.to_owned(),
             chosen: plain_name.clone(),
             plain_name,
             folders: Vec::new(),
@@ -136,7 +139,8 @@ impl Destination {
                 let is_done = !entry.path().join(&self.file_name).exists();
                 let folders =
                     folders.split_terminator('\0').take(if is_done { usize::MAX } else { 1 });
-                let folders = folders.filter(|name| self.is_companions(name)).map(str::to_owned);
+                let folders = folders.filter(|name| self.companions_in(name).is_some());
+                let folders = folders.map(str::to_owned);
                 self.remove_unused(&folders.collect::<Vec<_>>());
                 // What cannot be removed does no harm.
                 let _ = fs::remove_dir_all(entry.path());
@@ -144,11 +148,14 @@ impl Destination {
         }
     }
 
-    /// Whether an import to this place may give a folder of companions this name.
-    fn is_companions(&self, name: &str) -> bool {
-        name.strip_prefix(&self.plain_name).is_some_and(|rest| {
-            let number = rest.strip_prefix('-').and_then(|number| number.parse::<u64>().ok());
-            rest.is_empty() || number.is_some_and(|number| rest == format!("-{number}"))
+    /// What is in the folders to which an import to this place may give this name; `None` if it gives it to none.
+    fn companions_in(&self, name: &str) -> Option<Companions> {
+        [MESHES, STRUCTURES].into_iter().find(|companions| {
+            let plain_name = format!("{}-{}", self.stem, companions.suffix);
+            name.strip_prefix(&plain_name).is_some_and(|rest| {
+                let number = rest.strip_prefix('-').and_then(|number| number.parse::<u64>().ok());
+                rest.is_empty() || number.is_some_and(|number| rest == format!("-{number}"))
+            })
         })
     }
 
@@ -161,8 +168,8 @@ impl Destination {
                 return Err(Failure::usage(message));
             }
         }
-        let replaceable =
-            fs::symlink_metadata(&companions).is_err() || self.has_companions_only(&companions);
+        let replaceable = fs::symlink_metadata(&companions).is_err()
+            || self.has_companions_only(&self.plain_name);
         if replaceable && !self.file().is_dir() {
             return Ok(());
         }
@@ -181,11 +188,12 @@ impl Destination {
         let is_free = |name: &String| fs::symlink_metadata(self.folder.join(name)).is_err();
         let free = (1..).map(name).find(is_free).unwrap_or_default();
         let problem = fs::read_to_string(self.file()).unwrap_or_default();
-        // Whatever has the plain name is replaced, as `check` allows; of others what the problem has used.
+        // Whatever has the plain name is replaced, as `check` allows; of others, those of another kind among them, what the
+        // problem has used.
         let is_old = |name: &String| *name == self.plain_name || names(&problem, name);
         let entries = fs::read_dir(folder_of(&self.file())).into_iter().flatten().flatten();
         let others = entries.filter_map(|entry| entry.file_name().into_string().ok());
-        let old = others.filter(|name| self.is_companions(name)).filter(is_old);
+        let old = others.filter(|name| self.companions_in(name).is_some()).filter(is_old);
         self.folders = std::iter::once(free.clone()).chain(old).collect();
         self.chosen = free;
     }
@@ -198,10 +206,9 @@ impl Destination {
             Err(_) => return,
         };
         for name in folders.iter().filter(|name| !names(&problem, name)) {
-            let folder = self.folder.join(name);
-            if self.has_companions_only(&folder) {
+            if self.has_companions_only(name) {
                 // What cannot be removed does no harm.
-                let _ = fs::remove_dir_all(folder);
+                let _ = fs::remove_dir_all(self.folder.join(name));
             }
         }
     }
@@ -233,17 +240,18 @@ impl Destination {
         move_all().map_err(|error| self.cannot(&error))
     }
 
-    /// Whether a folder has only files of the kind that this command writes there.
-    fn has_companions_only(&self, folder: &Path) -> bool {
+    /// Whether the folder of this name has only files of the kind that this command writes there.
+    fn has_companions_only(&self, name: &str) -> bool {
+        let Some(Companions { extension, .. }) = self.companions_in(name) else { return false };
         let is_companion = |entry: io::Result<fs::DirEntry>| {
             entry.is_ok_and(|entry| {
                 let path = entry.path();
-                let extension = path.extension();
-                path.is_file() && extension.is_some_and(|it| it == self.companions.extension)
+                path.is_file() && path.extension().is_some_and(|it| it == extension)
             })
         };
-        let is_folder = fs::symlink_metadata(folder).is_ok_and(|metadata| metadata.is_dir());
-        is_folder && fs::read_dir(folder).is_ok_and(|mut entries| entries.all(is_companion))
+        let folder = self.folder.join(name);
+        let is_folder = fs::symlink_metadata(&folder).is_ok_and(|metadata| metadata.is_dir());
+        is_folder && fs::read_dir(&folder).is_ok_and(|mut entries| entries.all(is_companion))
     }
 
     fn cannot(&self, error: &io::Error) -> Failure {

@@ -63,10 +63,10 @@ impl ChainInEnergy {
         let network = network_of(protein, &linkage, &conformer);
         let atoms = protein.obstacles.iter().flatten().flat_map(|residue| &residue.atoms);
         let heavy = atoms.filter(|atom| atom.is_heavy());
-        let obstacles = Obstacles { points: heavy.map(|atom| atom.position).collect() };
+        let obstacles = Obstacles::new(heavy.map(|atom| atom.position).collect());
         let limits = protein.rules.at_nodes();
         let along = MotionLimits::of(&protein.rules, &protein.source, &linkage.gaps);
-        let motions = MotionValidity::new(&linkage, &protein.source, &obstacles.points, along)
+        let motions = MotionValidity::new(&linkage, &protein.source, obstacles.points(), along)
             .expect("a sound description has all Cα");
         ChainInEnergy {
             space: crate::model::Description::space(protein),

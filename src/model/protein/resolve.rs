@@ -6,8 +6,8 @@ use crate::source::Step::Key;
 use crate::source::{ProblemError, Source};
 use crate::structure::matching::match_chains;
 use crate::structure::{
-    Alternative, Chain, ChainSelection, Residue, Structure, StructureError, StructureModel,
-    backbone, find_chain, parse_range, peptides, read, select_chain,
+    Alternative, Chain, ChainSelection, Residue, StructureError, StructureModel, backbone,
+    find_chain, parse_range, peptides, read, select_chain, select_model,
 };
 use std::collections::BTreeMap;
 
@@ -159,19 +159,9 @@ impl WholeChain<'_> {
             path: spec.file.to_string_lossy().into_owned(),
             ..structure.source.clone()
         });
-        let Structure { models, alternatives, .. } = structure;
-        let count = models.len();
-        let numbers: Vec<String> = models.iter().map(|model| model.number.to_string()).collect();
-        let model =
-            models.into_iter().find(|model| spec.model.is_none_or(|number| number == model.number));
-        let model = model.ok_or_else(|| {
-            let number = spec.model.unwrap_or_default();
-            let numbers = numbers.join(", ");
-            StructureError::file(
-                &path,
-                format!("no model {number} found; one of {numbers} expected"),
-            )
-        })?;
+        let model = select_model(&structure, spec.model).map_err(|error| error.in_file(&path))?;
+        let (model, count) = (model.clone(), structure.models.len());
+        let alternatives = structure.alternatives;
         if count > 1 && spec.model.is_none() {
             notes.push(format!("{key}: model {} of {count}, the first", model.number));
         }

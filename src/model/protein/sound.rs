@@ -1,7 +1,7 @@
 //! What makes a protein's description sound, whether it comes from files or from bytes.
 
 use super::kinematics::Conformer;
-use super::linkage::Linkage;
+use super::linkage::{Linkage, in_line};
 use super::motion::EnergySteps;
 use super::{Gaps, Protein, Target, write};
 use crate::structure::matching::match_chains;
@@ -35,6 +35,13 @@ impl Protein {
             let message = "a residue without N, CA, C or O, or with two of them in one place found; a backbone expected";
             return Some(("source", message.to_owned()));
         };
+        if let Some(at) = in_line(source) {
+            let [before, residue] = [&source[at - 1], &source[at]];
+            let message = format!(
+                "{residue}: N in a line with CA and the C of {before} found, where phi is not defined; a bond angle expected"
+            );
+            return Some(("source", message));
+        }
         if linkage.torsions.is_empty() {
             return Some((
                 "source",

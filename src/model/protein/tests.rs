@@ -145,6 +145,36 @@ fn what_does_not_read_back_is_named() {
     assert!(message.ends_with(" Å from its CA found; at most 100 Å expected"), "{message}");
 }
 
+/// Where N is in a line with its neighbours phi is not defined, and frames of motions have no axes: this is refused by name,
+/// also where no frame of motions stands. Nearly in a line is no error, and its motions are judged.
+#[test]
+fn a_backbone_in_a_line_is_refused() {
+    let sound = protein("");
+    for at in [1, 4, 9] {
+        let [c, ca] =
+            [sound.source[at - 1].position("C").unwrap(), sound.source[at].position("CA").unwrap()];
+        let bent = |aside: f64| {
+            let mut bent = sound.clone();
+            bent.source[at].atoms.retain(|atom| matches!(&*atom.name, "N" | "CA" | "C" | "O"));
+            let n = bent.source[at].atoms.iter_mut().find(|atom| atom.name == "N").unwrap();
+            let across = (ca - c).cross(&crate::structure::Point::new(0.3, 0.5, 0.7)).normalize();
+            n.position = (c + ca) / 2.0 + across * aside;
+            bent
+        };
+        let message = bent(0.0).sound().unwrap_err();
+        let expected = format!("protein.source: {}: N in a line with CA", sound.source[at]);
+        assert!(message.starts_with(&expected), "{message}");
+        let bent = bent(0.01);
+        assert_eq!(bent.sound(), Ok(()));
+        let rules = Rules { motion_side_chains: 0.5, ..Rules::none() };
+        let model = Protein { rules, ..bent }.prepare();
+        let native = model.native().unwrap();
+        let near: Vec<f64> =
+            native.iter().map(|value| crate::math::wrap_angle(value + 0.1)).collect();
+        assert!(model.motion(native, &near, 1, &mut Scratch::new()).is_some());
+    }
+}
+
 /// The peptide's atoms as those of a chain, moved along x, Å.
 fn chain(name: char, shift: f64) -> String {
     let text = std::fs::read_to_string(folder().join("structures/1UAO.pdb")).unwrap();

@@ -8,6 +8,7 @@ use roadmill::structure::measure::secondary_structure;
 use roadmill::structure::peptides::{cis_peptides, gaps};
 use roadmill::structure::{
     AminoAcid, Chain, ChainSelection, Residue, Structure, StructureError, read, select_chain,
+    select_model,
 };
 use serde::Serialize;
 
@@ -19,7 +20,9 @@ const WIDTH: usize = 60;
 struct Info {
     format: String,
     models: Vec<ModelInfo>,
-    /// Of the first model, as everything below.
+    /// The number of the model that is shown: the first, unless another is asked for.
+    model: i32,
+    /// Of that model, as everything below.
     chains: Vec<ChainInfo>,
     disulphides: Vec<String>,
     notes: Vec<String>,
@@ -56,7 +59,7 @@ struct ChainInfo {
 /// Says what a structure file holds.
 pub fn info(arguments: &ProteinInfoArguments) -> Result<Code, Failure> {
     let structure = read(&arguments.file).map_err(Failure::usage)?;
-    let info = Info::of(&structure, arguments.chain.as_deref())
+    let info = Info::of(&structure, arguments.model, arguments.chain.as_deref())
         .map_err(|error| Failure::usage(error.in_file(&arguments.file)))?;
     if arguments.json {
         output::json(&info);
@@ -67,11 +70,15 @@ pub fn info(arguments: &ProteinInfoArguments) -> Result<Code, Failure> {
 }
 
 impl Info {
-    fn of(structure: &Structure, chain: Option<&str>) -> Result<Info, StructureError> {
-        let first = &structure.models[0];
+    fn of(
+        structure: &Structure,
+        model: Option<i32>,
+        chain: Option<&str>,
+    ) -> Result<Info, StructureError> {
+        let shown = select_model(structure, model)?;
         let chains = match chain {
-            None => first.chains.clone(),
-            Some(_) => vec![select_chain(first, ChainSelection { chain, range: None })?],
+            None => shown.chains.clone(),
+            Some(_) => vec![select_chain(shown, ChainSelection { chain, range: None })?],
         };
         let counts = structure.models.iter().zip(&structure.counts);
         let model = |(model, counts): (&roadmill::structure::StructureModel, &_)| {
@@ -88,22 +95,27 @@ impl Info {
         Ok(Info {
             format: structure.format.to_string(),
             models: counts.map(model).collect(),
+            model: shown.number,
             disulphides: disulphides(&chains).iter().map(bond).collect(),
-            chains: chains.iter().map(|chain| ChainInfo::of(structure, chain)).collect(),
+            chains: chains
+                .iter()
+                .map(|chain| ChainInfo::of(structure, shown.number, chain))
+                .collect(),
             notes: structure.notes.clone(),
         })
     }
 
     fn print(&self, file: &str) {
-        let first = &self.models[0];
         line(format_args!("{}: {}, models: {}", Plain(file), self.format, self.models.len()));
-        line(format_args!(
-            "model {}: {} atoms, {} residues; chains: {}",
-            first.number,
-            first.atoms,
-            first.residues,
-            self.chains.len()
-        ));
+        if let Some(shown) = self.models.iter().find(|model| model.number == self.model) {
+            line(format_args!(
+                "model {}: {} atoms, {} residues; chains: {}",
+                shown.number,
+                shown.atoms,
+                shown.residues,
+                self.chains.len()
+            ));
+        }
         for chain in &self.chains {
             chain.print();
         }
@@ -115,10 +127,9 @@ impl Info {
 }
 
 impl ChainInfo {
-    fn of(structure: &Structure, chain: &Chain) -> ChainInfo {
+    fn of(structure: &Structure, model: i32, chain: &Chain) -> ChainInfo {
         let residues = &chain.residues;
         let between = |before: usize| format!("{} and {}", residues[before], residues[before + 1]);
-        let number = structure.models[0].number;
         let named = |residues: Vec<&Residue>| residues.iter().map(ToString::to_string).collect();
         let missing = |residue: &Residue| Some(format!("{} of {residue}", missing_atom(residue)?));
         let is_bare = |residue: &&Residue| {
@@ -131,7 +142,7 @@ impl ChainInfo {
         };
         let alternatives = structure.alternatives.iter().filter(|alternative| {
             // Of chains with one name each may be meant.
-            alternative.model == number && alternative.chain == chain.name
+            alternative.model == model && alternative.chain == chain.name
         });
         let atoms = || residues.iter().flat_map(|residue| &residue.atoms);
         ChainInfo {

@@ -89,6 +89,24 @@ fn rotation(axis: &Unit<Point>, sin: f64, cos: f64) -> Matrix3<f64> {
     )
 }
 
+/// Below this sine of the angle C(i−1)–N–CA the three count as in a line.
+const IN_LINE: f64 = 1e-3;
+
+/// The first residue, counted from 0, whose N stands in a line with its CA and the C of the residue before it. Phi is not
+/// defined there, nor is the frame in which motions see what follows the peptide bond. Residues that lack one of the three
+/// are passed over.
+pub fn in_line(residues: &[Residue]) -> Option<usize> {
+    let is_in_line = |pair: &[Residue]| {
+        let [c, n, ca] = [pair[0].position("C")?, pair[1].position("N")?, pair[1].position("CA")?];
+        let (back, forth) = (c - n, ca - n);
+        let sine = back.cross(&forth).norm() / (back.norm() * forth.norm());
+        // The sine is no number where two of them are in one place.
+        Some(sine.is_nan() || sine < IN_LINE)
+    };
+    let before = residues.windows(2).position(|pair| is_in_line(pair) == Some(true))?;
+    Some(before + 1)
+}
+
 impl Linkage {
     /// The linkage of a chain all of whose residues have N, CA and C. `None` where one has not, where a coordinate is no
     /// number, or where atoms stand on one another. What follows a gap moves as one with what is before it.

@@ -3,7 +3,7 @@
 use super::limits::Limits;
 use crate::model::protein::atoms::ResidueAtoms;
 use crate::model::protein::kinematics::Conformer;
-use crate::model::protein::linkage::{Linkage, TorsionKind};
+use crate::model::protein::linkage::{Linkage, TorsionKind, in_line};
 use crate::structure::{Point, Residue};
 use std::ops::Range;
 
@@ -76,20 +76,21 @@ pub(super) struct Chain {
 
 /// Rounding errors of a position for every torsion, as a share of the largest coordinates: a few units in the last place.
 const ROUNDING: f64 = 1e-15;
-/// More than a side chain's centroid is away from the Cα, Å.
+/// More than the centroid of a natural amino acid's side chain is away from the Cα, Å. Where one is farther, that counts.
 const SIDE_CHAIN: f64 = 20.0;
 /// Outweighs the rounding of the least distance of Cα atoms that are neighbours but one, Å.
 const FOLDS_MARGIN: f64 = 1e-6;
 
 impl Chain {
-    /// The chain of a linkage and the residues that it was made of. `None` where a residue lacks N, CA, C or O.
+    /// The chain of a linkage and the residues that it was made of. `None` where a residue lacks N, CA, C or O, and where
+    /// N stands in a line with CA and the C before it, so that frames have no axes.
     pub fn of(
         linkage: &Linkage,
         residues: &[Residue],
         obstacles: &[Point],
         limits: Limits,
     ) -> Option<Chain> {
-        let conformer = Conformer::of(residues, linkage)?;
+        let conformer = Conformer::of(residues, linkage).filter(|_| in_line(residues).is_none())?;
         let atoms = conformer.atoms();
         let mut links: Vec<Link> = Vec::with_capacity(atoms.len());
         let mut turnings = linkage.torsions.iter().enumerate().peekable();
@@ -123,7 +124,10 @@ impl Chain {
         let bonds = atoms.windows(2).map(|pair| (pair[1].ca - pair[0].ca).norm());
         let obstacles_reach = obstacles.iter().map(|obstacle| obstacle.norm()).fold(0.0, f64::max);
         let origin = atoms.first()?.ca;
-        let reach = SIDE_CHAIN + origin.norm() + bonds.sum::<f64>() + obstacles_reach;
+        let side_chains =
+            atoms.iter().filter_map(|atoms| Some((atoms.centroid? - atoms.ca).norm()));
+        let side_chain = side_chains.fold(SIDE_CHAIN, f64::max);
+        let reach = side_chain + origin.norm() + bonds.sum::<f64>() + obstacles_reach;
         let mut segments = Vec::new();
         split(0..links.len().div_ceil(BLOCK), links.len(), &mut segments);
         if !obstacles.is_empty() {

@@ -34,7 +34,8 @@ pub struct MotionValidity {
 
 impl MotionValidity {
     /// Prepares the chain of a linkage and of the residues that it was made of. `obstacles` are points that stand still, in
-    /// the frame of the source. `None` where a residue lacks N, CA, C or O.
+    /// the frame of the source. `None` where a residue lacks N, CA, C or O, and where N stands in a line with CA and the C
+    /// before it ([`in_line`](super::linkage::in_line)).
     pub fn new(
         linkage: &Linkage,
         residues: &[Residue],

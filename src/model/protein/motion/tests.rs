@@ -444,6 +444,33 @@ fn nonsense_is_refused() {
     let judge = Judge::of(&one, &[], limits_of(&one));
     assert!(judge.validity(&one).is_valid(&[], &[], scratch));
     assert!(MotionValidity::new(&judge.linkage, &[], &[], judge.limits).is_none());
+    let mut bent = residues;
+    let [c, ca] = [bent[7].position("C").unwrap(), bent[8].position("CA").unwrap()];
+    let n = bent[8].atoms.iter_mut().find(|atom| atom.name == "N").unwrap();
+    n.position = (c + ca) / 2.0;
+    let linkage = Linkage::of(&bent).unwrap();
+    assert!(MotionValidity::new(&linkage, &bent, &[], judge.limits).is_none());
+}
+
+/// What is allowed for rounding covers side chains however long they are.
+#[test]
+fn rounding_grows_with_the_reach_of_side_chains() {
+    let of = |residues: &[Residue]| {
+        let linkage = Linkage::of(residues).unwrap();
+        Chain::of(&linkage, residues, &[], limits_of(residues)).unwrap().rounding
+    };
+    let usual = mixed(20);
+    let with_arm = |length: f64| {
+        let mut residues = usual.clone();
+        let alpha = residues[7].position("CA").unwrap();
+        let beta = residues[7].atoms.iter_mut().find(|atom| atom.name == "CB").unwrap();
+        beta.position = alpha + (beta.position - alpha).normalize() * length;
+        of(&residues)
+    };
+    assert_eq!(with_arm(19.0).to_bits(), of(&usual).to_bits());
+    // 80 Å more than the usual arm, for each of 38 torsions and ten more.
+    let more = with_arm(100.0) - of(&usual);
+    assert!((more - 80.0 * 48.0 * 1e-15).abs() < 1e-18, "{more}");
 }
 
 /// Of neighbours but one only those beside a cis peptide can come near; motions look at these.

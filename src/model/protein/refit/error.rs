@@ -40,7 +40,7 @@ pub enum RefitError {
         "the backbone of the {0} has two atoms on one another, or a coordinate that is no number"
     )]
     NoBackbone(End),
-    /// The linkage is not that of the source.
-    #[error("the linkage is not that of the {}", End::Source)]
+    /// The linkage, or the torsions to begin with, are not those of the source.
+    #[error("the linkage or its torsions are not those of the {}", End::Source)]
     OtherLinkage,
 }

@@ -116,6 +116,39 @@ pub fn refit(
     rules: &Rules,
     weights: &Weights,
 ) -> Result<Refit, RefitError> {
+    fit((source, linkage), target, None, rules, weights)
+}
+
+/// As [`refit`], from torsions that are near already instead of the copied ones, in radians: the whole chain is fitted at once.
+/// So a series of targets, each near the one before, becomes a series of configurations of which each is near the one before.
+/// [`Refit::copied_rmsd`] is that of `start`.
+///
+/// # Errors
+///
+/// As [`refit`], and if `start` has not as many torsions as the linkage, or numbers that are not finite.
+pub fn refit_from(
+    source: &[Residue],
+    linkage: &Linkage,
+    target: &[Residue],
+    start: &[f64],
+    rules: &Rules,
+    weights: &Weights,
+) -> Result<Refit, RefitError> {
+    let is_of_linkage = start.len() == linkage.torsions.len();
+    if !is_of_linkage || !start.iter().all(|value| value.is_finite()) {
+        return Err(RefitError::OtherLinkage);
+    }
+    fit((source, linkage), target, Some(start), rules, weights)
+}
+
+/// Fits from torsions that are near, or from the copied ones.
+fn fit(
+    (source, linkage): (&[Residue], &Linkage),
+    target: &[Residue],
+    start: Option<&[f64]>,
+    rules: &Rules,
+    weights: &Weights,
+) -> Result<Refit, RefitError> {
     if source.len() != target.len() {
         let (source_len, target_len) = (source.len(), target.len());
         return Err(RefitError::Lengths { source_len, target_len });
@@ -155,10 +188,13 @@ pub fn refit(
         margin: DISTANCE_MARGIN,
         contact_weight: 0.0,
     };
-    let copied = copied(linkage, &target_linkage);
+    let first = start.map_or_else(|| copied(linkage, &target_linkage), <[f64]>::to_vec);
     let pulls = pulls(&sites, &target_sites);
-    let mut fit = Fit { state: State::unposed(copied.clone()), steps: 0 };
-    fit.grow(&mut objective, &pulls);
+    let mut fit = Fit { state: State::unposed(first.clone()), steps: 0 };
+    match start {
+        None => fit.grow(&mut objective, &pulls),
+        Some(_) => fit.lay(&objective, &pulls),
+    }
     fit.whole(&mut objective, &pulls, weights);
     let q: Vec<f64> = fit.state.q.iter().map(|angle| math::wrap_angle(*angle)).collect();
     let conformer = Conformer::of(source, linkage).ok_or(RefitError::NoBackbone(End::Source))?;
@@ -171,7 +207,7 @@ pub fn refit(
         target_conformer: (&target_conformer, target_linkage.source()),
         bonds: &bonds,
     };
-    Ok(measured.refit(&copied, q, fit.steps))
+    Ok(measured.refit(&first, q, fit.steps))
 }
 
 /// The atoms of a chain.
@@ -252,6 +288,15 @@ impl Fit {
         self.steps += minimum.steps;
     }
 
+    /// Lays the chain upon what these draw to.
+    fn lay(&mut self, objective: &Objective, pulls: &[Pull]) {
+        let positions = objective.positions(&self.state);
+        let (from, to): (Vec<Point>, Vec<Point>) =
+            pulls.iter().map(|pull| (positions[pull.site], pull.to)).unzip();
+        let laid = superpose(&from, &to);
+        self.state.pose = Motion { rotation: laid.rotation, translation: laid.translation };
+    }
+
     /// Fits the first residues, then ever more of them.
     fn grow(&mut self, objective: &mut Objective, pulls: &[Pull]) {
         let residues = objective.sites.residues();
@@ -261,12 +306,7 @@ impl Fit {
             let of = |pull: &&Pull| objective.sites.sites[pull.site].residue < end;
             pulls.iter().filter(of).copied().collect::<Vec<Pull>>()
         };
-        // The first part is laid upon the target.
-        let positions = objective.positions(&self.state);
-        let (from, to): (Vec<Point>, Vec<Point>) =
-            reached(end).iter().map(|pull| (positions[pull.site], pull.to)).unzip();
-        let laid = superpose(&from, &to);
-        self.state.pose = Motion { rotation: laid.rotation, translation: laid.translation };
+        self.lay(objective, &reached(end));
         while end < residues {
             let pulls = reached(end);
             self.minimize(&Objective { pulls, ..objective.clone() }, OF_PARTS);

@@ -181,6 +181,27 @@ fn what_the_same_linkage_can_do_is_found_from_elsewhere() {
     assert!(found.deviations.iter().all(|deviation| *deviation < 1e-6));
 }
 
+/// From torsions that are near, without copying those of the target.
+#[test]
+fn a_refit_goes_on_from_torsions_that_are_near() {
+    let source = crooked(30, 4);
+    let (q, target) = turned(&source, 1.0);
+    let linkage = Linkage::of(&source).expect("it is whole");
+    let (rules, weights) = (Rules::none(), Weights::default());
+    let from = |start: &[f64]| refit_from(&source, &linkage, &target, start, &rules, &weights);
+    let mut numbers = Numbers::new(11);
+    let near: Vec<f64> = q.iter().map(|q| math::wrap_angle(q + 0.02 * numbers.normal())).collect();
+    let found = from(&near).expect("it is whole");
+    assert!(found.copied_rmsd > 0.1 && found.backbone_rmsd < 1e-6, "{found:?}");
+    for (found, expected) in found.q.iter().zip(&q) {
+        assert!(math::angle_between(*found, *expected) < 1e-6);
+    }
+    let nonsense = vec![f64::NAN; q.len()];
+    for start in [&q[1..], &nonsense, &[]] {
+        assert_eq!(from(start), Err(RefitError::OtherLinkage));
+    }
+}
+
 #[test]
 fn two_structures_of_different_bonds_come_near_to_each_other_the_same_way_each_time() {
     let source = crooked(20, 6);

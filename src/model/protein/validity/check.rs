@@ -1,11 +1,13 @@
 //! Whether a conformation keeps the rules: single precision says who may be too close, double precision who is.
 
 use super::known::Shortcut;
-use super::pairs::{Counts, Flow, Obstacles, Violation};
+use super::obstacles::Obstacles;
+use super::pairs::{BACKBONE, Counts, Flow, Violation};
 use super::rules::{Limits, Rules};
 use super::screen::Screen;
 use crate::lanes::with_lanes;
-use crate::model::protein::placed::Placed;
+use crate::model::protein::placed::{Placed, Site};
+use crate::structure::Point;
 use fearless_simd::prelude::*;
 
 impl Limits {
@@ -52,10 +54,25 @@ impl Limits {
             }
         ))?;
         screen.suspects = suspects;
-        for residue in 0..if obstacles.points.is_empty() { 0 } else { len } {
-            for obstacle in obstacles.points.iter().enumerate() {
-                self.of_obstacle(placed, residue, obstacle, each)?;
-            }
+        self.visit_obstacles(placed, obstacles, each)
+    }
+
+    /// Calls `each` for every violation by a residue and an obstacle.
+    fn visit_obstacles(
+        &self,
+        placed: &Placed,
+        obstacles: &Obstacles,
+        each: &mut dyn FnMut(Violation) -> Flow,
+    ) -> Flow {
+        let points = obstacles.points();
+        let reach = self.obstacle_backbone.max(self.obstacle_side_chains);
+        if points.is_empty() || reach <= 0.0 {
+            return Flow::Continue(());
+        }
+        for residue in 0..placed.len() {
+            obstacles.near(corners(placed, residue), reach, |number| {
+                self.of_obstacle(placed, residue, (number, &points[number]), each)
+            })?;
         }
         Flow::Continue(())
     }
@@ -101,6 +118,19 @@ impl Limits {
         }
         self.of_all(placed, obstacles, &mut Flow::Break).break_value()
     }
+}
+
+/// The least and the greatest corner of the box around a residue's atoms, no numbers if a coordinate is none.
+fn corners(placed: &Placed, residue: usize) -> [Point; 2] {
+    let first = placed.at(Site::Centroid, residue);
+    let (mut low, mut high, mut sum) = (first, first, first);
+    for (_, site) in BACKBONE {
+        let at = placed.at(site, residue);
+        (low, high, sum) = (low.inf(&at), high.sup(&at), sum + at);
+    }
+    // A minimum may pass over what is no number; a sum does not.
+    let is_number = sum.iter().all(|sum| sum.is_finite());
+    if is_number { [low, high] } else { [Point::repeat(f64::NAN); 2] }
 }
 
 impl Rules {

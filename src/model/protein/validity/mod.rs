@@ -4,11 +4,13 @@ mod check;
 mod known;
 mod list;
 mod near;
+mod obstacles;
 mod pairs;
 mod rules;
 mod screen;
 
-pub use pairs::{Atom, Counts, Obstacles, Rule, Violation};
+pub use obstacles::Obstacles;
+pub use pairs::{Atom, Counts, Rule, Violation};
 pub use rules::{Limits, Rules};
 pub use screen::Screen;
 

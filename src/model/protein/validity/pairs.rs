@@ -1,16 +1,10 @@
 //! The rules pair by pair: what they say of every pair of atoms, and who violates them.
 
+use super::obstacles::Obstacles;
 use super::rules::Limits;
 use crate::model::protein::placed::{Placed, Site};
 use crate::structure::Point;
 use std::ops::ControlFlow;
-
-/// Rigid atoms around the chain, in the source's frame, Å.
-#[derive(Clone, Debug, Default)]
-pub struct Obstacles {
-    /// Their positions.
-    pub points: Vec<Point>,
-}
 
 /// A rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -99,7 +93,7 @@ pub(super) fn square(a: &Point, b: &Point) -> f64 {
 }
 
 /// The backbone atoms of a residue, CB among them.
-const BACKBONE: [(Atom, Site); 5] = [
+pub(super) const BACKBONE: [(Atom, Site); 5] = [
     (Atom::N, Site::N),
     (Atom::CA, Site::CA),
     (Atom::C, Site::C),
@@ -210,7 +204,7 @@ impl Limits {
                 self.of_backbones(placed, (i, j), each)?;
                 self.of_side_chains(placed, (i, j), each)?;
             }
-            for obstacle in obstacles.points.iter().enumerate() {
+            for obstacle in obstacles.points().iter().enumerate() {
                 self.of_obstacle(placed, i, obstacle, each)?;
             }
         }

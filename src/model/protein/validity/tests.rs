@@ -98,7 +98,7 @@ fn every_rule_finds_its_pair_and_can_be_switched_off() {
     assert_eq!(Rules::default().along_motions(3.8).alpha_carbons, 2.7);
 
     let limits = Rules::default().at_nodes();
-    let obstacle = |point: Point| Obstacles { points: vec![away, point] };
+    let obstacle = |point: Point| Obstacles::new(vec![away, point]);
     let (placed, screen) = (apart(40), &mut Screen::default());
     let by_backbone = obstacle(placed.at(Site::O, 17) + Point::new(0.0, 2.5, 0.0));
     let found = limits.first_violation(&placed, &by_backbone, screen).expect("it is close");
@@ -321,4 +321,91 @@ fn native_chains_keep_the_rules_and_noise_is_judged_as_pair_by_pair() {
         let (short, valid) = walk((&conformer, &limits), &linkage.source(), 64, &mut numbers);
         assert!(valid > 20, "{name}: {valid} of {short} are few to try it on");
     }
+}
+
+/// Holds verdicts about obstacles against those of every residue with every obstacle.
+fn agrees_about(placed: &Placed, limits: &Limits, obstacles: &Obstacles) -> Counts {
+    let expected = plain(limits, placed, obstacles);
+    let screen = &mut Screen::default();
+    assert_eq!(limits.count(placed, obstacles, screen), expected);
+    assert_eq!(limits.is_valid(placed, obstacles, screen), expected.total() == 0);
+    let first = limits.of_all(placed, obstacles, &mut Flow::Break).break_value();
+    // As text, in which a distance that is no number equals itself.
+    let text = |violation: Option<Violation>| format!("{violation:?}");
+    assert_eq!(text(limits.first_violation(placed, obstacles, screen)), text(first));
+    expected
+}
+
+#[test]
+fn obstacles_in_cells_are_judged_as_one_by_one() {
+    let mut numbers = Numbers::new(6);
+    let (mut of_backbone, mut of_sides, mut valid) = (0, 0, 0);
+    for trial in 0..240 {
+        let placed = apart(12);
+        let count = [1, 5, 40, 300][trial % 4];
+        // Crowds and lone ones, and some within rounding of the limits.
+        let size = [6.0, 40.0, 400.0, 4e4][trial / 4 % 4];
+        let mut points: Vec<Point> = (0..count)
+            .map(|_| {
+                let place = Point::from_fn(|_, _| (numbers.next() - 0.5) * size);
+                place + Point::new(55.0, 0.0, 0.0)
+            })
+            .collect();
+        let direction = Point::from_fn(|_, _| numbers.normal()).normalize();
+        let by = if numbers.next() < 0.5 { 1.0 } else { 1.0 - 1e-15 };
+        let residue = (numbers.next() * 12.0) as usize;
+        points.push(placed.at(Site::C, residue) + direction * (2.6 * by));
+        points.push(placed.at(Site::Centroid, residue) + direction * (2.4 * by));
+        let mut rules = Rules::default();
+        match trial % 5 {
+            1 => rules.obstacle_backbone = 0.0,
+            2 => rules.obstacle_side_chains = 0.0,
+            3 => (rules.obstacle_backbone, rules.obstacle_side_chains) = (10.0, 7.5),
+            4 => rules = Rules { obstacle_side_chains: 0.3, ..Rules::none() },
+            _ => {}
+        }
+        let counts = agrees_about(&placed, &rules.at_nodes(), &Obstacles::new(points));
+        of_backbone += counts.obstacle_backbone;
+        of_sides += counts.obstacle_side_chains;
+        valid += usize::from(counts.total() == 0);
+    }
+    assert!(
+        of_backbone > 1_000 && of_sides > 200 && valid > 20,
+        "{of_backbone} {of_sides} {valid}"
+    );
+}
+
+/// A coordinate that is no number violates the rules about obstacles, too, wherever these are.
+#[test]
+fn residues_that_are_nowhere_violate_the_rules_of_obstacles() {
+    let obstacles = Obstacles::new(vec![Point::repeat(500.0), Point::repeat(-500.0)]);
+    let none = Rules::none().at_nodes();
+    let limits = Limits { obstacle_backbone: 2.6, obstacle_side_chains: 2.4, ..none };
+    assert_eq!(agrees_about(&apart(9), &limits, &obstacles).total(), 0);
+    for site in [Site::N, Site::CA, Site::C, Site::O, Site::CB, Site::Centroid] {
+        let mut placed = apart(9);
+        let at = placed.at(site, 4);
+        placed.put(site, 4, &Point::new(at.x, f64::NAN, at.z));
+        assert_eq!(agrees_about(&placed, &limits, &obstacles).total(), 2, "{site:?}");
+    }
+}
+
+#[test]
+fn a_real_chain_beside_another_is_judged_as_one_by_one() {
+    let Some(residues) = read("1HVR.pdb") else { return };
+    let (conformer, linkage) = conformer(&residues);
+    // The chain itself, moved aside: it is close here and there.
+    let atoms = residues.iter().flat_map(|residue| &residue.atoms);
+    let aside = Point::new(9.0, 11.0, 0.0);
+    let obstacles = Obstacles::new(atoms.map(|atom| atom.position + aside).collect());
+    let (mut placed, mut numbers, mut violations) = (conformer.placed(), Numbers::new(7), 0);
+    for width in [0.0, 0.002, 0.02, 0.2] {
+        for _ in 0..5 {
+            let noisy = |q: &f64| q + width * numbers.normal();
+            conformer.place(&linkage.source().iter().map(noisy).collect::<Vec<_>>(), &mut placed);
+            let counts = agrees_about(&placed, &Rules::default().at_nodes(), &obstacles);
+            violations += counts.obstacle_backbone + counts.obstacle_side_chains;
+        }
+    }
+    assert!(violations > 100, "{violations} are few to try it on");
 }
