@@ -2,7 +2,7 @@ use super::via_nodes::{Tried, ViaNodes};
 use super::{Pathway, Pathways, pairs};
 use crate::context::{Context, Ends};
 use crate::model::Scratch;
-use crate::query::{Attachment, Ways, shorten};
+use crate::query::{Attachment, Path, Ways, shorten, shorten_within};
 use crate::roadmap::{Rank, Roadmap, Route};
 use rayon::prelude::*;
 
@@ -11,6 +11,9 @@ pub const DISTANCE: f64 = 1.5;
 
 /// So many penalised routes are found before what becomes of them is looked at.
 const BATCH: usize = 8;
+
+/// How much of a path's length a shortcut replaces at most where a candidate is to stay where it is.
+const LOCAL: f64 = 0.125;
 
 /// More edges that fail the finer check are not left out one after the other; the search then ends with what was found.
 const FAILED_MAX: usize = 1000;
@@ -40,7 +43,9 @@ pub struct Dissimilar {
 ///   before. Where these do not suffice, penalised searches add others: the shortest route when every edge costs more by how
 ///   many candidates go along it, both as a multiple of its cost and by the mean cost of the edges of the best route.
 /// - Every edge of a candidate passes the finer check of paths that are given out; one that fails is left out, and routes are
-///   found anew. Then the candidate is [shortened](shorten), which raises neither cost nor highest energy.
+///   found anew. Then the candidate is shortened in two ways, neither of which raises cost or highest energy: as far as it can be
+///   ([`shorten`]), which draws paths toward one another where little is between them, and within an eighth of its length
+///   ([`shorten_within`]), which leaves it where it is.
 /// - The shortened candidates are *ranked* by what they then come to, ties by the order in which they were found. The best is
 ///   accepted, and then each whose frames have a discrete Fréchet distance of at least `distance` from those of all that
 ///   were accepted before: the distance is that of what is given out.
@@ -131,11 +136,13 @@ fn penalised_routes(
 fn shortened(ways: &Ways, routes: &[Route], asked: &Dissimilar) -> Vec<Pathway> {
     let paths: Vec<_> = routes.iter().map(|route| ways.path(route)).collect();
     let cx = ways.cx;
-    let finished = |scratch: &mut Scratch, path: &crate::query::Path| {
-        Pathway::of(cx, shorten(cx, path, asked.shortcuts, scratch), asked.spacing, scratch)
+    let finished = |scratch: &mut Scratch, path: &Path| {
+        let whole = shorten(cx, path, asked.shortcuts, scratch);
+        let local = shorten_within(cx, path, asked.shortcuts, LOCAL, scratch);
+        [whole, local].map(|path| Pathway::of(cx, path, asked.spacing, scratch))
     };
     let all: Vec<_> = paths.par_iter().map_init(Scratch::new, finished).collect();
-    all.into_iter().flatten().collect()
+    all.into_iter().flatten().flatten().collect()
 }
 
 /// The indices of the accepted ones among those that were found, the best first. Brings what was found in the order of the

@@ -23,7 +23,7 @@ mod ways;
 use attach::once_nearest;
 pub(crate) use attach::{attach, attach_for_good};
 pub use path::Path;
-pub use shorten::shorten;
+pub use shorten::{shorten, shorten_within};
 pub(crate) use ways::Ways;
 
 use crate::context::Context;

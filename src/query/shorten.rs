@@ -27,14 +27,26 @@ const AT_END: f64 = 1e-9;
 /// of legs that are cut. The result has the same ends, has no configuration twice in a row, is never longer (but for
 /// rounding), and is the same for the same arguments; the draws come from the problem's base seed.
 pub fn shorten(cx: &Context, path: &Path, tries: u32, scratch: &mut Scratch) -> Path {
+    shorten_within(cx, path, tries, 1.0, scratch)
+}
+
+/// [`shorten`] by shortcuts alone that replace at most `reach` of the path's length each, a fraction: the path stays
+/// about where it is.
+pub fn shorten_within(
+    cx: &Context,
+    path: &Path,
+    tries: u32,
+    reach: f64,
+    scratch: &mut Scratch,
+) -> Path {
     let mut stream = Seed::of_evaluator(cx.base_seed, "shorten").stream(Purpose::Connecting);
-    let mut short = without_needless(cx, path, scratch);
+    let mut short = without_needless(cx, path, reach, scratch);
     for index in 0..tries {
         // One straight motion is as short as can be.
         if short.configs.len() < 3 {
             break;
         }
-        let window = 1.0 / f64::from(1u32 << (index % SCALES));
+        let window = reach / f64::from(1u32 << (index % SCALES));
         let (one, drawn) = (stream.unit(), stream.unit());
         let other = (one + (2.0 * drawn - 1.0) * window).clamp(0.0, 1.0);
         if let Some(shorter) = shortcut(cx, &short, one.min(other), one.max(other), scratch) {
@@ -47,10 +59,14 @@ pub fn shorten(cx: &Context, path: &Path, tries: u32, scratch: &mut Scratch) -> 
 /// The path without configurations that stand twice in a row, and without those between which the straight motion
 /// does as well. Pairs of configurations are tried in the order of how many legs lie between them, most first, and
 /// from the start on; at most [`PAIRS_MAX`] of them.
-fn without_needless(cx: &Context, path: &Path, scratch: &mut Scratch) -> Path {
+fn without_needless(cx: &Context, path: &Path, reach: f64, scratch: &mut Scratch) -> Path {
     let mut all = Configs::new(cx.space.len());
     path.configs.iter().for_each(|q| all.push_if_new(q));
     let mut kept: Vec<usize> = (0..all.len()).collect();
+    let lengths = Path { configs: all.clone(), length: 0.0 }.lengths(&cx.space);
+    let most = reach * lengths[lengths.len() - 1];
+    let is_within =
+        |first: usize, last: usize| reach >= 1.0 || lengths[last] - lengths[first] <= most;
     let mut tried = BTreeSet::new();
     let mut known = BTreeMap::new();
     let mut legs = kept.len().saturating_sub(1);
@@ -58,7 +74,8 @@ fn without_needless(cx: &Context, path: &Path, scratch: &mut Scratch) -> Path {
         let mut first = 0;
         while first + legs < kept.len() && tried.len() < PAIRS_MAX {
             let between = &kept[first..=first + legs];
-            let is_new = tried.insert((between[0], between[legs]));
+            let is_new =
+                is_within(between[0], between[legs]) && tried.insert((between[0], between[legs]));
             if is_new && is_needless(cx, &all, between, &mut known, scratch) {
                 kept.drain(first + 1..first + legs);
             }

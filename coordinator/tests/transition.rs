@@ -1,0 +1,77 @@
+//! A protein's transition between two structures, in one command.
+
+mod support;
+
+use std::fs;
+use support::Scratch;
+
+/// The peptide that ships.
+const PEPTIDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/structures/1UAO.pdb");
+
+/// A folder with `a.pdb`, the native peptide, and `b.pdb`, a conformation of it from the way to a stretched one.
+fn two_structures() -> Scratch {
+    let scratch = Scratch::new();
+    fs::copy(PEPTIDE, scratch.path("a.pdb")).expect("it ships");
+    let problem = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/chignolin.toml");
+    scratch.build("way", &[problem, "--max-nodes", "200", "--threads", "2"], 3);
+    let out = ["--format", "pdb", "--out", "way.pdb"];
+    scratch.run(&[&["export", "way"], &out[..]].concat()).assert_code(0);
+    let models = fs::read_to_string(scratch.path("way.pdb")).expect("it is written");
+    let models: Vec<&str> = models.split("ENDMDL").collect();
+    let (_, atoms) = models[12].split_once('\n').expect("it has lines");
+    let is_atom = |line: &&str| line.starts_with("ATOM") || line.starts_with("TER");
+    let lines: String = atoms.lines().filter(is_atom).map(|line| format!("{line}\n")).collect();
+    scratch.write("b.pdb", &format!("{lines}END\n"));
+    scratch
+}
+
+#[test]
+fn two_structures_become_a_problem_a_roadmap_and_paths_whoever_works() {
+    let scratch = two_structures();
+    let transition = |out: &str, more: &[&str]| {
+        let whole = [&["transition", "a.pdb", "b.pdb", "--out", out, "--max-sets", "32"], more];
+        let done = scratch.run(&whole.concat());
+        assert!(
+            [Some(0), Some(3)].contains(&done.status.code()),
+            "{}\n{}",
+            done.stdout,
+            done.stderr
+        );
+        (scratch.summary(out).digest, done.stdout)
+    };
+    let (digest, said) = transition("one", &["--threads", "1"]);
+    for told in
+        ["problem digest", "refit            Cα RMSD", "start            relaxed by", "goal "]
+    {
+        assert!(said.contains(told), "{told}\n{said}");
+    }
+    assert!(scratch.path("one.toml").is_file() && scratch.path("one-structures").is_dir());
+    assert_eq!(transition("two", &["--workers", "2"]).0, digest);
+    // The problem that was written is the one that was built, and the build that is there is gone on with.
+    scratch.build("three", &["one.toml", "--max-sets", "32", "--workers", "1"], 0);
+    assert_eq!(scratch.summary("three").digest, digest);
+    assert_eq!(transition("one", &["--threads", "2", "--or-resume"]).0, digest);
+    scratch.run(&["verify", "two", "--all", "--threads", "2"]).assert_code(0);
+
+    let paths = ["paths", "one", "--count", "2", "--format", "pdb,csv", "--out", "paths"];
+    let done = scratch.run(&paths);
+    done.assert_code(0);
+    for file in ["paths.csv", "path-1.pdb", "path-1.frames.csv"] {
+        assert!(scratch.path("paths").join(file).is_file(), "{file}");
+    }
+}
+
+#[test]
+fn what_is_there_is_kept_unless_it_is_told_otherwise() {
+    let scratch = Scratch::new();
+    fs::copy(PEPTIDE, scratch.path("a.pdb")).expect("it ships");
+    scratch.write("it.toml", "seed = 1\n");
+    let whole = ["transition", "a.pdb", "a.pdb", "--out", "it", "--max-sets", "2"];
+    scratch.run(&whole).assert_code(2);
+    assert_eq!(fs::read_to_string(scratch.path("it.toml")).expect("it is there"), "seed = 1\n");
+    assert!(!scratch.path("it").exists());
+    let hold = [&whole[..], &["--hold", "-1"]].concat();
+    let done = scratch.run(&hold);
+    done.assert_code(2);
+    done.assert_stderr(&["--hold", "a number from 0"]);
+}
