@@ -63,8 +63,11 @@ pub fn pdb<'a>(
     Ok(out)
 }
 
-/// The atoms of one model.
-fn model(chains: &[Vec<Residue>], out: &mut String) -> Result<(), CannotExport> {
+/// Writes the atoms of one model, chain by chain, with a `TER` record behind each chain.
+///
+/// # Errors
+/// As [`pdb`].
+pub(super) fn model(chains: &[Vec<Residue>], out: &mut String) -> Result<(), CannotExport> {
     let mut serial = 0;
     for (chain, residues) in (b'A'..=b'Z').map(char::from).zip(chains) {
         for residue in residues {
