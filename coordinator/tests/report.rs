@@ -10,12 +10,23 @@ use support::Scratch;
 const CHIGNOLIN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/chignolin.toml");
 
 /// What is looked for in a chignolin of a few sets, so that it is found in a moment.
-const SEARCH: [&str; 8] =
-    ["--count", "2", "--dissimilar", "0.3", "--tries", "3", "--shorten-tries", "3"];
+const SEARCH: [&str; 10] = [
+    "--count",
+    "2",
+    "--dissimilar",
+    "0.3",
+    "--tries",
+    "2",
+    "--shorten-tries",
+    "2",
+    "--spacing",
+    "1",
+];
 
 /// The data of the page's viewer.
 fn data(page: &str) -> Value {
-    let (_, rest) = page.split_once("<script type=\"application/json\" id=\"data\">").expect("data");
+    let (_, rest) =
+        page.split_once("<script type=\"application/json\" id=\"data\">").expect("data");
     let (json, _) = rest.split_once("</script>").expect("an end");
     serde_json::from_str(json).expect("JSON")
 }
@@ -26,7 +37,7 @@ fn a_page_is_written_with_the_paths_as_structures_and_the_rounds_as_recorded() {
     let text = fs::read_to_string(CHIGNOLIN).expect("it ships");
     let structures = CHIGNOLIN.replace("chignolin.toml", "structures/");
     let criteria = "\n[[evaluators]]\nall = [{ flow-ratio = { ratio = 1e9 } }, { lowest-barrier = { energy = 0.0 } }]\n\
-        [limits]\nsets = 12\n";
+        [limits]\nsets = 8\n";
     scratch.write("c.toml", &(text.replace("structures/", &structures) + criteria));
     scratch.build("run", &["c.toml"], 3);
     let write = |out: &str| {
@@ -36,8 +47,8 @@ fn a_page_is_written_with_the_paths_as_structures_and_the_rounds_as_recorded() {
     };
     let page = write("a.html");
     assert!(page == write("b.html"), "another page");
-    // Three rounds of four sets, each with the numbers of both criteria.
-    for text in ["flow-ratio, flow back", "lowest-barrier", "the limit of 12 sets is reached"] {
+    // Two rounds of four sets, each with the numbers of both criteria.
+    for text in ["flow-ratio, flow back", "lowest-barrier", "the limit of 8 sets is reached"] {
         assert!(page.contains(text), "{text}");
     }
     let data = data(&page);
@@ -50,9 +61,8 @@ fn a_page_is_written_with_the_paths_as_structures_and_the_rounds_as_recorded() {
         assert_eq!(coordinates.len() * 3 / 4, frames * atoms * 3 * 2);
     }
     // The structures of the page are those of `paths`, whose PDB files have hydrogens besides.
-    let done = scratch.run(
-        &[&["paths", "run", "--out", "ways", "--format", "pml,cxc"][..], &SEARCH].concat(),
-    );
+    let done = scratch
+        .run(&[&["paths", "run", "--out", "ways", "--format", "pml,cxc"][..], &SEARCH].concat());
     done.assert_code(0);
     let pdb = fs::read_to_string(scratch.path("ways").join("path-1.pdb")).expect("written");
     assert_eq!(pdb.matches("MODEL ").count(), paths[0]["told"].as_array().expect("rows").len());
@@ -110,7 +120,7 @@ fn has_browser() -> bool {
 
 /// Notes every error from the beginning; uses the controls of the page when all is loaded, and says what came of it in
 /// attributes of the root element.
-const WATCH: &str = r#"<script>
+const WATCH: &str = r##"<script>
 const told = document.documentElement.dataset;
 told.errors = "";
 const note = (error) => { told.errors += error + "; "; };
@@ -151,7 +161,7 @@ addEventListener("load", () => {
   element("path").onchange();
   told.wide = document.documentElement.scrollWidth > innerWidth;
 });
-</script>"#;
+</script>"##;
 
 /// Opens the page in a browser, wide and narrow: nothing goes wrong, and structures are seen.
 fn look(scratch: &Scratch, page: &str) {
@@ -159,7 +169,12 @@ fn look(scratch: &Scratch, page: &str) {
     scratch.write("watched.html", &watched);
     for size in ["1280,900", "420,900"] {
         let output = Command::new("chromium")
-            .args(["--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader"])
+            .args([
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu-sandbox",
+                "--use-angle=swiftshader",
+            ])
             .args(["--enable-unsafe-swiftshader", "--virtual-time-budget=4000", "--dump-dom"])
             .arg(format!("--window-size={size}"))
             .arg(format!("--user-data-dir={}", scratch.path("browser").display()))
@@ -176,7 +191,7 @@ fn look(scratch: &Scratch, page: &str) {
         assert_eq!(said("errors"), "", "{size}");
         for count in ["drawn", "trace", "stick"] {
             let count: u32 = said(count).parse().expect("a number");
-            assert!(count > 500, "{size}: {root}");
+            assert!(count > 100, "{size}: {root}");
         }
         assert_eq!((said("moved"), said("wide")), ("true", "false"), "{size}");
     }

@@ -94,6 +94,6 @@ mod tests {
         }
         let beside = chimerax(&[12, 30], true);
         assert!(!beside.contains("align") && !beside.contains("holdSteady"), "{beside}");
-        assert!(!chimerax(&[], false).contains("open path"));
+        assert!(!chimerax(&[], false).contains("open path-"));
     }
 }

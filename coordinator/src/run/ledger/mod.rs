@@ -70,8 +70,9 @@ impl Ledger {
         let mut roadmap = Roadmap::new(&space);
         let mut replay = Replay::new(&scan, &problem)?;
         let mut rounds = Vec::new();
-        // The criteria of the chapter that the rounds are in.
-        let mut criteria: Option<(usize, Problem)> = None;
+        // The problem of the chapter that the rounds are in, by whose criteria they were judged. What cannot be read of
+        // an earlier chapter leaves its rounds without names of their verdicts, so without these.
+        let mut criteria: Option<(usize, Option<Problem>)> = None;
         while let Some(told) = replay.read()? {
             match told {
                 Told::Round(round, digest) => {
@@ -84,9 +85,9 @@ impl Ledger {
                 Told::Judged(Judged { verdicts, .. }) => {
                     let chapter = replay.chapter();
                     if criteria.as_ref().is_none_or(|(of, _)| *of != chapter) {
-                        criteria = Some((chapter, scan.problem_of(chapter)?));
+                        criteria = Some((chapter, scan.problem_of(chapter).ok()));
                     }
-                    if let (Some(last), Some((_, problem))) = (rounds.last_mut(), &criteria) {
+                    if let (Some(last), Some((_, Some(problem)))) = (rounds.last_mut(), &criteria) {
                         last.numbers = RoundValue::of(problem.evaluators(), &verdicts);
                     }
                 }
