@@ -7,7 +7,7 @@
   const box = element("viewer");
   const data = JSON.parse(element("data").textContent);
   const lines = data.pdb.split("\n");
-  const isAtom = (line) => line.startsWith("ATOM");
+  const isAtom = (line) => line.startsWith("ATOM") || line.startsWith("HETATM");
   const atoms = lines.filter(isAtom).length;
 
   const decode = (text) => {
@@ -75,7 +75,9 @@
     residueOf.push(isFirstChain ? residue : -1);
   }
 
-  const model = () => viewer.addModel(data.pdb, "pdb");
+  // Modified residues are part of the chain, and of its ribbon.
+  const chain = data.pdb.replace(/^HETATM/gm, "ATOM  ");
+  const model = () => viewer.addModel(chain, "pdb");
   const [moving, start, goal] = [model(), model(), model()];
   const place = (which, path, frame) => {
     const numbers = coordinates(path);
