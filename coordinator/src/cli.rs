@@ -1,7 +1,9 @@
 //! The command line.
 
+mod paths;
 mod transition;
 
+pub use paths::{FrameFormat, PathsArguments, RankBy, ReportArguments, SearchArguments};
 pub use transition::{EndsArguments, TransitionArguments};
 
 use crate::exit;
@@ -9,7 +11,6 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use roadmill::export::{FORMATS, RoadmapFormat};
 use roadmill::numbers::Ordinal;
-use roadmill::pathways::DomainAngle;
 use roadmill::structure::{ResidueNumber, parse_range};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -48,6 +49,9 @@ pub enum Command {
     /// Find several ways through a roadmap, ranked and compared, and write them for other programs
     #[command(allow_negative_numbers = true)]
     Paths(PathsArguments),
+    /// Write a page about a run: its map, several paths in numbers and pictures, structures that move
+    #[command(allow_negative_numbers = true)]
+    Report(ReportArguments),
     /// Say what is wrong with a problem, or what it would build
     Check(CheckArguments),
     /// Write a problem, or a scene of another program, as a problem file with its meshes
@@ -348,72 +352,6 @@ pub enum PathFormat {
     Path,
 }
 
-/// Of `paths`.
-#[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
-pub struct PathsArguments {
-    /// The run folder
-    pub run: PathBuf,
-    /// Configuration where the paths begin [default: the problem's start]
-    #[arg(long, value_name = "CONFIGURATION", allow_hyphen_values = true)]
-    pub start: Option<String>,
-    /// Configuration where the paths end [default: the problem's goal]
-    #[arg(long, value_name = "CONFIGURATION", allow_hyphen_values = true)]
-    pub goal: Option<String>,
-    /// How many paths are looked for
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=1000))]
-    pub count: u32,
-    /// Paths each two of which are at least this far apart, Å of Cα RMSD or in the space's metric [default: the best,
-    /// however alike; without a distance: 1.5 Å, or a twentieth of the space's diameter]
-    #[arg(long, value_name = "DISTANCE", num_args = 0..=1, value_parser = distance)]
-    pub dissimilar: Option<Option<f64>>,
-    /// By what paths are ranked [default: barrier in a model with energies, otherwise cost]
-    #[arg(long, value_enum)]
-    pub by: Option<RankBy>,
-    /// How far apart neighbouring frames are at most, Å of Cα RMSD or in the space's metric [default: 0.5 Å, or a
-    /// hundredth of the space's diameter]
-    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
-    pub spacing: Option<f64>,
-    /// How many candidates of dissimilar paths are shortened and compared, at most twice as many in all
-    #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    pub tries: u32,
-    /// How often a shortcut is tried on each candidate of dissimilar paths
-    #[arg(long, value_name = "N", default_value_t = 200)]
-    pub shorten_tries: u32,
-    /// A folder for files of the paths, new or empty
-    #[arg(long, value_name = "FOLDER")]
-    pub out: Option<PathBuf>,
-    /// What is written there of each path: csv always, the others of molecules
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "csv", requires = "out")]
-    pub format: Vec<FrameFormat>,
-    /// An angle between domains in the tables of frames: the numbers of three ranges of residues, the angle at the second;
-    /// may be given several times (NMP=35-55/90-100/115-125)
-    #[arg(long = "angle", value_name = "NAME=RANGE/RANGE/RANGE", value_parser = angle)]
-    pub angles: Vec<DomainAngle>,
-}
-
-/// By what paths are ranked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum RankBy {
-    /// The highest energy, then the cost
-    Barrier,
-    /// The sum of what the motions cost
-    Cost,
-}
-
-/// A format of the frames of a path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FrameFormat {
-    /// Tables of configurations, and of molecules what is measured frame by frame
-    Csv,
-    /// A PDB file with a model for every frame
-    Pdb,
-    /// A trajectory of CHARMM and NAMD
-    Dcd,
-    /// A trajectory of GROMACS, rounded to 0.001 Å
-    Xtc,
-}
-
 /// Of `check`.
 #[derive(Debug, Args)]
 #[command(after_help = exit::HELP)]
@@ -597,30 +535,6 @@ fn seconds(text: &str) -> Result<f64, String> {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value * unit),
         _ => Err("a positive number of seconds, or with s, m or h behind it, expected".to_owned()),
     }
-}
-
-fn distance(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if (1e-3..=1e12).contains(&value) => Ok(value),
-        _ => Err("a distance from 1e-3 to 1e12 expected".to_owned()),
-    }
-}
-
-fn angle(text: &str) -> Result<DomainAngle, String> {
-    let range = |text: &str| {
-        let (first, last) = parse_range(text)?;
-        Some(first.number..=last.number).filter(|range| !range.is_empty())
-    };
-    let parse = || {
-        let (name, ranges) = text.split_once('=')?;
-        let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ');
-        let ranges = ranges.split('/').map(range).collect::<Option<Vec<_>>>()?;
-        let name = Some(name).filter(|name| !name.is_empty() && name.chars().all(is_plain))?;
-        Some(DomainAngle { name: name.to_owned(), ranges: ranges.try_into().ok()? })
-    };
-    parse().ok_or_else(|| {
-        "NAME=FIRST-LAST/FIRST-LAST/FIRST-LAST expected, a plain name and three ranges of residue numbers".to_owned()
-    })
 }
 
 fn length(text: &str) -> Result<f64, String> {

@@ -1,4 +1,4 @@
-use super::markup::escaped;
+use super::markup::{escaped, quoted};
 use super::tessellate::tessellate;
 use crate::problem::Problem;
 use crate::query::Path;
@@ -79,20 +79,4 @@ fn numbers(values: impl IntoIterator<Item = f64>) -> String {
 
 fn number(value: f64) -> String {
     (value as f32 + 0.0).to_string()
-}
-
-/// A text as a JSON string, in which no character could end the HTML element around it.
-fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => out.extend(['\\', c]),
-            '\0'..' ' | '<' | '>' | '&' | '\u{2028}' | '\u{2029}' => {
-                write!(out, "\\u{:04x}", u32::from(c)).expect("writing to memory cannot fail");
-            }
-            c => out.push(c),
-        }
-    }
-    out.push('"');
-    out
 }

@@ -20,6 +20,7 @@
 //! ```
 
 mod animation;
+mod chimerax;
 mod contours;
 mod csv;
 mod dcd;
@@ -30,9 +31,12 @@ mod journey;
 mod markup;
 mod npz;
 mod paint_order;
+mod palette;
 mod parasol;
 mod path_csv;
 mod pdb;
+mod pymol;
+mod report;
 mod solid;
 mod svg;
 mod tessellate;
@@ -43,6 +47,7 @@ mod vtk;
 mod xtc;
 
 pub use animation::animation;
+pub use chimerax::chimerax;
 pub use csv::{edges_csv, nodes_csv};
 pub use dcd::dcd;
 pub use format::{CannotExport, ExportFile, Exported, RoadmapFormat};
@@ -51,6 +56,8 @@ pub use npz::npz;
 pub use parasol::{parasol_map, parasol_path};
 pub use path_csv::path_csv;
 pub use pdb::pdb;
+pub use pymol::pymol;
+pub use report::{Report, RoundOutcome, RoundValue, report};
 pub use svg::svg;
 pub use xtc::xtc;
 

@@ -138,8 +138,11 @@ fn next(serial: &mut usize) -> Result<usize, CannotExport> {
     Ok(*serial)
 }
 
-/// The atoms of one model.
-fn model(chains: &[Vec<Residue>], out: &mut String) -> Result<(), CannotExport> {
+/// Writes the atoms of one model, chain by chain, with a `TER` record behind each chain.
+///
+/// # Errors
+/// As [`pdb`].
+pub(super) fn model(chains: &[Vec<Residue>], out: &mut String) -> Result<(), CannotExport> {
     let mut serial = 0;
     for (chain, residues) in lettered(chains)? {
         for residue in residues {

@@ -5,8 +5,14 @@ pub trait Molecule {
     /// The chains, first that which moves, with all atoms where they are at the configuration `q`, in Å.
     fn chains_at(&self, q: &[f64]) -> Vec<Vec<Residue>>;
 
+    /// Whether chains are there that do not move.
+    fn has_chains_that_stand_still(&self) -> bool;
+
     /// What energies a configuration has, part by part.
     fn energies(&self) -> Energies<'_>;
+
+    /// What these energies are and what they are not, in a paragraph for people who read results.
+    fn about_energies(&self) -> &'static str;
 }
 
 /// The parts of a molecule's energy, and the whole.

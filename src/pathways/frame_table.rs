@@ -3,8 +3,8 @@
 use super::Frames;
 use crate::model::Molecule;
 use crate::structure::measure::{
-    APART, CA, CA_REACH, ThreeStates, ca_contacts, domain_angle, radius_of_gyration, rmsd,
-    secondary_structure, share_of_ca_contacts,
+    APART, CA, CA_REACH, ThreeStates, angle_of_centroids, ca_contacts, domain_angle,
+    radius_of_gyration, rmsd, secondary_structure, share_of_ca_contacts,
 };
 use crate::structure::peptides::phi_psi;
 use crate::structure::{AminoAcid, Point, Residue};
@@ -147,6 +147,17 @@ impl DomainAngle {
     fn degrees(&self, residues: &[Residue]) -> f64 {
         let [one, middle, other] = self.ranges.clone();
         domain_angle(residues, one, middle, other, CA).map_or(f64::NAN, f64::to_degrees)
+    }
+
+    /// The same of residues whose Cα are at `alphas`, Å, one for each residue.
+    pub(crate) fn degrees_of_alphas(&self, residues: &[Residue], alphas: &[Point]) -> f64 {
+        let of = |range: &RangeInclusive<i32>| -> Vec<Point> {
+            let both = residues.iter().zip(alphas);
+            let chosen = both.filter(|(residue, _)| range.contains(&residue.number.number));
+            chosen.map(|(_, alpha)| *alpha).collect()
+        };
+        let [one, middle, other] = self.ranges.each_ref().map(of);
+        angle_of_centroids(&one, &middle, &other).map_or(f64::NAN, f64::to_degrees)
     }
 }
 

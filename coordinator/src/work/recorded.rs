@@ -1,5 +1,6 @@
 use crate::run::ledger::{Ledger, Stopped};
 use roadmill::Context;
+use roadmill::export::RoundOutcome;
 use roadmill::model::Scratch;
 use roadmill::problem::Problem;
 use roadmill::query::{self, Answer, Attachment, EndError, Path};
@@ -46,6 +47,17 @@ impl Recorded {
     /// Why the build stopped; `None` while it runs or where it was killed.
     pub fn stopped(&self) -> Option<&Stopped> {
         self.ledger.stopped.as_ref()
+    }
+
+    /// What the build came to at the end of every complete round, in their order.
+    pub fn rounds(&self) -> &[RoundOutcome] {
+        &self.ledger.rounds
+    }
+
+    /// The program that wrote the run, as `status` says it: `roadmill 0.1.0, bits 3`.
+    pub fn program(&self) -> String {
+        let (version, bits) = &self.ledger.program;
+        format!("roadmill {version}, bits {bits}")
     }
 
     /// Looks for a path between two configurations, attached to the roadmap as the problem's first evaluator does it

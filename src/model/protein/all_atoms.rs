@@ -19,6 +19,10 @@ impl Molecule for Protein {
         std::iter::once(chain).chain(self.obstacles.clone()).collect()
     }
 
+    fn has_chains_that_stand_still(&self) -> bool {
+        self.has_obstacles()
+    }
+
     /// Each set of constraints on its own, the hydrophobic pairs, and the whole, in model kJ/mol.
     fn energies(&self) -> Energies<'_> {
         let model = ChainInEnergy::of(self);
@@ -34,5 +38,13 @@ impl Molecule for Protein {
             energies
         };
         Energies { columns: sets.into_iter().chain(rest).collect(), at: Box::new(at) }
+    }
+
+    /// In short what `docs/proteins.md` says under *What a result means*.
+    fn about_energies(&self) -> &'static str {
+        "Energies are in model kJ/mol. They are made of the contacts of the known structures, a Gō-type model: they say which ways \
+         between these structures the chain's geometry leaves open, and rank them by what they break. They are no free energies, \
+         and no rates follow from them. Bonds do not bend, side chains do not turn, there is no water. Costs are in kT at 298 K, \
+         2.479 kJ/mol."
     }
 }

@@ -24,6 +24,7 @@ pub use writer::{BEGUN, LedgerWriter};
 
 use crate::exit::Failure;
 use roadmill::evaluate::Verdict;
+use roadmill::export::{RoundOutcome, RoundValue};
 use roadmill::problem::Problem;
 use roadmill::roadmap::Roadmap;
 use std::fs::File;
@@ -43,6 +44,10 @@ pub struct Ledger {
     pub path: Option<roadmill::query::Path>,
     /// Why the build stopped; `None` while it runs or where it was killed.
     pub stopped: Option<Stopped>,
+    /// What the build came to at the end of every complete round.
+    pub rounds: Vec<RoundOutcome>,
+    /// The version of the program that wrote the last chapter, and of its bits.
+    pub program: (String, u32),
 }
 
 impl Ledger {
@@ -64,15 +69,35 @@ impl Ledger {
         let space = problem.space();
         let mut roadmap = Roadmap::new(&space);
         let mut replay = Replay::new(&scan, &problem)?;
+        let mut rounds = Vec::new();
+        // The problem of the chapter that the rounds are in, by whose criteria they were judged. What cannot be read of
+        // an earlier chapter leaves its rounds without names of their verdicts, so without these.
+        let mut criteria: Option<(usize, Option<Problem>)> = None;
         while let Some(told) = replay.read()? {
-            if let Told::Round(round, digest) = told {
-                roadmap.fold_round(&space, round.parts());
-                replay.check(roadmap.tally(), digest)?;
+            match told {
+                Told::Round(round, digest) => {
+                    roadmap.fold_round(&space, round.parts());
+                    replay.check(roadmap.tally(), digest)?;
+                    let tally = roadmap.tally();
+                    let (nodes, components) = (tally.nodes() as u64, tally.components() as u64);
+                    rounds.push(RoundOutcome { nodes, components, numbers: Vec::new() });
+                }
+                Told::Judged(Judged { verdicts, .. }) => {
+                    let chapter = replay.chapter();
+                    if criteria.as_ref().is_none_or(|(of, _)| *of != chapter) {
+                        criteria = Some((chapter, scan.problem_of(chapter).ok()));
+                    }
+                    if let (Some(last), Some((_, Some(problem)))) = (rounds.last_mut(), &criteria) {
+                        last.numbers = RoundValue::of(problem.evaluators(), &verdicts);
+                    }
+                }
+                Told::Stopped(_) => (),
             }
         }
         let answers = scan.last_verdicts.iter().filter_map(Verdict::answer);
         let path = answers.filter_map(|answer| answer.path.clone()).next();
-        Ok(Ledger { problem, roadmap, path, stopped: scan.stopped })
+        let program = (scan.chapter().program.clone(), scan.chapter().bits_version);
+        Ok(Ledger { problem, roadmap, path, stopped: scan.stopped, rounds, program })
     }
 }
 

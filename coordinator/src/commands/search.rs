@@ -1,0 +1,90 @@
+//! What `paths` and `report` share: which paths are looked for.
+
+use super::query::ends;
+use crate::cli::{RankBy, SearchArguments};
+use crate::exit::Failure;
+use crate::work::Recorded;
+use roadmill::Ends;
+use roadmill::model::{Molecule, Scratch};
+use roadmill::pathways::{
+    DISTANCE, Dissimilar, KBest, Pathways, Rank, SPACING, dissimilar, k_best,
+};
+
+/// What is asked for, with what the model says of it.
+pub(super) struct Asked<'a> {
+    pub run: &'a Recorded,
+    arguments: &'a SearchArguments,
+    /// Where the paths begin and end.
+    pub ends: Ends,
+    pub rank: Rank,
+    spacing: f64,
+    pub molecule: Option<&'a dyn Molecule>,
+    /// Units of energies, of costs, and of lengths and distances.
+    pub energy: &'static str,
+    pub cost: &'static str,
+    pub length: &'static str,
+}
+
+impl<'a> Asked<'a> {
+    /// # Errors
+    /// Exit code 2: what the model does not have is asked for, or an end that cannot be used.
+    pub fn of(run: &'a Recorded, arguments: &'a SearchArguments) -> Result<Asked<'a>, Failure> {
+        let (start, goal) = ends(run, &arguments.start, &arguments.goal)?;
+        let (cx, description) = (run.context(), run.problem().model().description());
+        let scratch = &mut Scratch::new();
+        let has_energies = cx.model().energy(&start, scratch).is_some();
+        let has_alphas = cx.model().shape(&start, scratch).is_some();
+        let rank = match arguments.by {
+            Some(RankBy::Barrier) if !has_energies => {
+                let message = "--by: barrier found; this model has no energies, cost expected";
+                return Err(Failure::usage(message));
+            }
+            Some(RankBy::Cost) => Rank::Cost,
+            None if !has_energies => Rank::Cost,
+            _ => Rank::Barrier,
+        };
+        let molecule = description.molecule();
+        if molecule.is_none() && !arguments.angles.is_empty() {
+            return Err(Failure::usage("--angle: this model is no molecule"));
+        }
+        let usual = if has_alphas { SPACING } else { cx.space().diameter() / 100.0 };
+        let energy = description.node_values().iter().find(|value| value.name == "energy");
+        Ok(Asked {
+            run,
+            arguments,
+            ends: Ends { start, goal },
+            rank,
+            spacing: arguments.spacing.unwrap_or(usual),
+            molecule,
+            energy: energy.map_or("1", |value| value.unit),
+            cost: description.cost_unit(),
+            length: if has_alphas { "Å" } else { "length" },
+        })
+    }
+
+    /// The least distance of dissimilar paths, unless told otherwise.
+    pub fn usual_distance(&self) -> f64 {
+        if self.length == "Å" { DISTANCE } else { self.run.context().space().diameter() / 20.0 }
+    }
+
+    /// The best paths, however alike; or, with a distance or `Some(None)` for the usual one, dissimilar ones.
+    pub fn find(&self, distance: Option<Option<f64>>) -> Pathways {
+        let Asked { run, arguments, ref ends, rank, spacing, .. } = *self;
+        let (cx, roadmap, scratch) = (run.context(), run.roadmap(), &mut Scratch::new());
+        let attachment = run.problem().attachment();
+        let count = arguments.count as usize;
+        let Some(distance) = distance else {
+            let asked = KBest { count, rank, spacing };
+            return k_best(cx, roadmap, ends, &attachment, &asked, scratch);
+        };
+        let asked = Dissimilar {
+            count,
+            rank,
+            distance: distance.unwrap_or_else(|| self.usual_distance()),
+            spacing,
+            tries: arguments.tries as usize,
+            shortcuts: arguments.shorten_tries,
+        };
+        dissimilar(cx, roadmap, ends, &attachment, &asked, scratch)
+    }
+}

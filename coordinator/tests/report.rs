@@ -1,0 +1,198 @@
+//! The page about a run, and the scripts for programs that show molecules.
+
+mod support;
+
+use serde_json::Value;
+use std::fs;
+use std::process::Command;
+use support::Scratch;
+
+const CHIGNOLIN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/chignolin.toml");
+
+/// What is looked for in a chignolin of a few sets, so that it is found in a moment.
+const SEARCH: [&str; 10] = [
+    "--count",
+    "2",
+    "--dissimilar",
+    "0.3",
+    "--tries",
+    "2",
+    "--shorten-tries",
+    "2",
+    "--spacing",
+    "1",
+];
+
+/// The data of the page's viewer.
+fn data(page: &str) -> Value {
+    let (_, rest) =
+        page.split_once("<script type=\"application/json\" id=\"data\">").expect("data");
+    let (json, _) = rest.split_once("</script>").expect("an end");
+    serde_json::from_str(json).expect("JSON")
+}
+
+#[test]
+fn a_page_is_written_with_the_paths_as_structures_and_the_rounds_as_recorded() {
+    let scratch = Scratch::new();
+    let text = fs::read_to_string(CHIGNOLIN).expect("it ships");
+    let structures = CHIGNOLIN.replace("chignolin.toml", "structures/");
+    let criteria = "\n[[evaluators]]\nall = [{ flow-ratio = { ratio = 1e9 } }, { lowest-barrier = { energy = 0.0 } }]\n\
+        [limits]\nsets = 8\n";
+    scratch.write("c.toml", &(text.replace("structures/", &structures) + criteria));
+    scratch.build("run", &["c.toml"], 3);
+    let write = |out: &str| {
+        let done = scratch.run(&[&["report", "run", "--out", out][..], &SEARCH].concat());
+        done.assert_code(0);
+        fs::read_to_string(scratch.path(out)).expect("written")
+    };
+    let page = write("a.html");
+    assert!(page == write("b.html"), "another page");
+    // Two rounds of four sets, each with the numbers of both criteria.
+    for text in ["flow-ratio, flow back", "lowest-barrier", "the limit of 8 sets is reached"] {
+        assert!(page.contains(text), "{text}");
+    }
+    let data = data(&page);
+    let paths = data["paths"].as_array().expect("paths");
+    assert!(!paths.is_empty());
+    let atoms = data["pdb"].as_str().expect("a text").matches("ATOM  ").count();
+    for path in paths {
+        let frames = path["told"].as_array().expect("rows").len();
+        let coordinates = path["coordinates"].as_str().expect("base64").trim_end_matches('=');
+        assert_eq!(coordinates.len() * 3 / 4, frames * atoms * 3 * 2);
+    }
+    // The structures of the page are those of `paths`, whose PDB files have hydrogens besides.
+    let done = scratch
+        .run(&[&["paths", "run", "--out", "ways", "--format", "pml,cxc"][..], &SEARCH].concat());
+    done.assert_code(0);
+    let pdb = fs::read_to_string(scratch.path("ways").join("path-1.pdb")).expect("written");
+    assert_eq!(pdb.matches("MODEL ").count(), paths[0]["told"].as_array().expect("rows").len());
+    let script = |name: &str| fs::read_to_string(scratch.path("ways").join(name)).expect("written");
+    for line in ["load path-1.pdb, path_1, multiplex=0", "mplay"] {
+        assert!(script("paths.pml").lines().any(|found| found == line), "{line}");
+    }
+    assert!(script("paths.cxc").contains("open path-1.pdb id 1 coordsets true"));
+    if has_browser() {
+        look(&scratch, &page);
+    }
+}
+
+#[test]
+fn what_cannot_be_reported_is_refused() {
+    let scratch = Scratch::new();
+    scratch.write(
+        "room.toml",
+        "[space]\nmotion = \"translation-2d\"\nmin = [0, 0]\nmax = [4, 4]\nbounds = \"reference\"\n\
+         [robot]\nbodies = [{ shape = { point = {} } }]\n[query]\nstart = [1, 2]\ngoal = [3, 2]\n\
+         [[strategies]]\nlabel = \"u\"\nnodes = 20\nsampler = { uniform = {} }\n[limits]\nsets = 1\n",
+    );
+    scratch.build("run", &["room.toml"], 0);
+    for (arguments, fragment) in [
+        (&["run"][..], "--out"),
+        (&["run", "--out", "x.html", "--angle", "A=1-2/3-4/5-6"], "this model is no molecule"),
+        (&["run", "--out", "x.html", "--by", "barrier"], "this model has no energies"),
+        (&["run", "--out", "none/x.html"], "none/x.html: cannot write"),
+        (&["lost", "--out", "x.html"], "lost"),
+    ] {
+        let done = scratch.run(&[&["report"], arguments].concat());
+        done.assert_code(2);
+        done.assert_stderr(&[fragment]);
+    }
+    assert!(!scratch.path("x.html").exists());
+    let done = scratch.run(&["paths", "run", "--format", "pml", "--out", "ways"]);
+    done.assert_code(2);
+    done.assert_stderr(&["pml found; this model is no molecule, csv expected"]);
+    scratch.run(&["report", "run", "--out", "x.html"]).assert_code(0);
+    assert!(scratch.path("x.html").is_file());
+}
+
+/// A headless Chromium, unless there is none and none is required.
+fn has_browser() -> bool {
+    let there = Command::new("chromium").arg("--version").output();
+    let there = there.is_ok_and(|output| output.status.success());
+    if !there {
+        let required =
+            std::env::var_os("ROADMILL_REQUIRE_BROWSER").is_some_and(|value| value == "1");
+        assert!(!required, "no chromium");
+        println!("not tested: no chromium");
+    }
+    there
+}
+
+/// Notes every error from the beginning; uses the controls of the page when all is loaded, and says what came of it in
+/// attributes of the root element.
+const WATCH: &str = r##"<script>
+const told = document.documentElement.dataset;
+told.errors = "";
+const note = (error) => { told.errors += error + "; "; };
+addEventListener("error", (event) => note(event.message));
+addEventListener("securitypolicyviolation", (event) => note("fetched: " + event.blockedURI));
+for (const kind of ["error", "warn"]) console[kind] = (...words) => note(words.join(" "));
+addEventListener("load", () => {
+  const element = (id) => document.getElementById(id);
+  const coloured = () => {
+    const drawn = document.querySelector("#viewer canvas");
+    const flat = document.createElement("canvas");
+    [flat.width, flat.height] = [drawn.width, drawn.height];
+    const context = flat.getContext("2d");
+    context.drawImage(drawn, 0, 0);
+    const pixels = context.getImageData(0, 0, flat.width, flat.height).data;
+    let count = 0;
+    for (let i = 0; i < pixels.length; i += 4) {
+      const [low, high] = [Math.min(...pixels.slice(i, i + 3)), Math.max(...pixels.slice(i, i + 3))];
+      if (pixels[i + 3] > 0 && high - low > 60) count++;
+    }
+    return count;
+  };
+  told.drawn = coloured();
+  const first = element("told").textContent;
+  element("frame").value = element("frame").max;
+  element("frame").oninput();
+  told.moved = element("told").textContent !== first;
+  for (const style of ["trace", "stick"]) {
+    element("style").value = style;
+    element("style").onchange();
+    told[style] = coloured();
+  }
+  for (const colours of ["chain", "motion"]) {
+    element("colours").value = colours;
+    element("colours").onchange();
+  }
+  element("path").selectedIndex = element("path").length - 1;
+  element("path").onchange();
+  told.wide = document.documentElement.scrollWidth > innerWidth;
+});
+</script>"##;
+
+/// Opens the page in a browser, wide and narrow: nothing goes wrong, and structures are seen.
+fn look(scratch: &Scratch, page: &str) {
+    let watched = page.replacen("<style>", &format!("{WATCH}<style>"), 1);
+    scratch.write("watched.html", &watched);
+    for size in ["1280,900", "420,900"] {
+        let output = Command::new("chromium")
+            .args([
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu-sandbox",
+                "--use-angle=swiftshader",
+            ])
+            .args(["--enable-unsafe-swiftshader", "--virtual-time-budget=4000", "--dump-dom"])
+            .arg(format!("--window-size={size}"))
+            .arg(format!("--user-data-dir={}", scratch.path("browser").display()))
+            .arg(scratch.path("watched.html"))
+            .output();
+        let output = output.expect("chromium starts");
+        let page = String::from_utf8_lossy(&output.stdout);
+        let root = page.split("<html").nth(1).and_then(|rest| rest.split('>').next());
+        let root = root.unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&output.stderr)));
+        let said = |name: &str| {
+            let text = root.split(&format!("data-{name}=\"")).nth(1);
+            text.and_then(|rest| rest.split('"').next()).unwrap_or_else(|| panic!("{name}: {root}"))
+        };
+        assert_eq!(said("errors"), "", "{size}");
+        for count in ["drawn", "trace", "stick"] {
+            let count: u32 = said(count).parse().expect("a number");
+            assert!(count > 100, "{size}: {root}");
+        }
+        assert_eq!((said("moved"), said("wide")), ("true", "false"), "{size}");
+    }
+}
