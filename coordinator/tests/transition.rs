@@ -45,6 +45,8 @@ fn two_structures_become_a_problem_a_roadmap_and_paths_whoever_works() {
     {
         assert!(said.contains(told), "{told}\n{said}");
     }
+    let page = fs::read_to_string(scratch.path("one.html")).expect("it is written");
+    assert!(page.contains("</html>") && !page.contains("src=\"http"));
     assert!(scratch.path("one.toml").is_file() && scratch.path("one-structures").is_dir());
     assert_eq!(transition("two", &["--workers", "2"]).0, digest);
     // The problem that was written is the one that was built, and the build that is there is gone on with.

@@ -26,16 +26,36 @@ pub struct SearchArguments {
     #[arg(long, value_name = "DISTANCE", value_parser = distance)]
     pub spacing: Option<f64>,
     /// How many candidates of dissimilar paths are shortened and compared, at most twice as many in all
-    #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = TRIES, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub tries: u32,
     /// How often a shortcut is tried on each candidate of dissimilar paths
-    #[arg(long, value_name = "N", default_value_t = 200)]
+    #[arg(long, value_name = "N", default_value_t = SHORTEN_TRIES)]
     pub shorten_tries: u32,
     /// An angle between domains, shown along the paths: the numbers of three ranges of residues, the angle at the second;
     /// may be given several times (NMP=35-55/90-100/115-125). Of a report the first two are the axes of the map
     #[arg(long = "angle", value_name = "NAME=RANGE/RANGE/RANGE", value_parser = angle)]
     pub angles: Vec<DomainAngle>,
 }
+
+impl SearchArguments {
+    /// What is looked for where nothing is said, with these angles.
+    pub fn usual(angles: Vec<DomainAngle>) -> SearchArguments {
+        SearchArguments {
+            start: None,
+            goal: None,
+            count: 5,
+            by: None,
+            spacing: None,
+            tries: TRIES,
+            shorten_tries: SHORTEN_TRIES,
+            angles,
+        }
+    }
+}
+
+/// How many candidates of dissimilar paths are shortened, and how often a shortcut is tried on each, if nothing is said.
+const TRIES: u32 = 40;
+const SHORTEN_TRIES: u32 = 200;
 
 /// Of `paths`.
 #[derive(Debug, Args)]
@@ -106,7 +126,7 @@ fn distance(text: &str) -> Result<f64, String> {
     }
 }
 
-fn angle(text: &str) -> Result<DomainAngle, String> {
+pub(super) fn angle(text: &str) -> Result<DomainAngle, String> {
     let range = |text: &str| {
         let (first, last) = parse_range(text)?;
         Some(first.number..=last.number).filter(|range| !range.is_empty())

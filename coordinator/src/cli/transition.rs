@@ -1,7 +1,9 @@
 //! Arguments about the two ends of a protein's transition.
 
+use super::paths::angle;
 use super::{Gaps, GrowthArguments, exit, residues};
 use clap::Args;
+use roadmill::pathways::DomainAngle;
 use roadmill::problem::HOLD;
 use roadmill::structure::ResidueNumber;
 use std::path::PathBuf;
@@ -42,7 +44,7 @@ pub struct TransitionArguments {
     /// Base seed [default: 1]
     #[arg(long, value_name = "SEED")]
     pub seed: Option<u64>,
-    /// Run folder to be made; the problem goes beside it as FOLDER.toml
+    /// Run folder to be made; the problem goes beside it as FOLDER.toml, and the page about the run as FOLDER.html
     #[arg(long, value_name = "FOLDER")]
     pub out: PathBuf,
     /// Replace the problem and the run that are there
@@ -51,6 +53,9 @@ pub struct TransitionArguments {
     /// Go on with the run that is there, if it is of this problem
     #[arg(long, conflicts_with = "force")]
     pub or_resume: bool,
+    /// An angle between domains for the page, as of `report`; may be given several times
+    #[arg(long = "angle", value_name = "NAME=RANGE/RANGE/RANGE", value_parser = angle)]
+    pub angles: Vec<DomainAngle>,
     #[command(flatten)]
     pub growth: GrowthArguments,
 }

@@ -1,21 +1,22 @@
 use super::build::grown;
 use super::load::load_file;
 use super::protein::{announce, problem_of};
+use super::report::report;
 use super::written::write_problem;
-use crate::cli::TransitionArguments;
+use crate::cli::{ReportArguments, SearchArguments, TransitionArguments};
 use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
 use crate::output::note;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Makes the problem of a protein's transition between two structures, and grows its roadmap.
+/// Makes the problem of a protein's transition between two structures, grows its roadmap, and writes a page about it.
 ///
 /// The problem is written beside the run folder first, and read from there, so that whatever becomes of the build it can
 /// be looked at, changed, and built again. A problem file that is there already is used if it is the same problem.
 pub fn transition(arguments: &TransitionArguments) -> Result<Code, Failure> {
     let cpu = CpuClock::start();
-    let TransitionArguments { first, second, ends, seed, out, force, or_resume, growth } =
+    let TransitionArguments { first, second, ends, seed, out, force, or_resume, angles, growth } =
         arguments;
     if out.file_name().is_none() {
         let message = format!("--out: {} found; the name of a folder expected", out.display());
@@ -45,5 +46,18 @@ pub fn transition(arguments: &TransitionArguments) -> Result<Code, Failure> {
         }
     }
     announce(&made);
-    grown(load_file(&file)?, (Some(out), *force, *or_resume), growth, cpu)
+    let ended = grown(load_file(&file)?, (Some(out), *force, *or_resume), growth, cpu);
+    // Also of a roadmap that a limit has ended: the page says so.
+    let code = ended.as_ref().map_or_else(|failure| failure.code, |code| *code);
+    if matches!(code, Code::Done | Code::NoSuccess) {
+        let mut page = OsString::from(out);
+        page.push(".html");
+        report(&ReportArguments {
+            run: out.clone(),
+            out: PathBuf::from(page),
+            search: SearchArguments::usual(angles.clone()),
+            dissimilar: None,
+        })?;
+    }
+    ended
 }
