@@ -138,7 +138,8 @@ addEventListener("load", () => {
     const pixels = context.getImageData(0, 0, flat.width, flat.height).data;
     let count = 0;
     for (let i = 0; i < pixels.length; i += 4) {
-      const [low, high] = [Math.min(...pixels.slice(i, i + 3)), Math.max(...pixels.slice(i, i + 3))];
+      const [red, green, blue] = [pixels[i], pixels[i + 1], pixels[i + 2]];
+      const [low, high] = [Math.min(red, green, blue), Math.max(red, green, blue)];
       if (pixels[i + 3] > 0 && high - low > 60) count++;
     }
     return count;

@@ -136,7 +136,6 @@
     place(goal, path, framesOf(path) - 1);
     show();
     viewer.zoomTo();
-    viewer.zoom(1.25);
     viewer.render();
   };
 
