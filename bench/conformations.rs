@@ -126,7 +126,7 @@ fn close_one_by_one(
     rules: &Limits,
 ) -> usize {
     let mut close = 0;
-    for residue in 0..placed.len() {
+    for (residue, source) in residues.iter().enumerate() {
         for obstacle in obstacles {
             let mut count = |at: Point, least: f64| {
                 close += usize::from((at - obstacle).norm_squared() < least * least);
@@ -134,10 +134,10 @@ fn close_one_by_one(
             for site in [Site::N, Site::CA, Site::C, Site::O] {
                 count(placed.at(site, residue), rules.obstacle_backbone);
             }
-            if residues[residue].position("CB").is_some() {
+            if source.position("CB").is_some() {
                 count(placed.at(Site::CB, residue), rules.obstacle_backbone);
             }
-            if residues[residue].side_chain_centroid().is_some() {
+            if source.side_chain_centroid().is_some() {
                 count(placed.at(Site::Centroid, residue), rules.obstacle_side_chains);
             }
         }

@@ -123,7 +123,7 @@ impl Generator for ElasticGrowth {
         };
         let ends = [&query.start[..], &query.goal];
         let mut walks = Walks::new(cx, seed, scratch, count, (self.kt, self.attempts));
-        let frozen = frozen.filter(|frozen| frozen.configs().len() > 0);
+        let frozen = frozen.filter(|frozen| !frozen.configs().is_empty());
         let Some(frozen) = frozen else {
             let places = match seed.ordinal().0 {
                 0 => ends.map(|end| walks.settle(end)),

@@ -7,7 +7,6 @@
 //! 1322) as its package has it, 0.54 MB, under the BSD 3-clause licence in `3Dmol-LICENSE.txt`. It shows the structures.
 
 mod along;
-mod base64;
 mod chart;
 mod growth;
 mod header;

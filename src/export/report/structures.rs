@@ -5,12 +5,12 @@ use super::super::palette::{ENDS, colour};
 use super::super::pdb;
 use super::Report;
 use super::along::Along;
-use super::base64::base64;
 use super::residues::Motion;
 use crate::model::Molecule;
 use crate::pathways::Frames;
 use crate::structure::measure::superpose;
 use crate::structure::{Point, Residue};
+use base64::prelude::{BASE64_STANDARD, Engine};
 use std::fmt::Write;
 
 /// All coordinates of a page together have at most about so many bytes as they are written.
@@ -179,7 +179,8 @@ fn data(
             .flat_map(|point| [point.x, point.y, point.z])
             .flat_map(|value| ((value / unit).round() as i16).to_le_bytes())
             .collect();
-        write!(json, "],\"coordinates\":{}}}", quoted(&base64(&bytes))).expect("memory");
+        write!(json, "],\"coordinates\":{}}}", quoted(&BASE64_STANDARD.encode(&bytes)))
+            .expect("memory");
     }
     json + "]}"
 }

@@ -50,7 +50,7 @@ impl Springs {
             Some((sites.number(first, a)?, sites.number(second, b)?, distance))
         };
         let mut all: Vec<(usize, usize, f64)> = constraints.iter().filter_map(ends).collect();
-        all.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)));
+        all.sort_by_key(|(a, b, _)| (*a, *b));
         all.dedup_by_key(|(a, b, _)| (*a, *b));
         Springs { constraints: all, limits }
     }

@@ -147,7 +147,7 @@ impl Screen {
         let mut bits = 0;
         for one in 0..BLOCK {
             let close = others.closeness(simd, ones, one).simd_gt(threshold).to_bitmask();
-            bits |= (close as u64 & 0xFF) << (BLOCK * one);
+            bits |= (close & 0xFF) << (BLOCK * one);
         }
         bits
     }
