@@ -92,6 +92,7 @@ fn what_needs_two_ends_or_residues_says_so() {
     let whole = include_str!("../../problems/chignolin.toml");
     let (before, after) = whole.split_once("[query]").expect("it has the table");
     let (_, after) = after.split_once("[img]").expect("it has the table");
+    let (after, _) = after.split_once("[[evaluators]]").expect("it has criteria");
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/it.toml");
     let error = Problem::parse(&file, &format!("{before}[img]{after}")).unwrap_err().to_string();
     assert!(error.contains("no [query]"), "{error}");
