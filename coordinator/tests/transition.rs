@@ -3,6 +3,7 @@
 mod support;
 
 use std::fs;
+use std::process::Command;
 use support::Scratch;
 
 /// The peptide that ships.
@@ -61,6 +62,47 @@ fn two_structures_become_a_problem_a_roadmap_and_paths_whoever_works() {
     for file in ["paths.csv", "path-1.pdb", "path-1.frames.csv"] {
         assert!(scratch.path("paths").join(file).is_file(), "{file}");
     }
+    if has_python() {
+        check(&scratch, &["paths", "one-structures/source.cif", "one-structures/target.cif"]);
+    }
+}
+
+/// The paths of the problem that ships are what a program of another hand makes of the files.
+#[test]
+fn chignolins_paths_are_derived_again_from_their_files() {
+    if !has_python() {
+        return;
+    }
+    let scratch = Scratch::new();
+    let problem = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/chignolin.toml");
+    scratch.build("run", &[problem, "--threads", "2"], 0);
+    let fast = ["--count", "3", "--dissimilar", "--tries", "6", "--shorten-tries", "10"];
+    let files = ["--format", "pdb,csv", "--out", "paths"];
+    scratch.run(&[&["paths", "run"], &fast[..], &files].concat()).assert_code(0);
+    check(&scratch, &["paths", PEPTIDE]);
+}
+
+/// Runs `bench/check_paths.py`, which fails if anything differs.
+fn check(scratch: &Scratch, arguments: &[&str]) {
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/../bench/check_paths.py");
+    let mut command = Command::new("python3");
+    command.arg(script).args(arguments).current_dir(scratch.path("."));
+    let output = command.output().expect("python3 starts");
+    let [out, err] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(output.status.success() && out.contains("| 1 |"), "{out}\n{err}");
+}
+
+/// Whether Python has what the script needs. Where `ROADMILL_REQUIRE_PYTHON` is 1 it must.
+fn has_python() -> bool {
+    let mut command = Command::new("python3");
+    let done = command.args(["-c", "import gemmi, mdtraj, numpy"]).output();
+    let has = done.is_ok_and(|output| output.status.success());
+    let required = std::env::var_os("ROADMILL_REQUIRE_PYTHON").is_some_and(|value| value == "1");
+    assert!(has || !required, "python3 with gemmi, mdtraj and numpy expected");
+    if !has {
+        eprintln!("skipped: python3 has no gemmi, mdtraj and numpy");
+    }
+    has
 }
 
 #[test]
