@@ -121,6 +121,10 @@ impl Generator for ElasticGrowth {
         let (Some(residues), Some(query)) = (residues(cx), &cx.query) else {
             return Err(GaveUp { attempts: 0 });
         };
+        // What is refused in a problem file can still come in bytes.
+        if self.complaint().is_some() {
+            return Err(GaveUp { attempts: 0 });
+        }
         let ends = [&query.start[..], &query.goal];
         let mut walks = Walks::new(cx, seed, scratch, count, (self.kt, self.attempts));
         let frozen = frozen.filter(|frozen| !frozen.configs().is_empty());

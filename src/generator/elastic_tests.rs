@@ -119,7 +119,13 @@ fn settings_out_of_range_are_refused() {
         let method: Result<GeneratorKind, _> =
             toml::from_str::<toml::Table>(&format!("it = {generator}"))
                 .map(|table| table["it"].clone().try_into().expect("it is one"));
-        let complaint = method.expect("it is TOML").method().complaint().expect("it is wrong");
+        let method = method.expect("it is TOML");
+        let complaint = method.method().complaint().expect("it is wrong");
         assert_eq!(complaint.key, key, "{generator}");
+        // Bytes that say the same make no set, and no panic.
+        let (problem, scratch) = (chignolin(GENERATORS[0], 5, ""), &mut Scratch::new());
+        let seed = crate::seed::Seed::of_set(1, "it", Ordinal(0));
+        let made = method.method().generate(&problem.context(), &seed, 5, None, scratch);
+        assert!(made.is_err(), "{generator}");
     }
 }

@@ -66,6 +66,10 @@ impl Generator for Interpolation {
         let (Some(residues), Some(query)) = (residues(cx), cx.query.clone()) else {
             return Err(GaveUp { attempts: 0 });
         };
+        // What is refused in a problem file can still come in bytes.
+        if self.complaint().is_some() {
+            return Err(GaveUp { attempts: 0 });
+        }
         let ends = [&query.start, &query.goal];
         let mut walks = Walks::new(cx, seed, scratch, count, (self.kt, attempts));
         for walk in seed.ordinal().0 as usize % 2.. {
