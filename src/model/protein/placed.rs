@@ -1,6 +1,6 @@
 //! A conformation: where the atoms of every residue are.
 //!
-//! Positions stand residue by residue: a residue has eight [`Site`]s, and a [`Row`] has the eight x, the eight y and the eight z of
+//! Positions stand residue by residue: a residue has eight [`Site`]s, and a row has the eight x, the eight y and the eight z of
 //! these. Four residues are placed at once, each of which writes a row of its own; the rules and the energy
 //! look at many sites of few residues, so that what is needed at one time stands in one place.
 
@@ -24,7 +24,7 @@ pub enum Site {
     H,
     /// The centroid of the side chain.
     Centroid,
-    /// A point between CA and C near which all backbone atoms are, see [`MIDDLE`].
+    /// A point between CA and C near which all backbone atoms are.
     Middle,
 }
 
