@@ -20,7 +20,7 @@ use std::collections::BTreeSet;
 /// path planning on configuration-space costmaps*, IEEE Trans. Robotics 26, 2010: a transition test) becomes a milestone.
 /// `aim` says where walks begin and where they go.
 ///
-/// In an empty roadmap walks begin at the query's ends, which the first set of the strategy makes milestones.
+/// In an empty roadmap walks begin at the query's ends, which the first set at the frontier makes milestones.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct ElasticGrowth {
@@ -129,18 +129,7 @@ impl Generator for ElasticGrowth {
         let mut walks = Walks::new(cx, seed, scratch, count, (self.kt, self.attempts));
         let frozen = frozen.filter(|frozen| !frozen.configs().is_empty());
         let Some(frozen) = frozen else {
-            let places = match seed.ordinal().0 {
-                0 => ends.map(|end| walks.settle(end)),
-                _ => ends.map(|end| Place { node: Node::None, q: end.to_vec() }),
-            };
-            for walk in 0usize.. {
-                if walks.is_full() {
-                    break;
-                }
-                let [from, to] = [walk % 2, (walk + 1) % 2];
-                let toward = Some(Target { node: None, q: ends[to] });
-                self.walk(&mut walks, places[from].clone(), toward, residues, walk)?;
-            }
+            self.begin(&mut walks, seed, ends, residues)?;
             return Ok(walks.made);
         };
         let choice = Choice::of(self.aim, cx, frozen, ends);
@@ -194,6 +183,41 @@ struct Target<'a> {
 }
 
 impl ElasticGrowth {
+    /// The walks of a set in an empty roadmap: from the query's ends, in turn.
+    ///
+    /// The first set at the frontier makes the ends milestones. All walks begin with random steps, so that no two are the same.
+    fn begin(
+        &self,
+        walks: &mut Walks,
+        seed: &Seed,
+        ends: [&[f64]; 2],
+        residues: usize,
+    ) -> Result<(), GaveUp> {
+        let is_first = seed.ordinal().0 == 0 && self.aim == GrowthAim::Frontier;
+        let places = ends.map(|end| match is_first && !walks.is_full() {
+            true => walks.settle(end),
+            false => Place { node: Node::None, q: end.to_vec() },
+        });
+        for walk in 0usize.. {
+            if walks.is_full() {
+                break;
+            }
+            let [from, to] = [walk % 2, (walk + 1) % 2];
+            walks.attempt(self.attempts)?;
+            let length = self.lengths[walk % self.lengths.len()];
+            let mut heading = walks.deviates();
+            let next = walks.scatter(&places[from], &mut heading, self.children, length);
+            let Some(place) = next else { continue };
+            if self.aim == GrowthAim::Frontier && !walks.is_full() {
+                let toward = Some(Target { node: None, q: ends[to] });
+                self.walk(walks, place, toward, residues, walk)?;
+            } else if !walks.is_full() {
+                self.walk(walks, place, None, residues, walk)?;
+            }
+        }
+        Ok(())
+    }
+
     /// One walk, toward a target if there is one, until it has its steps, is joined to the target or as near as it gets, no step is
     /// kept, or the set is full.
     fn walk(

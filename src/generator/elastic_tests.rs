@@ -79,6 +79,36 @@ fn what_grows_hangs_at_the_roadmap_and_what_interpolates_does_not() {
     }
 }
 
+/// Copies of a configuration would count as ways around one another.
+#[test]
+fn in_an_empty_roadmap_no_configuration_comes_twice() {
+    let (mut seen, mut count) = (std::collections::BTreeSet::new(), 0);
+    for generator in GENERATORS {
+        let problem = chignolin(generator, 15, "");
+        for ordinal in 0..4 {
+            let seed = Ordinal(ordinal);
+            let made =
+                problem.strategies[0].generate(&problem.context(), seed, None, &mut Scratch::new());
+            let made = made.unwrap_or_else(|gave_up| panic!("{gave_up:?}"));
+            count += made.configs.len();
+            seen.extend(
+                made.configs.iter().map(|q| q.iter().map(|x| x.to_bits()).collect::<Vec<_>>()),
+            );
+        }
+    }
+    assert_eq!((count, seen.len()), (GENERATORS.len() * 4 * 15, count));
+}
+
+#[test]
+fn a_set_may_have_one_milestone() {
+    for generator in GENERATORS {
+        let problem = chignolin(generator, 1, "");
+        let (cx, scratch) = (problem.context(), &mut Scratch::new());
+        let made = problem.strategies[0].generate(&cx, Ordinal(0), None, scratch);
+        assert_eq!(made.unwrap_or_else(|gave_up| panic!("{gave_up:?}")).configs.len(), 1);
+    }
+}
+
 #[test]
 fn the_ends_are_joined() {
     let rest = "[[evaluators]]\nquery = {}\n[limits]\nsets = 60\n";

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// From one end of the query the chain is drawn toward the other in steps that move the Cα straight to their places as
 /// far as the springs of an elastic network and the linkage allow (see [`Elastic`](crate::model::Elastic)); straight
 /// interpolation of torsions has the chain collapse on the way. The first walk of the strategy draws all residues from the start to the
-/// goal, the second from the goal to the start; of the others half draw all residues at first, and every walk that does not get on goes on with a random window of
+/// goal, the second from the goal to the start; the others begin with a random step, half of them draw all residues at first, and every walk that does not get on goes on with a random window of
 /// them: so domains move one after another, in different orders. A step that is refused is halved, and where that does not help a random one is taken.
 ///
 /// The ends themselves are no milestones: they are attached when they are asked for.
@@ -75,10 +75,16 @@ impl Generator for Interpolation {
         for walk in seed.ordinal().0 as usize % 2.. {
             let [from, to] = [walk % 2, (walk + 1) % 2].map(|end| ends[end]);
             let mut place = Place { node: Node::None, q: from.clone() };
-            let mut window = match seed.ordinal().0 {
-                0 | 1 => 0..residues,
-                _ => walks.window(residues),
-            };
+            let is_first = seed.ordinal().0 < 2 && walk < 2;
+            let mut window = if is_first { 0..residues } else { walks.window(residues) };
+            if !is_first {
+                // So that no two walks are the same.
+                walks.attempt(attempts)?;
+                place = walks.random(&place, self.length).unwrap_or(place);
+                if walks.is_full() {
+                    return Ok(walks.made);
+                }
+            }
             let mut refused = 0;
             while refused < REFUSED_MAX {
                 walks.attempt(attempts)?;

@@ -1,7 +1,8 @@
 use super::via_nodes::{Tried, ViaNodes};
-use super::{Pathway, Pathways, pairs};
+use super::{Frames, Pathway, Pathways, pairs};
 use crate::context::{Context, Ends};
 use crate::model::Scratch;
+use crate::numbers::NodeId;
 use crate::query::{Attachment, Path, Ways, shorten, shorten_within};
 use crate::roadmap::{Rank, Roadmap, Route};
 use rayon::prelude::*;
@@ -45,12 +46,14 @@ pub struct Dissimilar {
 /// - Every edge of a candidate passes the finer check of paths that are given out; one that fails is left out, and routes are
 ///   found anew. Then the candidate is shortened in two ways, neither of which raises cost or highest energy: as far as it can be
 ///   ([`shorten`]), which draws paths toward one another where little is between them, and within an eighth of its length
-///   ([`shorten_within`]), which leaves it where it is.
+///   ([`shorten_within`]), which leaves it where it is. As it was it is a pathway, too.
+/// - While there are too few pathways, the best routes are taken over nodes that are at least `distance` from all that is accepted so
+///   far: whatever goes there is as far from these.
 /// - The shortened candidates are *ranked* by what they then come to, ties by the order in which they were found. The best is
 ///   accepted, and then each whose frames have a discrete Fréchet distance of at least `distance` from those of all that
 ///   were accepted before: the distance is that of what is given out.
 ///
-/// The work is bounded by `tries`. Candidates are shortened in several threads; the outcome does not depend on how many.
+/// The work is bounded by `tries`, for each of the three kinds of candidates. Candidates are shortened in several threads; the outcome does not depend on how many.
 pub fn dissimilar(
     cx: &Context,
     roadmap: &Roadmap,
@@ -67,7 +70,17 @@ pub fn dissimilar(
     let connected = ways.graph.shortest_where(from, to, |_, _| true).is_some();
     let mut found = shortened(&ways, &routes, asked);
     let mut chosen = choose(cx, &mut found, asked);
-    let (mut looked_at, mut penalised) = (routes.len(), 0);
+    let (mut looked_at, mut far, mut penalised) = (routes.len(), 0, 0);
+    while chosen.len() < asked.count && far < asked.tries {
+        let accepted: Vec<&Frames> = chosen.iter().map(|index| &found[*index].frames).collect();
+        let Some(route) = far_route(&mut ways, &mut tried, &accepted, asked, scratch) else {
+            break;
+        };
+        far += 1;
+        looked_at += 1;
+        found.extend(shortened(&ways, &[route], asked));
+        chosen = choose(cx, &mut found, asked);
+    }
     let scale = routes.first().map_or(0.0, |best| best.length / best.edges.len().max(1) as f64);
     while chosen.len() < asked.count && penalised < asked.tries && !routes.is_empty() {
         let most = BATCH.min(asked.tries - penalised);
@@ -106,6 +119,33 @@ fn over_nodes(
     routes
 }
 
+/// The best route that passes the finer check over a node that is at least the distance asked for from all frames of the
+/// pathways that are accepted.
+fn far_route(
+    ways: &mut Ways,
+    tried: &mut Tried,
+    accepted: &[&Frames],
+    asked: &Dissimilar,
+    scratch: &mut Scratch,
+) -> Option<Route> {
+    let [from, to] = ways.ends();
+    let mut candidates = ViaNodes::of(ways, asked.rank);
+    while ways.failed.len() <= FAILED_MAX {
+        let is_far = |node: NodeId| {
+            let q = ways.config(node);
+            let is_far = |of: &&Frames| of.apart(ways.cx, q, scratch) >= asked.distance;
+            node != from && node != to && accepted.iter().all(is_far)
+        };
+        let route = candidates.next_over(ways, tried, is_far)?;
+        tried.add(&route);
+        if ways.passes(&route, scratch) {
+            return Some(route);
+        }
+        candidates = ViaNodes::of(ways, asked.rank);
+    }
+    None
+}
+
 /// At most `most` routes that avoid the edges of those that were tried as far as that costs little. `scale` is what an edge
 /// usually costs.
 fn penalised_routes(
@@ -139,7 +179,7 @@ fn shortened(ways: &Ways, routes: &[Route], asked: &Dissimilar) -> Vec<Pathway> 
     let finished = |scratch: &mut Scratch, path: &Path| {
         let whole = shorten(cx, path, asked.shortcuts, scratch);
         let local = shorten_within(cx, path, asked.shortcuts, LOCAL, scratch);
-        [whole, local].map(|path| Pathway::of(cx, path, asked.spacing, scratch))
+        [whole, local, path.clone()].map(|path| Pathway::of(cx, path, asked.spacing, scratch))
     };
     let all: Vec<_> = paths.par_iter().map_init(Scratch::new, finished).collect();
     all.into_iter().flatten().flatten().collect()

@@ -59,6 +59,15 @@ impl Frames {
         frames
     }
 
+    /// How far a configuration is from the nearest frame.
+    pub fn apart(&self, cx: &Context, q: &[f64], scratch: &mut Scratch) -> f64 {
+        let mut path = Path { configs: Configs::new(cx.space.len()), length: 0.0 };
+        path.configs.push(q);
+        let alone = Frames::of(cx, &path, 1.0, scratch);
+        let apart = |frame| alone.distance(0, self, frame, &cx.space);
+        (0..self.len()).map(apart).fold(f64::INFINITY, f64::min)
+    }
+
     fn push(&mut self, cx: &Context, q: &[f64], scratch: &mut Scratch) {
         self.configs.push(q);
         if let Some(shape) = cx.model.shape(q, scratch) {

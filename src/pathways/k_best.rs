@@ -28,7 +28,8 @@ pub struct KBest {
 ///
 /// Edges that fail the finer check are left out, and so are routes along which the same configurations stand as along one
 /// before, such as those that begin at a node where the start is. The paths are given as the roadmap has them: shortened,
-/// many would become the same.
+/// many would become the same. Where many nodes stand at the same configuration, so many routes can be the same that fewer paths
+/// are found than are asked for: at most 4 routes are looked at for each, and 20 more.
 pub fn k_best(
     cx: &Context,
     roadmap: &Roadmap,
@@ -42,7 +43,8 @@ pub fn k_best(
     let mut parts = Parts::of(&ways, asked.rank);
     let connected = !parts.found.is_empty();
     let mut pathways: Vec<Pathway> = Vec::new();
-    while pathways.len() < asked.count {
+    let most = TRIED_BESIDE + TRIED_FOR_ONE * asked.count;
+    while pathways.len() < asked.count && parts.tried < most {
         let Some(route) = parts.next(&mut ways, scratch) else { break };
         let path = ways.path(&route);
         let is_new =
@@ -57,6 +59,10 @@ pub fn k_best(
     let tried = parts.tried;
     Pathways { pairs: pairs(cx, &pathways), pathways, connected, tried, dropped_edges }
 }
+
+/// How many routes are looked at for each path that is asked for, and how many beside.
+const TRIED_FOR_ONE: usize = 4;
+const TRIED_BESIDE: usize = 20;
 
 /// Routes that begin alike and go on to none of some nodes.
 #[derive(Clone, Default)]

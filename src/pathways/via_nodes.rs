@@ -40,8 +40,21 @@ impl ViaNodes {
 
     /// The next best route that visits no node twice and is not too much like one that was tried, and what it comes to.
     pub fn next(&mut self, ways: &Ways, tried: &Tried) -> Option<Route> {
+        self.next_over(ways, tried, |_| true)
+    }
+
+    /// The same, over nodes that are wanted alone.
+    pub fn next_over(
+        &mut self,
+        ways: &Ways,
+        tried: &Tried,
+        mut is_wanted: impl FnMut(NodeId) -> bool,
+    ) -> Option<Route> {
         while let Some((_, node)) = self.candidates.get(self.next) {
             self.next += 1;
+            if !is_wanted(*node) {
+                continue;
+            }
             let [Some(mut route), Some(rest)] = [0, 1].map(|i| self.trees[i].route(*node)) else {
                 continue;
             };

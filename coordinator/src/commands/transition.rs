@@ -18,13 +18,22 @@ pub fn transition(arguments: &TransitionArguments) -> Result<Code, Failure> {
     let cpu = CpuClock::start();
     let TransitionArguments { first, second, ends, seed, out, force, or_resume, angles, growth } =
         arguments;
+    // Without a slash at the end, as shells complete it.
+    let out = &out.components().collect::<PathBuf>();
     if out.file_name().is_none() {
         let message = format!("--out: {} found; the name of a folder expected", out.display());
         return Err(Failure::usage(message));
     }
-    let mut file = OsString::from(out);
-    file.push(".toml");
-    let file = PathBuf::from(file);
+    let beside = |extension: &str| {
+        let mut file = OsString::from(out);
+        file.push(extension);
+        PathBuf::from(file)
+    };
+    let (file, page) = (beside(".toml"), beside(".html"));
+    if page.try_exists().unwrap_or(true) && !(*force || *or_resume) {
+        let message = format!("{}: it is there already; --force replaces it", page.display());
+        return Err(Failure::usage(message));
+    }
     let made = problem_of(first, second, ends, &file)?;
     let seed = seed.unwrap_or(made.problem.seed());
     let problem = made.problem.clone().with_seed(seed);
@@ -41,6 +50,11 @@ pub fn transition(arguments: &TransitionArguments) -> Result<Code, Failure> {
             note(format_args!("{}: the problem is there already", file.display()));
         }
         _ => {
+            if let Some(folder) = out.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+                std::fs::create_dir_all(folder).map_err(|error| {
+                    Failure::system(format!("{}: cannot be made: {error}", folder.display()))
+                })?;
+            }
             let comment = "# Written by `roadmill transition`.\n";
             write_problem(&problem, comment, &file, *force)?;
         }
@@ -50,11 +64,9 @@ pub fn transition(arguments: &TransitionArguments) -> Result<Code, Failure> {
     // Also of a roadmap that a limit has ended: the page says so.
     let code = ended.as_ref().map_or_else(|failure| failure.code, |code| *code);
     if matches!(code, Code::Done | Code::NoSuccess) {
-        let mut page = OsString::from(out);
-        page.push(".html");
         report(&ReportArguments {
             run: out.clone(),
-            out: PathBuf::from(page),
+            out: page,
             search: SearchArguments::usual(angles.clone()),
             dissimilar: None,
         })?;
