@@ -12,6 +12,7 @@ mod import;
 mod load;
 mod log;
 mod paths;
+mod place;
 mod protein;
 mod query;
 mod report;
