@@ -2,6 +2,7 @@
 
 mod asker;
 mod batch;
+mod bounded;
 mod build;
 mod check;
 mod crew;
