@@ -32,6 +32,7 @@
 //! it is the pose of the robot's frame in the world's.
 
 mod build;
+mod cancel;
 mod context;
 mod digest;
 mod lanes;
@@ -66,7 +67,8 @@ pub mod structure;
 
 use internal::{shelf, wire};
 
-pub use build::{Build, BuildError, Built, Cancel};
+pub use build::{Build, BuildError, Built};
+pub use cancel::Cancel;
 pub use context::{Context, Ends};
 pub use digest::SourceFile;
 pub use strategy::Strategy;

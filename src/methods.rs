@@ -28,6 +28,14 @@ impl Complaint {
         }
         (length.is_nan() || length <= 0.0).then(|| Complaint::new(key, length, "a positive length"))
     }
+
+    /// What is wrong with the setting `attempts` of a method that tries at most so often, if anything is: it must be from 1 to
+    /// `most`, so that a method which finds nothing ends.
+    pub fn of_attempts(attempts: u64, most: u64) -> Option<Complaint> {
+        let (found, expected) = (attempts.to_string(), format!("1 to {most}").into());
+        let fits = (1..=most).contains(&attempts);
+        (!fits).then_some(Complaint { key: "attempts", found, expected })
+    }
 }
 
 /// As an error message: what was found, and what is expected.

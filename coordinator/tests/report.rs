@@ -2,10 +2,11 @@
 
 mod support;
 
+use rustix::process::Signal;
 use serde_json::Value;
 use std::fs;
 use std::process::Command;
-use support::Scratch;
+use support::{Scratch, wait_until};
 
 const CHIGNOLIN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/chignolin.toml");
 
@@ -76,15 +77,15 @@ fn a_page_is_written_with_the_paths_as_structures_and_the_rounds_as_recorded() {
     }
 }
 
+/// A point in a room with nothing in it.
+const ROOM: &str = "[space]\nmotion = \"translation-2d\"\nmin = [0, 0]\nmax = [4, 4]\nbounds = \"reference\"\n\
+    [robot]\nbodies = [{ shape = { point = {} } }]\n[query]\nstart = [1, 2]\ngoal = [3, 2]\n\
+    [[strategies]]\nlabel = \"u\"\nnodes = 20\nsampler = { uniform = {} }\n[limits]\nsets = 1\n";
+
 #[test]
 fn what_cannot_be_reported_is_refused() {
     let scratch = Scratch::new();
-    scratch.write(
-        "room.toml",
-        "[space]\nmotion = \"translation-2d\"\nmin = [0, 0]\nmax = [4, 4]\nbounds = \"reference\"\n\
-         [robot]\nbodies = [{ shape = { point = {} } }]\n[query]\nstart = [1, 2]\ngoal = [3, 2]\n\
-         [[strategies]]\nlabel = \"u\"\nnodes = 20\nsampler = { uniform = {} }\n[limits]\nsets = 1\n",
-    );
+    scratch.write("room.toml", ROOM);
     scratch.build("run", &["room.toml"], 0);
     for (arguments, fragment) in [
         (&["run"][..], "--out"),
@@ -92,6 +93,9 @@ fn what_cannot_be_reported_is_refused() {
         (&["run", "--out", "x.html", "--by", "barrier"], "this model has no energies"),
         (&["run", "--out", "none/x.html"], "none/x.html: cannot write"),
         (&["lost", "--out", "x.html"], "lost"),
+        (&["run", "--out", "."], "a folder; the name of a file expected"),
+        (&["run", "--out", "run"], "a folder; the name of a file expected"),
+        (&["run", "--out", "x.html", "--spacing", "0.001", "--max-time", "0"], "--max-time"),
     ] {
         let done = scratch.run(&[&["report"], arguments].concat());
         done.assert_code(2);
@@ -103,6 +107,61 @@ fn what_cannot_be_reported_is_refused() {
     done.assert_stderr(&["pml found; this model is no molecule, csv expected"]);
     scratch.run(&["report", "run", "--out", "x.html"]).assert_code(0);
     assert!(scratch.path("x.html").is_file());
+}
+
+/// What makes up a run is no place for what is written about it, whatever path leads there and whether it is there yet.
+#[test]
+fn files_of_a_run_are_not_replaced() {
+    let scratch = Scratch::new();
+    scratch.write("room.toml", ROOM);
+    scratch.build("run", &["room.toml"], 0);
+    std::os::unix::fs::symlink("run", scratch.path("link")).expect("a link can be made");
+    let before = scratch.ledger("run");
+    for (folder, name) in [("run", "ledger"), ("link", "ledger.durable"), ("run", "summary.json")] {
+        let out = format!("{folder}/{name}");
+        for command in [
+            &["report", "run", "--out", &out][..],
+            &["export", "run", "--format", "graphml", "--out", &out],
+            &["query", "run", "--out", &out],
+            &["query", "run", "--animate", &out],
+        ] {
+            let done = scratch.run(command);
+            done.assert_code(2);
+            done.assert_stderr(&[&out, "a file of a run; the name of another file expected"]);
+        }
+    }
+    assert_eq!(scratch.ledger("run"), before);
+    // Beside them there is room for a page, and elsewhere for a file of the name.
+    scratch.run(&["report", "run", "--out", "run/page.html"]).assert_code(0);
+    scratch.run(&["query", "run", "--out", "ledger"]).assert_code(0);
+}
+
+/// Of paths that are shortened so often that nobody waits for the end.
+const ENDLESS_SEARCH: [&str; 6] =
+    ["--shorten-tries", "4294967295", "--dissimilar", "0.3", "--count", "2"];
+
+#[test]
+fn a_signal_ends_a_search_without_a_page_and_a_limit_of_time_with_one_that_says_so() {
+    let scratch = Scratch::new();
+    scratch.build("run", &[CHIGNOLIN, "--max-sets", "8", "--threads", "2"], 3);
+    let report =
+        |out: &'static str| [&["report", "run", "--out", out][..], &ENDLESS_SEARCH].concat();
+    let running = scratch.start(&report("x.html"));
+    wait_until("signals are listened to", || running.catches(Signal::INT));
+    running.signal(Signal::INT);
+    let done = running.finish();
+    done.assert_code(6);
+    let way = "a signal came; there is no page: `roadmill report run --out x.html` writes it";
+    done.assert_stderr(&[way]);
+    assert!(!scratch.path("x.html").exists());
+
+    let done = scratch.run(&[&report("y.html")[..], &["--max-time", "0.5"]].concat());
+    done.assert_code(0);
+    done.assert_stderr(&["y.html: the time was up before the search for paths was over"]);
+    let page = fs::read_to_string(scratch.path("y.html")).expect("it is written");
+    assert!(
+        page.contains("The time for the search was up before its end") && page.contains("</html>")
+    );
 }
 
 /// A headless Chromium, unless there is none and none is required.

@@ -105,6 +105,21 @@ fn has_python() -> bool {
     has
 }
 
+/// The page has what is left of the time, which may be too little for its paths, and the run is kept.
+#[test]
+fn the_page_is_bounded_by_the_time() {
+    let scratch = Scratch::new();
+    fs::copy(PEPTIDE, scratch.path("a.pdb")).expect("it ships");
+    // Five residues, so that a round is made soon.
+    let whole = ["transition", "a.pdb", "a.pdb", "--residues", "3-7", "--out", "it"];
+    let done = scratch.run(&[&whole[..], &["--threads", "2", "--max-time", "0.01"]].concat());
+    done.assert_code(0);
+    done.assert_stderr(&["it.html: the time was up before the search for paths was over"]);
+    let page = fs::read_to_string(scratch.path("it.html")).expect("it is written");
+    assert!(page.contains("The time for the search was up before its end"));
+    assert!(scratch.path("it/ledger").is_file() && scratch.path("it.toml").is_file());
+}
+
 #[test]
 fn what_is_there_is_kept_unless_it_is_told_otherwise() {
     let scratch = Scratch::new();
@@ -114,6 +129,38 @@ fn what_is_there_is_kept_unless_it_is_told_otherwise() {
     scratch.run(&whole).assert_code(2);
     assert_eq!(fs::read_to_string(scratch.path("it.toml")).expect("it is there"), "seed = 1\n");
     assert!(!scratch.path("it").exists());
+    // What cannot be used leaves nothing behind: a number of workers, a limit, a run folder or a page that is taken.
+    let left = ["new", "new.toml", "new-structures", "new.html"];
+    let none = |there: &[&str]| {
+        for name in left.iter().filter(|name| !there.contains(name)) {
+            assert!(!scratch.path(name).exists(), "{name}");
+        }
+    };
+    let whole = ["transition", "a.pdb", "a.pdb", "--out", "new", "--max-sets", "2"];
+    for (more, fragment) in [
+        (["--workers", "0"], "--workers: 0 found"),
+        (["--max-nodes", "0"], "--max-nodes"),
+        (["--residues", "2-30"], "no residue 30 found"),
+    ] {
+        let done = scratch.run(&[&whole[..], &more].concat());
+        done.assert_code(2);
+        done.assert_stderr(&[fragment]);
+        none(&[]);
+    }
+    fs::create_dir(scratch.path("new")).expect("a folder can be made");
+    scratch.write("new/note", "");
+    let done = scratch.run(&whole);
+    done.assert_code(2);
+    done.assert_stderr(&["new: "]);
+    none(&["new"]);
+    fs::remove_dir_all(scratch.path("new")).expect("it is there");
+    fs::create_dir(scratch.path("new.html")).expect("a folder can be made");
+    for more in [&[][..], &["--force"]] {
+        let done = scratch.run(&[&whole[..], more].concat());
+        done.assert_code(2);
+        done.assert_stderr(&["new.html found, a folder; the name of a file expected"]);
+        none(&["new.html"]);
+    }
     let hold = [&whole[..], &["--hold", "-1"]].concat();
     let done = scratch.run(&hold);
     done.assert_code(2);

@@ -4,11 +4,10 @@
 //! which also serves executors of your own.
 
 mod built;
-mod cancel;
 
 pub use built::Built;
-pub use cancel::Cancel;
 
+use crate::cancel::Cancel;
 use crate::img::{
     self, Cut, InProcess, Job, Judgement, Observer, Progress, Round, Serial, Setup, Stop, Threads,
 };

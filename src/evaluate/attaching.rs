@@ -1,5 +1,6 @@
 //! What the evaluators share that attach configurations to the roadmap.
 
+use crate::context::Context;
 use crate::local::Planner;
 use crate::query::Attachment;
 
@@ -42,4 +43,23 @@ macro_rules! attaching {
     };
 }
 
-pub(super) use attaching;
+/// The methods of an evaluator by `attaching!` that judges what is between the ends of the problem's query.
+macro_rules! between_ends {
+    () => {
+        fn needs_query(&self) -> bool {
+            true
+        }
+
+        fn attachment(&self) -> Option<crate::query::Attachment> {
+            Some(self.how())
+        }
+    };
+}
+
+/// The ends of the problem's query, which [`Evaluator::needs_query`](super::Evaluator::needs_query) has asked for.
+pub(super) fn ends(cx: &Context) -> (&[f64], &[f64]) {
+    let query = cx.query.as_ref().expect("a checked problem has the query");
+    (&query.start, &query.goal)
+}
+
+pub(super) use {attaching, between_ends};

@@ -1,9 +1,9 @@
-use super::attaching::{attaching, default_neighbors, default_planners};
+use super::attaching::{attaching, between_ends, default_neighbors, default_planners, ends};
 use super::{Evaluator, Verdict, accept_energies};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
-use crate::query::{Attachment, lowest_barriers};
+use crate::query::lowest_barriers;
 use crate::roadmap::{Extent, Roadmap};
 
 attaching! {
@@ -51,22 +51,14 @@ impl Evaluator for BarrierTrend {
         scratch: &mut Scratch,
     ) -> Verdict {
         scratch.take_asked();
-        let query = cx.query.as_ref().expect("a checked problem has the query");
-        let ends = (&query.start[..], &query.goal[..]);
         let half = at_half(roadmap);
-        let [before, now] = lowest_barriers(cx, roadmap, half, ends, &self.how(), scratch);
+        let [before, now] = lowest_barriers(cx, roadmap, half, ends(cx), &self.how(), scratch);
         let fell = if now.is_finite() && before.is_finite() { before - now } else { f64::INFINITY };
         let measures = vec![now, before, half.nodes as f64];
         Verdict { measures, ..Verdict::at_most(self.energy, fell, scratch.take_asked()) }
     }
 
-    fn needs_query(&self) -> bool {
-        true
-    }
-
-    fn attachment(&self) -> Option<Attachment> {
-        Some(self.how())
-    }
+    between_ends!();
 
     fn complaint(&self) -> Option<Complaint> {
         if !(self.energy >= 0.0 && self.energy.is_finite()) {

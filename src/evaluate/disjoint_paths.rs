@@ -1,10 +1,9 @@
-use super::attaching::{attaching, default_neighbors, default_planners};
+use super::attaching::{attaching, between_ends, default_neighbors, default_planners, ends};
 use super::flow::Attached;
 use super::{Evaluator, Verdict, accept_energies};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
-use crate::query::Attachment;
 use crate::roadmap::Roadmap;
 use std::collections::BTreeSet;
 
@@ -61,10 +60,8 @@ impl Evaluator for DisjointPaths {
         scratch: &mut Scratch,
     ) -> Verdict {
         scratch.take_asked();
-        let query = cx.query.as_ref().expect("a checked problem has the query");
-        let ends = [&query.start, &query.goal].map(std::slice::from_ref);
-        let attached = Attached::of(cx, roadmap, ends, &self.how(), scratch);
-        let energy = cx.model.energy(&query.start, scratch).unwrap_or(f64::NEG_INFINITY);
+        let attached = Attached::of_query(cx, roadmap, &self.how(), scratch);
+        let energy = cx.model.energy(ends(cx).0, scratch).unwrap_or(f64::NEG_INFINITY);
         let (start, goal) = (attached.sources[0], attached.sinks[0]);
         let lowest = attached.graph().lowest_barrier(start, goal, energy, &BTreeSet::new());
         let lowest = lowest.map_or(f64::INFINITY, |(barrier, _)| barrier);
@@ -75,13 +72,7 @@ impl Evaluator for DisjointPaths {
         Verdict { measures: vec![highest, lowest], ..verdict }
     }
 
-    fn needs_query(&self) -> bool {
-        true
-    }
-
-    fn attachment(&self) -> Option<Attachment> {
-        Some(self.how())
-    }
+    between_ends!();
 
     fn complaint(&self) -> Option<Complaint> {
         if self.count == 0 {

@@ -3,6 +3,7 @@
 use super::network::Network;
 use super::verdict::CutEdge;
 use crate::context::Context;
+use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::numbers::NodeId;
 use crate::query::{Attachment, attach, attach_for_good};
@@ -54,7 +55,25 @@ impl Capacities {
     }
 }
 
+/// What is wrong with the least weight that edges count with, where one is given.
+pub(super) fn complaint_of_least_weight(least: Option<f64>) -> Option<Complaint> {
+    let least = least.filter(|least| !(1e-30..=1e30).contains(least))?;
+    Some(Complaint::new("least_weight", least, "1e-30 to 1e30"))
+}
+
 impl Attached {
+    /// Attaches the start of the problem's query as the source and its goal as the sink.
+    pub fn of_query(
+        cx: &Context,
+        roadmap: &Roadmap,
+        attachment: &Attachment,
+        scratch: &mut Scratch,
+    ) -> Attached {
+        let query = cx.query.as_ref().expect("a checked problem has the query");
+        let ends = [&query.start, &query.goal].map(std::slice::from_ref);
+        Attached::of(cx, roadmap, ends, attachment, scratch)
+    }
+
     /// Attaches sources and sinks.
     pub fn of(
         cx: &Context,

@@ -1,11 +1,10 @@
-use super::attaching::{attaching, default_neighbors, default_planners};
-use super::flow::{Attached, Capacities, Flow};
+use super::attaching::{attaching, between_ends, default_neighbors, default_planners};
+use super::flow::{Attached, Capacities, Flow, complaint_of_least_weight};
 use super::{Evaluator, Verdict};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::numbers::NodeId;
-use crate::query::Attachment;
 use crate::roadmap::Roadmap;
 
 attaching! {
@@ -73,9 +72,7 @@ impl Evaluator for FlowRatio {
         scratch: &mut Scratch,
     ) -> Verdict {
         scratch.take_asked();
-        let query = cx.query.as_ref().expect("a checked problem has the query");
-        let ends = [&query.start, &query.goal].map(std::slice::from_ref);
-        let attached = Attached::of(cx, roadmap, ends, &self.how(), scratch);
+        let attached = Attached::of_query(cx, roadmap, &self.how(), scratch);
         let capacities =
             self.capacities(cx, attached.edges.iter().any(|e| e.cost.directed().is_some()));
         let graph = attached.graph();
@@ -95,21 +92,12 @@ impl Evaluator for FlowRatio {
         Verdict { measures, cut: Some(cut), ..verdict }
     }
 
-    fn needs_query(&self) -> bool {
-        true
-    }
-
-    fn attachment(&self) -> Option<Attachment> {
-        Some(self.how())
-    }
+    between_ends!();
 
     fn complaint(&self) -> Option<Complaint> {
         if !(self.ratio > 0.0 && self.ratio.is_finite()) {
             return Some(Complaint::new("ratio", self.ratio, "a positive number"));
         }
-        if let Some(least) = self.least_weight.filter(|least| !(1e-30..=1e30).contains(least)) {
-            return Some(Complaint::new("least_weight", least, "1e-30 to 1e30"));
-        }
-        self.how().complaint()
+        complaint_of_least_weight(self.least_weight).or_else(|| self.how().complaint())
     }
 }

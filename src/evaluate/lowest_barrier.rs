@@ -1,9 +1,9 @@
-use super::attaching::{attaching, default_neighbors, default_planners};
+use super::attaching::{attaching, between_ends, default_neighbors, default_planners, ends};
 use super::{Evaluator, Verdict, accept_energies};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
-use crate::query::{Attachment, lowest_barrier};
+use crate::query::lowest_barrier;
 use crate::roadmap::Roadmap;
 
 attaching! {
@@ -40,20 +40,12 @@ impl Evaluator for LowestBarrier {
         scratch: &mut Scratch,
     ) -> Verdict {
         scratch.take_asked();
-        let query = cx.query.as_ref().expect("a checked problem has the query");
-        let ends = (&query.start[..], &query.goal[..]);
-        let (barrier, answer) = lowest_barrier(cx, roadmap, ends, &self.how(), scratch);
+        let (barrier, answer) = lowest_barrier(cx, roadmap, ends(cx), &self.how(), scratch);
         let asked = scratch.take_asked();
         Verdict { answer: Some(answer), ..Verdict::at_most(self.energy, barrier, asked) }
     }
 
-    fn needs_query(&self) -> bool {
-        true
-    }
-
-    fn attachment(&self) -> Option<Attachment> {
-        Some(self.how())
-    }
+    between_ends!();
 
     fn complaint(&self) -> Option<Complaint> {
         if !self.energy.is_finite() {

@@ -1,5 +1,5 @@
 use super::attaching::{attaching, default_neighbors, default_planners};
-use super::flow::{Attached, Capacities};
+use super::flow::{Attached, Capacities, complaint_of_least_weight};
 use super::{Evaluator, Verdict};
 use crate::context::Context;
 use crate::methods::Complaint;
@@ -93,14 +93,11 @@ impl Evaluator for MaxFlow {
         if !(self.flow > 0.0 && self.flow.is_finite()) {
             return Some(Complaint::new("flow", self.flow, "a positive number"));
         }
-        if let Some(least) = self.least_weight.filter(|least| !(1e-30..=1e30).contains(least)) {
-            return Some(Complaint::new("least_weight", least, "1e-30 to 1e30"));
-        }
         let most = self.from.len().max(self.to.len());
         if most > ENDS_MAX {
             return Some(Complaint::new("from, to", most, "at most 10000 configurations"));
         }
-        self.how().complaint()
+        complaint_of_least_weight(self.least_weight).or_else(|| self.how().complaint())
     }
 
     fn accept(&mut self, cx: &Context) -> Result<(), String> {

@@ -1,4 +1,4 @@
-use super::attaching::attaching;
+use super::attaching::{attaching, between_ends, ends};
 use super::{Evaluator, Verdict};
 use crate::context::Context;
 use crate::methods::Complaint;
@@ -37,22 +37,14 @@ impl Evaluator for Query {
         scratch: &mut Scratch,
     ) -> Verdict {
         scratch.take_asked();
-        let query = cx.query.as_ref().expect("a checked problem has the query");
-        let ends = (&query.start[..], &query.goal[..]);
         let attachment = self.how();
-        let answer = solve(cx, roadmap, ends, &attachment, scratch);
+        let answer = solve(cx, roadmap, ends(cx), &attachment, scratch);
         let solved = f64::from(u8::from(answer.path.is_some()));
         let asked = scratch.take_asked();
         Verdict { answer: Some(answer), ..Verdict::at_least(1.0, solved, asked) }
     }
 
-    fn needs_query(&self) -> bool {
-        true
-    }
-
-    fn attachment(&self) -> Option<Attachment> {
-        Some(self.how())
-    }
+    between_ends!();
 
     fn complaint(&self) -> Option<Complaint> {
         self.how().complaint()

@@ -2,10 +2,11 @@
 
 use super::format::{CannotExport, ExportFile, Exported, RoadmapFormat};
 use super::planner_name;
+use crate::internal::csv_field::csv_field;
 use crate::model::Directed;
 use crate::problem::Problem;
 use crate::roadmap::Roadmap;
-use crate::space::Space;
+use crate::space::{Dof, Space};
 use std::fmt::Write;
 
 /// See [`nodes_csv`] and [`edges_csv`].
@@ -36,7 +37,11 @@ pub fn nodes_csv(problem: &Problem, roadmap: &Roadmap) -> String {
     let values = problem.model.description().node_values();
     let mut names = header(&problem.space());
     names.push("component".to_owned());
-    names.extend(values.iter().map(|value| field(&format!("{} [{}]", value.name, value.unit))));
+    names.extend(
+        values
+            .iter()
+            .map(|value| csv_field(&format!("{} [{}]", value.name, value.unit)).into_owned()),
+    );
     let mut csv = format!("node,{}\n", names.join(","));
     for (node, q) in roadmap.nodes().zip(roadmap.configs().iter()) {
         put(&mut csv, format_args!("{node}"));
@@ -78,16 +83,8 @@ pub fn edges_csv(problem: &Problem, roadmap: &Roadmap) -> String {
 
 /// The degrees of freedom with their units, as in the first line of a file.
 pub(super) fn header(space: &Space) -> Vec<String> {
-    space.dofs().iter().map(|dof| field(&format!("{} [{}]", dof.name, dof.unit))).collect()
-}
-
-/// A text as a field: quoted where it would not stay one field.
-fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
+    let name = |dof: &Dof| csv_field(&format!("{} [{}]", dof.name, dof.unit)).into_owned();
+    space.dofs().iter().map(name).collect()
 }
 
 fn put(csv: &mut String, text: std::fmt::Arguments) {

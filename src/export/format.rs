@@ -1,3 +1,4 @@
+use crate::model::Molecule;
 use crate::problem::Problem;
 use crate::query::Path;
 use crate::roadmap::Roadmap;
@@ -12,6 +13,22 @@ pub struct Exported<'a> {
     pub roadmap: &'a Roadmap,
     /// The path that answers the problem's query, if there is one.
     pub path: Option<&'a Path>,
+}
+
+impl<'a> Exported<'a> {
+    /// The molecule, and its conformations: those of the path, in its order, or without a path those of all nodes, in the order
+    /// of their ids.
+    ///
+    /// # Errors
+    /// The model is no molecule.
+    pub(super) fn conformations(&self) -> Result<(&'a dyn Molecule, Vec<&'a [f64]>), CannotExport> {
+        let Exported { problem, roadmap, path } = *self;
+        let molecule = problem.model.description().molecule();
+        let molecule =
+            molecule.ok_or_else(|| CannotExport("this model is no molecule".to_owned()))?;
+        let configs = path.map_or(roadmap.configs(), |path| &path.configs);
+        Ok((molecule, configs.iter().collect()))
+    }
 }
 
 /// One of the files that a format consists of.

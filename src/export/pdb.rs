@@ -32,14 +32,7 @@ impl RoadmapFormat for Pdb {
     }
 
     fn files(&self, exported: &Exported) -> Result<Vec<ExportFile>, CannotExport> {
-        let Exported { problem, roadmap, path } = *exported;
-        let molecule = problem.model.description().molecule();
-        let molecule =
-            molecule.ok_or_else(|| CannotExport("this model is no molecule".to_owned()))?;
-        let configs: Vec<&[f64]> = match path {
-            Some(path) => path.configs.iter().collect(),
-            None => roadmap.configs().iter().collect(),
-        };
+        let (molecule, configs) = exported.conformations()?;
         Ok(vec![ExportFile::named(pdb(molecule, configs.into_iter())?)])
     }
 }

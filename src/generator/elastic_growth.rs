@@ -1,4 +1,4 @@
-use super::elastic_walk::{LENGTH_MAX, Node, Place, Walks, complaint, residues, suits};
+use super::elastic_walk::{Node, Place, Walks, complaint, complaint_of_length, residues, suits};
 use super::{Generator, Reads};
 use crate::context::Context;
 use crate::methods::Complaint;
@@ -155,7 +155,7 @@ impl Generator for ElasticGrowth {
             let found = format!("{} lengths", self.lengths.len());
             return Some(Complaint::new("lengths", found, "1 to 100"));
         }
-        let of_length = |length: &f64| Complaint::of_length("lengths", *length, LENGTH_MAX);
+        let of_length = |length: &f64| complaint_of_length("lengths", *length);
         if let Some(complaint) = self.lengths.iter().find_map(of_length) {
             return Some(complaint);
         }

@@ -1,10 +1,11 @@
 //! Elastic growth and interpolation, on chignolin between its native hairpin and a stretched chain.
 
-use super::GeneratorKind;
+use super::{ElasticGrowth, GeneratorKind};
 use crate::img::{Setup, Stop, build};
-use crate::model::Scratch;
+use crate::model::protein::{ChainSpec, ProteinSpec};
+use crate::model::{ModelKind, Scratch};
 use crate::numbers::Ordinal;
-use crate::problem::Problem;
+use crate::problem::{Problem, StrategySpec};
 use crate::roadmap::{EdgeCost, Increment, Roadmap};
 use std::path::Path;
 use std::sync::Arc;
@@ -130,16 +131,42 @@ fn what_needs_two_ends_or_residues_says_so() {
     assert!(error.contains("a chain of residues expected"), "{error}");
 }
 
+/// Two Cα cannot move against one another, so that no elastic step has a length.
+#[test]
+fn a_chain_of_two_residues_is_refused() {
+    let whole = chignolin(GENERATORS[0], 5, "");
+    let ModelKind::Protein(protein) = &whole.model else { panic!("a protein expected") };
+    for (count, fits) in [(2, false), (3, true)] {
+        let spec = ProteinSpec::new(ChainSpec::Residues(protein.source()[..count].to_vec()));
+        let q = vec![-1.5; 2 * count - 2];
+        let generator = GeneratorKind::ElasticGrowth(ElasticGrowth::default());
+        let strategy = StrategySpec::generated("it", generator);
+        match Problem::builder("few", spec).query(q.clone(), q).strategy(strategy).build() {
+            Ok(_) => assert!(fits, "{count}"),
+            Err(error) => {
+                let error = error.to_string();
+                assert!(
+                    !fits && error.contains("2 residues, whose Cα no torsion moves so; at least 3"),
+                    "{error}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn settings_out_of_range_are_refused() {
     let generators = [
         ("{ elastic-growth = { lengths = [] } }", "lengths"),
         ("{ elastic-growth = { lengths = [0.5, 11.0] } }", "lengths"),
+        ("{ elastic-growth = { lengths = [1e-300] } }", "lengths"),
         ("{ elastic-growth = { children = 0 } }", "children"),
         ("{ elastic-growth = { steps = 0 } }", "steps"),
         ("{ elastic-growth = { kt = 0.0 } }", "kt"),
         ("{ elastic-growth = { attempts = 0 } }", "attempts"),
+        ("{ elastic-growth = { attempts = 1_000_001 } }", "attempts"),
         ("{ interpolation = { length = nan } }", "length"),
+        ("{ interpolation = { length = 0.0009 } }", "length"),
         ("{ interpolation = { kt = -1.0 } }", "kt"),
     ];
     for (generator, key) in generators {

@@ -50,8 +50,11 @@ pub(super) struct Walks<'a> {
     pub attempts: u64,
 }
 
-/// The longest step, Å.
-pub(super) const LENGTH_MAX: f64 = 10.0;
+/// The shortest and the longest step, Å: coordinates of structures are known to the thousandth.
+const LENGTH_MIN: f64 = 1e-3;
+const LENGTH_MAX: f64 = 10.0;
+/// The most steps tried for one milestone. Each takes about a millisecond.
+const ATTEMPTS_MAX: u64 = 1_000_000;
 const KT_MAX: f64 = 1e9;
 
 /// How strongly residues are drawn toward a configuration, kT/Å². With a tenth of it walks end within 1 Å of their aim, with ten
@@ -65,6 +68,9 @@ const UNSTEADY: f64 = 0.28;
 
 /// How often a step is made half as long where it is refused.
 const HALVINGS: usize = 3;
+
+/// A chain has at least so many residues: two Cα are always as far apart as the peptide between them holds them.
+const RESIDUES_MIN: usize = 3;
 
 /// A step toward a configuration that moves less than this share of what is asked has arrived.
 const ARRIVED: f64 = 0.1;
@@ -246,22 +252,31 @@ impl<'a> Walks<'a> {
     }
 }
 
-/// The residues of the context's model; `None` where it is no elastic chain.
+/// The residues of the context's model; `None` where it is no chain, or there is no query.
 pub(super) fn residues(cx: &Context) -> Option<usize> {
     let query = cx.query.as_ref()?;
-    cx.model.elastic(&query.start)?;
     cx.model.shape(&query.start, &mut Scratch::new()).map(|shape| shape.len())
 }
 
 /// Whether the methods that walk elastically are defined for the problem.
 pub(super) fn suits(cx: &Context) -> Result<(), String> {
-    if cx.query.is_none() {
+    let Some(query) = &cx.query else {
         return Err("elastic steps between the ends of a query found, but no [query]".to_owned());
-    }
-    match residues(cx) {
-        Some(_) => Ok(()),
+    };
+    match residues(cx).filter(|_| cx.model.elastic(&query.start).is_some()) {
+        Some(RESIDUES_MIN..) => Ok(()),
+        Some(residues) => Err(format!(
+            "elastic steps, which move Cα against one another, found, and {residues} residues, whose Cα no torsion moves so; \
+             at least {RESIDUES_MIN} expected"
+        )),
         None => Err("elastic steps found, a model that is a chain of residues expected".to_owned()),
     }
+}
+
+/// What is wrong with a length of steps.
+pub(super) fn complaint_of_length(key: &'static str, length: f64) -> Option<Complaint> {
+    let fits = (LENGTH_MIN..=LENGTH_MAX).contains(&length);
+    (!fits).then(|| Complaint::new(key, format_args!("{length:?}"), "0.001 to 10 Å"))
 }
 
 /// What is wrong with settings that several methods have.
@@ -270,5 +285,5 @@ pub(super) fn complaint(kt: f64, attempts: u64) -> Option<Complaint> {
     if !(kt > 0.0 && kt <= KT_MAX) {
         return Some(Complaint::new("kt", kt, "an energy above 0, at most 1e9"));
     }
-    (attempts == 0).then(|| Complaint::new("attempts", "0", "at least 1"))
+    Complaint::of_attempts(attempts, ATTEMPTS_MAX)
 }

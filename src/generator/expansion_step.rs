@@ -1,4 +1,4 @@
-use super::{Generator, Reads};
+use super::{ATTEMPTS_MAX, Generator, Reads};
 use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
@@ -118,7 +118,7 @@ impl Generator for ExpansionStep {
         if self.bounces == 0 {
             return Some(Complaint::new("bounces", "0", "at least 1"));
         }
-        (self.attempts == 0).then(|| Complaint::new("attempts", "0", "at least 1"))
+        Complaint::of_attempts(self.attempts, ATTEMPTS_MAX)
     }
 }
 

@@ -1,5 +1,5 @@
 use super::Generator;
-use super::elastic_walk::{LENGTH_MAX, Node, Place, Walks, complaint, residues, suits};
+use super::elastic_walk::{Node, Place, Walks, complaint, complaint_of_length, residues, suits};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -121,8 +121,7 @@ impl Generator for Interpolation {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        Complaint::of_length("length", self.length, LENGTH_MAX)
-            .or_else(|| complaint(self.kt, self.attempts))
+        complaint_of_length("length", self.length).or_else(|| complaint(self.kt, self.attempts))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

@@ -53,6 +53,9 @@ use crate::roadmap::{Increment, Roadmap};
 use crate::sampler::GaveUp;
 use crate::seed::Seed;
 
+/// The most attempts of a generator for one milestone, each of which draws a configuration or a motion.
+const ATTEMPTS_MAX: u64 = 1_000_000_000;
+
 /// What a generator reads beside the problem and its seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reads {

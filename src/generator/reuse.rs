@@ -1,4 +1,4 @@
-use super::{Generator, Parent, Reads};
+use super::{ATTEMPTS_MAX, Generator, Parent, Reads};
 use crate::context::Context;
 use crate::local::Planner;
 use crate::methods::Complaint;
@@ -98,7 +98,7 @@ impl Generator for Reuse {
         if let Some(complaint) = Complaint::of_length("spread", self.spread, LENGTH_MAX) {
             return Some(complaint);
         }
-        (self.attempts == 0).then(|| Complaint::new("attempts", "0", "at least 1"))
+        Complaint::of_attempts(self.attempts, ATTEMPTS_MAX)
     }
 }
 

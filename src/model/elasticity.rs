@@ -7,7 +7,8 @@ use std::ops::Range;
 /// Steps are scaled until the shape has moved as far as is asked, by the root of the mean squared distance (RMSD) of all Cα
 /// after superposition. Chance is the caller's: deviates come from outside.
 pub trait Elastic {
-    /// A random step to a distance of `length` Å. `deviates` are independent and normal with variance 1, as many as the
+    /// A random step to a distance of `length` Å, with a part that relaxes what is strained here. That part is not scaled: where it
+    /// alone leads farther than `length`, the step is about that part, and longer than is asked. `deviates` are independent and normal with variance 1, as many as the
     /// space has degrees of freedom: along each direction the step is the wider the softer the network is there.
     ///
     /// `None` where the step is not to be had: where nothing moves, or numbers overflow.

@@ -1,9 +1,11 @@
+use super::frames::expect_coarse;
 use super::via_nodes::{Tried, ViaNodes};
-use super::{Frames, Pathway, Pathways, pairs};
+use super::{Frames, Pathway, Pathways, TooFine, pairs};
+use crate::cancel::Cancel;
 use crate::context::{Context, Ends};
 use crate::model::Scratch;
 use crate::numbers::NodeId;
-use crate::query::{Attachment, Path, Ways, shorten, shorten_within};
+use crate::query::{Attachment, Path, Ways, shorten_within};
 use crate::roadmap::{Rank, Roadmap, Route};
 use rayon::prelude::*;
 
@@ -33,7 +35,7 @@ pub struct Dissimilar {
     /// How many candidates are shortened and measured, first of those over single nodes, then, if there are still too few
     /// pathways, of penalised searches: at most so many of either.
     pub tries: usize,
-    /// How often a shortcut is tried on each, see [`shorten`].
+    /// How often a shortcut is tried on each, see [`shorten`](crate::query::shorten).
     pub shortcuts: u32,
 }
 
@@ -45,7 +47,7 @@ pub struct Dissimilar {
 ///   many candidates go along it, both as a multiple of its cost and by the mean cost of the edges of the best route.
 /// - Every edge of a candidate passes the finer check of paths that are given out; one that fails is left out, and routes are
 ///   found anew. Then the candidate is shortened in two ways, neither of which raises cost or highest energy: as far as it can be
-///   ([`shorten`]), which draws paths toward one another where little is between them, and within an eighth of its length
+///   ([`shorten`](crate::query::shorten)), which draws paths toward one another where little is between them, and within an eighth of its length
 ///   ([`shorten_within`]), which leaves it where it is. As it was it is a pathway, too.
 /// - While there are too few pathways, the best routes are taken over nodes that are at least `distance` from all that is accepted so
 ///   far: whatever goes there is as far from these.
@@ -54,48 +56,62 @@ pub struct Dissimilar {
 ///   were accepted before: the distance is that of what is given out.
 ///
 /// The work is bounded by `tries`, for each of the three kinds of candidates. Candidates are shortened in several threads; the outcome does not depend on how many.
+///
+/// The search ends when `cancel` says so, once the route or the shortcut that is being looked at is done, with what is found by then
+/// ([`Pathways::is_cut`]): candidates as far as they are shortened, and the best one in any case if it is known. Only then does the
+/// outcome depend on time.
+///
+/// # Errors
+/// A path would have too many frames.
 pub fn dissimilar(
     cx: &Context,
     roadmap: &Roadmap,
     ends: &Ends,
     attachment: &Attachment,
     asked: &Dissimilar,
+    cancel: &Cancel,
     scratch: &mut Scratch,
-) -> Pathways {
+) -> Result<Pathways, TooFine> {
     let configs = [&ends.start[..], &ends.goal];
+    expect_coarse(cx, configs, asked.spacing, scratch)?;
     let mut ways = Ways::between(cx, roadmap, configs, attachment, scratch);
     let mut tried = Tried::default();
-    let routes = over_nodes(&mut ways, &mut tried, asked, scratch);
+    let routes = over_nodes(&mut ways, &mut tried, asked, cancel, scratch);
     let [from, to] = ways.ends();
     let connected = ways.graph.shortest_where(from, to, |_, _| true).is_some();
-    let mut found = shortened(&ways, &routes, asked);
+    let mut found = shortened(&ways, &routes, asked, cancel)?;
     let mut chosen = choose(cx, &mut found, asked);
     let (mut looked_at, mut far, mut penalised) = (routes.len(), 0, 0);
-    while chosen.len() < asked.count && far < asked.tries {
+    while chosen.len() < asked.count && far < asked.tries && !cancel.is_cancelled() {
         let accepted: Vec<&Frames> = chosen.iter().map(|index| &found[*index].frames).collect();
-        let Some(route) = far_route(&mut ways, &mut tried, &accepted, asked, scratch) else {
-            break;
-        };
+        let route = far_route(&mut ways, &mut tried, &accepted, asked, cancel, scratch);
+        let Some(route) = route else { break };
         far += 1;
         looked_at += 1;
-        found.extend(shortened(&ways, &[route], asked));
+        found.extend(shortened(&ways, &[route], asked, cancel)?);
         chosen = choose(cx, &mut found, asked);
     }
     let scale = routes.first().map_or(0.0, |best| best.length / best.edges.len().max(1) as f64);
-    while chosen.len() < asked.count && penalised < asked.tries && !routes.is_empty() {
+    while chosen.len() < asked.count
+        && penalised < asked.tries
+        && !routes.is_empty()
+        && !cancel.is_cancelled()
+    {
         let most = BATCH.min(asked.tries - penalised);
-        let more = penalised_routes(&mut ways, &mut tried, scale, most, scratch);
+        let more = penalised_routes(&mut ways, &mut tried, (scale, most), cancel, scratch);
         if more.is_empty() {
             break;
         }
         penalised += more.len();
         looked_at += more.len();
-        found.extend(shortened(&ways, &more, asked));
+        found.extend(shortened(&ways, &more, asked, cancel)?);
         chosen = choose(cx, &mut found, asked);
     }
+    let is_cut = cancel.is_cancelled();
     let pathways: Vec<Pathway> = chosen.into_iter().map(|index| found[index].clone()).collect();
     let dropped_edges = ways.failed.len() as u64;
-    Pathways { pairs: pairs(cx, &pathways), pathways, connected, tried: looked_at, dropped_edges }
+    let pairs = pairs(cx, &pathways);
+    Ok(Pathways { pairs, pathways, connected, tried: looked_at, dropped_edges, is_cut })
 }
 
 /// The best routes over single nodes that pass the finer check.
@@ -103,11 +119,12 @@ fn over_nodes(
     ways: &mut Ways,
     tried: &mut Tried,
     asked: &Dissimilar,
+    cancel: &Cancel,
     scratch: &mut Scratch,
 ) -> Vec<Route> {
     let mut routes = Vec::new();
     let mut candidates = ViaNodes::of(ways, asked.rank);
-    while routes.len() < asked.tries && ways.failed.len() <= FAILED_MAX {
+    while routes.len() < asked.tries && ways.failed.len() <= FAILED_MAX && !cancel.is_cancelled() {
         let Some(route) = candidates.next(ways, tried) else { break };
         if ways.passes(&route, scratch) {
             tried.add(&route);
@@ -126,12 +143,16 @@ fn far_route(
     tried: &mut Tried,
     accepted: &[&Frames],
     asked: &Dissimilar,
+    cancel: &Cancel,
     scratch: &mut Scratch,
 ) -> Option<Route> {
     let [from, to] = ways.ends();
     let mut candidates = ViaNodes::of(ways, asked.rank);
-    while ways.failed.len() <= FAILED_MAX {
+    while ways.failed.len() <= FAILED_MAX && !cancel.is_cancelled() {
         let is_far = |node: NodeId| {
+            if cancel.is_cancelled() {
+                return false;
+            }
             let q = ways.config(node);
             let is_far = |of: &&Frames| of.apart(ways.cx, q, scratch) >= asked.distance;
             node != from && node != to && accepted.iter().all(is_far)
@@ -151,12 +172,12 @@ fn far_route(
 fn penalised_routes(
     ways: &mut Ways,
     tried: &mut Tried,
-    scale: f64,
-    most: usize,
+    (scale, most): (f64, usize),
+    cancel: &Cancel,
     scratch: &mut Scratch,
 ) -> Vec<Route> {
     let ([from, to], mut routes) = (ways.ends(), Vec::new());
-    while routes.len() < most && ways.failed.len() <= FAILED_MAX {
+    while routes.len() < most && ways.failed.len() <= FAILED_MAX && !cancel.is_cancelled() {
         let weigh = |edge: u32, weight: f64| {
             let uses = tried.uses(edge) as f64;
             let least = if scale > 0.0 { scale } else { 1.0 };
@@ -172,17 +193,32 @@ fn penalised_routes(
     routes
 }
 
-/// Routes as paths, shortened, measured, and cut into frames.
-fn shortened(ways: &Ways, routes: &[Route], asked: &Dissimilar) -> Vec<Pathway> {
+/// Routes as paths, shortened, measured, and cut into frames. Once `cancel` says so no other route is taken up; the first always is.
+fn shortened(
+    ways: &Ways,
+    routes: &[Route],
+    asked: &Dissimilar,
+    cancel: &Cancel,
+) -> Result<Vec<Pathway>, TooFine> {
     let paths: Vec<_> = routes.iter().map(|route| ways.path(route)).collect();
     let cx = ways.cx;
-    let finished = |scratch: &mut Scratch, path: &Path| {
-        let whole = shorten(cx, path, asked.shortcuts, scratch);
-        let local = shorten_within(cx, path, asked.shortcuts, LOCAL, scratch);
-        [whole, local, path.clone()].map(|path| Pathway::of(cx, path, asked.spacing, scratch))
+    let finished = |scratch: &mut Scratch, (index, path): (usize, &Path)| {
+        if index > 0 && cancel.is_cancelled() {
+            return Ok(Vec::new());
+        }
+        let within = |reach: f64, scratch: &mut Scratch| {
+            shorten_within(cx, path, asked.shortcuts, reach, cancel, scratch)
+        };
+        let mut forms = vec![within(1.0, scratch)];
+        if !cancel.is_cancelled() {
+            forms.extend([within(LOCAL, scratch), path.clone()]);
+        }
+        let mut measured = |path| Pathway::of(cx, path, asked.spacing, scratch);
+        forms.into_iter().filter_map(|path| measured(path).transpose()).collect()
     };
-    let all: Vec<_> = paths.par_iter().map_init(Scratch::new, finished).collect();
-    all.into_iter().flatten().flatten().collect()
+    let all = paths.par_iter().enumerate().map_init(Scratch::new, finished);
+    let all: Vec<Result<Vec<Pathway>, TooFine>> = all.collect();
+    Ok(all.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
 
 /// The indices of the accepted ones among those that were found, the best first. Brings what was found in the order of the

@@ -1,6 +1,7 @@
 //! What is measured of a molecule along a path, frame by frame.
 
 use super::Frames;
+use crate::internal::csv_field::csv_field;
 use crate::model::Molecule;
 use crate::structure::measure::{
     APART, CA, CA_REACH, ThreeStates, angle_of_centroids, ca_contacts, domain_angle,
@@ -126,7 +127,8 @@ impl FrameTable {
 
     /// The table as CSV.
     pub fn csv(&self) -> String {
-        let mut csv = self.columns.join(",") + "\n";
+        let columns: Vec<_> = self.columns.iter().map(|name| csv_field(name)).collect();
+        let mut csv = columns.join(",") + "\n";
         for row in &self.rows {
             let numbers: Vec<String> = row.iter().map(f64::to_string).collect();
             csv += &(numbers.join(",") + "\n");
@@ -137,7 +139,9 @@ impl FrameTable {
     /// The contacts as CSV.
     pub fn contacts_csv(&self) -> String {
         let lines = self.contacts.iter();
-        let lines = lines.map(|one| format!("{},{},{}\n", one.first, one.second, one.share));
+        let lines = lines.map(|FormedContact { first, second, share }| {
+            format!("{},{},{share}\n", csv_field(first), csv_field(second))
+        });
         "first,second,share\n".to_owned() + &lines.collect::<String>()
     }
 }

@@ -15,6 +15,21 @@ const PARTS: f64 = 8.0;
 /// A leg is not looked at in more parts.
 const PARTS_MAX: usize = 1 << 16;
 
+/// The most frames between the configurations of a path. Comparing two paths takes as many distances as the product of their
+/// frames. A frame of a molecule holds all Cα, and each distance superposes them, so of these there are fewer.
+const FRAMES_MAX: usize = 10_000;
+const FRAMES_OF_MOLECULE_MAX: usize = 1_000;
+
+/// A spacing at which a path would be cut into more frames than can be kept and compared.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{spacing} found, at which a path has more than {most} frames; a larger spacing expected")]
+pub struct TooFine {
+    /// The spacing, Å of Cα RMSD or in the space's metric.
+    pub spacing: f64,
+    /// The most frames that are placed between the configurations of a path.
+    pub most: usize,
+}
+
 /// A path cut into frames of about equal spacing, among them all configurations of the path.
 #[derive(Clone, Debug)]
 pub struct Frames {
@@ -35,19 +50,23 @@ impl Frames {
     /// Along a motion between two configurations the Cα RMSD does not grow evenly, so that a motion is first looked at in
     /// parts of an eighth of the spacing. Frames are placed where the sum of the parts is nearest to an even share of
     /// the whole; by the triangle inequality two neighbours are no farther apart than the parts between them together.
-    pub fn of(cx: &Context, path: &Path, spacing: f64, scratch: &mut Scratch) -> Frames {
-        let mut frames = Frames {
-            configs: Configs::new(cx.space.len()),
-            own: Vec::new(),
-            lengths: Vec::new(),
-            shapes: None,
-        };
+    ///
+    /// # Errors
+    /// There would be too many frames.
+    pub fn of(
+        cx: &Context,
+        path: &Path,
+        spacing: f64,
+        scratch: &mut Scratch,
+    ) -> Result<Frames, TooFine> {
+        let mut frames = Frames::none(cx);
         let mut path = path.configs.iter();
-        let Some(mut before) = path.next() else { return frames };
+        let Some(mut before) = path.next() else { return Ok(frames) };
         frames.own.push(0);
         frames.push(cx, before, scratch);
         for q in path {
-            for t in places(cx, before, q, spacing, scratch) {
+            let placed = frames.len() - frames.own.len();
+            for t in places(cx, [before, q], spacing, placed, scratch)? {
                 let mut between = vec![0.0; cx.space.len()];
                 cx.space.interpolate(before, q, t, &mut between);
                 frames.push(cx, &between, scratch);
@@ -56,14 +75,18 @@ impl Frames {
             frames.push(cx, q, scratch);
             before = q;
         }
-        frames
+        Ok(frames)
+    }
+
+    fn none(cx: &Context) -> Frames {
+        let configs = Configs::new(cx.space.len());
+        Frames { configs, own: Vec::new(), lengths: Vec::new(), shapes: None }
     }
 
     /// How far a configuration is from the nearest frame.
     pub fn apart(&self, cx: &Context, q: &[f64], scratch: &mut Scratch) -> f64 {
-        let mut path = Path { configs: Configs::new(cx.space.len()), length: 0.0 };
-        path.configs.push(q);
-        let alone = Frames::of(cx, &path, 1.0, scratch);
+        let mut alone = Frames::none(cx);
+        alone.push(cx, q, scratch);
         let apart = |frame| alone.distance(0, self, frame, &cx.space);
         (0..self.len()).map(apart).fold(f64::INFINITY, f64::min)
     }
@@ -122,16 +145,52 @@ impl Frames {
     }
 }
 
-/// At which shares of the motion from `a` to `b`, its ends left out, frames are placed.
-fn places(cx: &Context, a: &[f64], b: &[f64], spacing: f64, scratch: &mut Scratch) -> Vec<f64> {
+/// Refuses a spacing at which every path between two configurations has too many frames, before one is looked for.
+///
+/// # Errors
+/// The ends are so far apart that there would be.
+pub(super) fn expect_coarse(
+    cx: &Context,
+    ends: [&[f64]; 2],
+    spacing: f64,
+    scratch: &mut Scratch,
+) -> Result<(), TooFine> {
+    let [first, last] = ends.map(|q| {
+        let mut alone = Frames::none(cx);
+        alone.push(cx, q, scratch);
+        alone
+    });
+    let most = most(first.shapes.is_some());
+    let apart = first.distance(0, &last, 0, &cx.space);
+    if apart / spacing > most as f64 { Err(TooFine { spacing, most }) } else { Ok(()) }
+}
+
+/// The most frames between the configurations of a path.
+fn most(of_molecule: bool) -> usize {
+    if of_molecule { FRAMES_OF_MOLECULE_MAX } else { FRAMES_MAX }
+}
+
+/// At which shares of the motion from `a` to `b`, its ends left out, frames are placed. On the legs before `placed` frames are.
+fn places(
+    cx: &Context,
+    [a, b]: [&[f64]; 2],
+    spacing: f64,
+    placed: usize,
+    scratch: &mut Scratch,
+) -> Result<Vec<f64>, TooFine> {
     let mut shape_at = |q: &[f64]| Some(CentredPoints::new(&cx.model.shape(q, scratch)?));
-    let even = |count: usize| (1..count).map(move |i| i as f64 / count as f64).collect();
-    let count = |length: f64| (length / spacing).ceil().clamp(1.0, PARTS_MAX as f64) as usize;
+    // How many parts of a length, or an error where their ends would be too many frames.
+    let count = |length: f64, part: f64, of_molecule: bool| {
+        let (parts, most) = ((length / part).ceil().max(1.0), most(of_molecule));
+        let fits = parts <= (most - placed.min(most)) as f64 + 1.0;
+        if fits { Ok(parts as usize) } else { Err(TooFine { spacing, most }) }
+    };
     let (Some(first), Some(last)) = (shape_at(a), shape_at(b)) else {
-        return even(count(cx.space.distance(a, b)));
+        let count = count(cx.space.distance(a, b), spacing, false)?;
+        return Ok((1..count).map(|i| i as f64 / count as f64).collect());
     };
     let part = spacing / PARTS;
-    let mut parts = (PARTS as usize * count(first.rmsd(&last))).min(PARTS_MAX);
+    let mut parts = PARTS as usize * count(first.rmsd(&last), spacing, true)?;
     let sums = loop {
         let mut sums = vec![0.0];
         let (mut before, mut longest) = (first.clone(), 0.0f64);
@@ -152,10 +211,10 @@ fn places(cx: &Context, a: &[f64], b: &[f64], spacing: f64, scratch: &mut Scratc
     };
     // Where a frame stands at the end of the part in which its place is, neighbours are at most a part farther apart.
     let whole = sums[parts];
-    let frames = (whole / (spacing - part)).ceil().max(1.0) as usize;
+    let frames = count(whole, spacing - part, true)?;
     let place = |index: usize| {
         let at = whole * (index as f64 / frames as f64);
         sums.partition_point(|sum| *sum < at) as f64 / parts as f64
     };
-    (1..frames).map(place).filter(|t| *t > 0.0 && *t < 1.0).collect()
+    Ok((1..frames).map(place).filter(|t| *t > 0.0 && *t < 1.0).collect())
 }

@@ -1,4 +1,5 @@
-use super::{Pathway, Pathways, pairs};
+use super::frames::expect_coarse;
+use super::{Pathway, Pathways, TooFine, pairs};
 use crate::context::{Context, Ends};
 use crate::model::Scratch;
 use crate::numbers::NodeId;
@@ -30,6 +31,9 @@ pub struct KBest {
 /// before, such as those that begin at a node where the start is. The paths are given as the roadmap has them: shortened,
 /// many would become the same. Where many nodes stand at the same configuration, so many routes can be the same that fewer paths
 /// are found than are asked for: at most 4 routes are looked at for each, and 20 more.
+///
+/// # Errors
+/// A path would have too many frames.
 pub fn k_best(
     cx: &Context,
     roadmap: &Roadmap,
@@ -37,8 +41,9 @@ pub fn k_best(
     attachment: &Attachment,
     asked: &KBest,
     scratch: &mut Scratch,
-) -> Pathways {
+) -> Result<Pathways, TooFine> {
     let configs = [&ends.start[..], &ends.goal];
+    expect_coarse(cx, configs, asked.spacing, scratch)?;
     let mut ways = Ways::between(cx, roadmap, configs, attachment, scratch);
     let mut parts = Parts::of(&ways, asked.rank);
     let connected = !parts.found.is_empty();
@@ -50,14 +55,15 @@ pub fn k_best(
         let is_new =
             pathways.iter().all(|known| !known.path.configs.iter().eq(path.configs.iter()));
         if is_new {
-            pathways.extend(Pathway::of(cx, path, asked.spacing, scratch));
+            pathways.extend(Pathway::of(cx, path, asked.spacing, scratch)?);
         }
     }
     // The peaks of edges, by which routes were found, are bounds that a finer look may lower.
     pathways.sort_by_key(|pathway| pathway.measured.key(asked.rank));
     let dropped_edges = ways.failed.len() as u64;
     let tried = parts.tried;
-    Pathways { pairs: pairs(cx, &pathways), pathways, connected, tried, dropped_edges }
+    let pairs = pairs(cx, &pathways);
+    Ok(Pathways { pairs, pathways, connected, tried, dropped_edges, is_cut: false })
 }
 
 /// How many routes are looked at for each path that is asked for, and how many beside.

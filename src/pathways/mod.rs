@@ -18,7 +18,7 @@
 //! let ends = cx.query().expect("the problem has a query");
 //! let asked = KBest { count: 3, rank: Rank::Barrier, spacing: 0.05 };
 //! let attachment = built.problem().attachment();
-//! let found = pathways::k_best(cx, built.roadmap(), ends, &attachment, &asked, scratch);
+//! let found = pathways::k_best(cx, built.roadmap(), ends, &attachment, &asked, scratch)?;
 //! for pathway in &found.pathways {
 //!     println!("{:?} {:?}", pathway.measured.there, pathway.measured.back);
 //! }
@@ -37,7 +37,7 @@ mod via_nodes;
 pub use crate::roadmap::Rank;
 pub use dissimilar::{DISTANCE, Dissimilar, dissimilar};
 pub use frame_table::{DomainAngle, FormedContact, FrameTable};
-pub use frames::{Frames, SPACING};
+pub use frames::{Frames, SPACING, TooFine};
 pub use frechet::{Decided, discrete_frechet, hausdorff};
 pub use k_best::{KBest, k_best};
 pub use measured::{Measured, OneWay};
@@ -70,6 +70,8 @@ pub struct Pathways {
     pub tried: usize,
     /// Edges that failed the finer check and were left out.
     pub dropped_edges: u64,
+    /// Whether the search was cancelled, so that there may be others, or better ones.
+    pub is_cut: bool,
 }
 
 /// How far two pathways are apart.
@@ -87,10 +89,15 @@ pub struct Pair {
 
 impl Pathway {
     /// Measures a path and cuts it into frames. `None` where one of its motions does not pass the finer check.
-    fn of(cx: &Context, path: Path, spacing: f64, scratch: &mut Scratch) -> Option<Pathway> {
-        let measured = Measured::of(cx, &path, scratch)?;
-        let frames = Frames::of(cx, &path, spacing, scratch);
-        Some(Pathway { path, measured, frames })
+    fn of(
+        cx: &Context,
+        path: Path,
+        spacing: f64,
+        scratch: &mut Scratch,
+    ) -> Result<Option<Pathway>, TooFine> {
+        let Some(measured) = Measured::of(cx, &path, scratch) else { return Ok(None) };
+        let frames = Frames::of(cx, &path, spacing, scratch)?;
+        Ok(Some(Pathway { path, measured, frames }))
     }
 }
 

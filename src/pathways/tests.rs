@@ -1,5 +1,6 @@
 use super::k_best::Parts;
 use super::*;
+use crate::cancel::Cancel;
 use crate::context::Ends;
 use crate::img::{Grown, Setup, build};
 use crate::model::Directed;
@@ -44,13 +45,23 @@ impl Built {
 
     fn dissimilar(&self, asked: &Dissimilar) -> Pathways {
         let (cx, scratch) = (&self.setup.cx, &mut Scratch::new());
-        dissimilar(cx, &self.roadmap, self.ends(), &Attachment::default(), asked, scratch)
+        dissimilar(
+            cx,
+            &self.roadmap,
+            self.ends(),
+            &Attachment::default(),
+            asked,
+            &Cancel::new(),
+            scratch,
+        )
+        .expect("few frames")
     }
 
     fn k_best(&self, count: usize, rank: Rank) -> Pathways {
         let (cx, scratch) = (&self.setup.cx, &mut Scratch::new());
         let asked = KBest { count, rank, spacing: 0.1 };
-        k_best(cx, &self.roadmap, self.ends(), &Attachment::default(), &asked, scratch)
+        let how = Attachment::default();
+        k_best(cx, &self.roadmap, self.ends(), &how, &asked, scratch).expect("few frames")
     }
 }
 
@@ -173,7 +184,7 @@ fn frames_are_about_evenly_apart_and_hold_the_paths_own() {
     cx.space.interpolate(&ends.start, &ends.goal, 0.3, &mut middle);
     [&ends.start, &middle, &ends.goal].iter().for_each(|q| path.configs.push(q));
     for spacing in [2.0, 0.5, 0.05] {
-        let frames = Frames::of(&cx, &path, spacing, scratch);
+        let frames = Frames::of(&cx, &path, spacing, scratch).expect("they are few");
         let own: Vec<&[f64]> = frames.own.iter().map(|index| frames.configs.get(*index)).collect();
         assert_eq!(own, path.configs.iter().collect::<Vec<_>>());
         let last = frames.len() - 1;
@@ -190,8 +201,79 @@ fn frames_are_about_evenly_apart_and_hold_the_paths_own() {
     // A path that is a point has one frame.
     let mut point = Path { configs: Configs::new(cx.space.len()), length: 0.0 };
     point.configs.push(&ends.start);
-    let point = Frames::of(&cx, &point, 0.5, scratch);
+    let point = Frames::of(&cx, &point, 0.5, scratch).expect("it is one");
     assert_eq!((point.len(), point.length()), (1, 0.0));
+}
+
+#[test]
+fn a_search_that_is_cancelled_gives_what_it_has() {
+    let built = Built::of(HILL);
+    let (cx, how) = (&built.setup.cx, Attachment::default());
+    // Shortened so often that nobody waits for the end.
+    let asked = Dissimilar { shortcuts: u32::MAX, ..APART };
+    let search = |cancel: &Cancel| {
+        let scratch = &mut Scratch::new();
+        dissimilar(cx, &built.roadmap, built.ends(), &how, &asked, cancel, scratch)
+            .expect("few frames")
+    };
+    let cancel = Cancel::new();
+    let found = std::thread::scope(|scope| {
+        let search = scope.spawn(|| search(&cancel));
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        cancel.cancel();
+        search.join().expect("no panic")
+    });
+    assert!(found.is_cut && found.connected && found.pathways.len() <= 2);
+    for pathway in &found.pathways {
+        let again = Measured::of(cx, &pathway.path, &mut Scratch::new());
+        assert_eq!(again, Some(pathway.measured));
+    }
+    // One that is cancelled before it begins has nothing, but says whether there is a way.
+    let found = search(&cancel);
+    assert!(found.is_cut && found.connected && found.pathways.is_empty());
+    assert!(!built.dissimilar(&APART).is_cut);
+}
+
+#[test]
+fn spacings_of_too_many_frames_are_refused() {
+    let built = Built::of(HILL);
+    let (cx, how, scratch) = (&built.setup.cx, Attachment::default(), &mut Scratch::new());
+    // The ends are 3.1 apart: at 3e-4 the straight line alone has too many, at 3.5e-4 ways around are too long.
+    for spacing in [1e-9, 3e-4, 3.5e-4] {
+        let asked = Dissimilar { spacing, tries: 2, shortcuts: 0, ..APART };
+        let search =
+            dissimilar(cx, &built.roadmap, built.ends(), &how, &asked, &Cancel::new(), scratch);
+        let expected = TooFine { spacing, most: 10_000 };
+        assert_eq!(search.err(), Some(expected));
+        let asked = KBest { count: 1, rank: Rank::Barrier, spacing };
+        let search = k_best(cx, &built.roadmap, built.ends(), &how, &asked, scratch);
+        assert_eq!(search.err(), Some(expected));
+    }
+    let problem = Problem::load("problems/peptide.toml".as_ref()).expect("it ships");
+    let (cx, scratch) = (problem.context(), &mut Scratch::new());
+    let ends = cx.query().expect("it has a query");
+    let mut path = Path { configs: Configs::new(cx.space.len()), length: 0.0 };
+    [&ends.start, &ends.goal].iter().for_each(|q| path.configs.push(q));
+    let length = Frames::of(&cx, &path, 0.1, scratch).expect("they are few").length();
+    let [fine, coarse] =
+        [1100.0, 500.0].map(|count| Frames::of(&cx, &path, length / count, scratch));
+    assert_eq!(fine.err().map(|error| error.most), Some(1000));
+    assert!(coarse.is_ok_and(|frames| (450..=1000).contains(&frames.len())));
+}
+
+#[test]
+fn names_with_commas_and_quotes_stay_one_field_of_a_table() {
+    let contact = |first: &str| FormedContact {
+        first: first.to_owned(),
+        second: "ALA 7".to_owned(),
+        share: 0.5,
+    };
+    let contacts = vec![contact("A,B 3"), contact("A\"B 4"), contact("GLY 1")];
+    let table = FrameTable { columns: vec!["a,b [deg]".to_owned()], rows: Vec::new(), contacts };
+    let expected =
+        "first,second,share\n\"A,B 3\",ALA 7,0.5\n\"A\"\"B 4\",ALA 7,0.5\nGLY 1,ALA 7,0.5\n";
+    assert_eq!(table.contacts_csv(), expected);
+    assert_eq!(table.csv(), "\"a,b [deg]\"\n");
 }
 
 const NODES: u32 = 5;

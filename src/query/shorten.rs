@@ -1,5 +1,6 @@
 use super::PATH_REFINEMENT;
 use super::path::{OnPath, Path, on_path};
+use crate::cancel::Cancel;
 use crate::context::Context;
 use crate::model::{Cost, Directed, Scratch};
 use crate::roadmap::Configs;
@@ -27,23 +28,24 @@ const AT_END: f64 = 1e-9;
 /// of legs that are cut. The result has the same ends, has no configuration twice in a row, is never longer (but for
 /// rounding), and is the same for the same arguments; the draws come from the problem's base seed.
 pub fn shorten(cx: &Context, path: &Path, tries: u32, scratch: &mut Scratch) -> Path {
-    shorten_within(cx, path, tries, 1.0, scratch)
+    shorten_within(cx, path, tries, 1.0, &Cancel::new(), scratch)
 }
 
 /// [`shorten`] by shortcuts alone that replace at most `reach` of the path's length each, a fraction: the path stays
-/// about where it is.
+/// about where it is. Ends when `cancel` says so, with the path as short as it is by then; its checks are all done.
 pub fn shorten_within(
     cx: &Context,
     path: &Path,
     tries: u32,
     reach: f64,
+    cancel: &Cancel,
     scratch: &mut Scratch,
 ) -> Path {
     let mut stream = Seed::of_evaluator(cx.base_seed, "shorten").stream(Purpose::Connecting);
-    let mut short = without_needless(cx, path, reach, scratch);
+    let mut short = without_needless(cx, path, reach, cancel, scratch);
     for index in 0..tries {
         // One straight motion is as short as can be.
-        if short.configs.len() < 3 {
+        if short.configs.len() < 3 || cancel.is_cancelled() {
             break;
         }
         let window = reach / f64::from(1u32 << (index % SCALES));
@@ -58,8 +60,14 @@ pub fn shorten_within(
 
 /// The path without configurations that stand twice in a row, and without those between which the straight motion
 /// does as well. Pairs of configurations are tried in the order of how many legs lie between them, most first, and
-/// from the start on; at most [`PAIRS_MAX`] of them.
-fn without_needless(cx: &Context, path: &Path, reach: f64, scratch: &mut Scratch) -> Path {
+/// from the start on; at most [`PAIRS_MAX`] of them, and none once `cancel` says so.
+fn without_needless(
+    cx: &Context,
+    path: &Path,
+    reach: f64,
+    cancel: &Cancel,
+    scratch: &mut Scratch,
+) -> Path {
     let mut all = Configs::new(cx.space.len());
     path.configs.iter().for_each(|q| all.push_if_new(q));
     let mut kept: Vec<usize> = (0..all.len()).collect();
@@ -70,9 +78,9 @@ fn without_needless(cx: &Context, path: &Path, reach: f64, scratch: &mut Scratch
     let mut tried = BTreeSet::new();
     let mut known = BTreeMap::new();
     let mut legs = kept.len().saturating_sub(1);
-    while legs > 1 {
+    while legs > 1 && !cancel.is_cancelled() {
         let mut first = 0;
-        while first + legs < kept.len() && tried.len() < PAIRS_MAX {
+        while first + legs < kept.len() && tried.len() < PAIRS_MAX && !cancel.is_cancelled() {
             let between = &kept[first..=first + legs];
             let is_new =
                 is_within(between[0], between[legs]) && tried.insert((between[0], between[legs]));
@@ -303,6 +311,16 @@ mod tests {
             assert!(few.configs.iter().all(|q| path.configs.iter().any(|known| known == q)));
             assert!(few.configs.len() < path.configs.len(), "{name}");
         }
+    }
+
+    #[test]
+    fn a_path_is_as_short_as_it_is_once_shortening_is_cancelled() {
+        let (setup, path) = solved("maze.toml", include_str!("../../problems/maze.toml"));
+        let (cx, scratch, cancel) = (&setup.cx, &mut Scratch::new(), Cancel::new());
+        let short = shorten_within(cx, &path, 50, 1.0, &cancel, scratch);
+        assert!(short.length < path.length);
+        cancel.cancel();
+        assert_eq!(shorten_within(cx, &path, u32::MAX, 1.0, &cancel, scratch), path);
     }
 
     /// A robot that can turn, in a room with nothing in it.

@@ -1,5 +1,6 @@
 //! The command line of what looks for several paths.
 
+use super::seconds;
 use crate::exit;
 use clap::{Args, ValueEnum};
 use roadmill::pathways::DomainAngle;
@@ -91,6 +92,9 @@ pub struct ReportArguments {
     /// the space's diameter]
     #[arg(long, value_name = "DISTANCE", value_parser = distance)]
     pub dissimilar: Option<f64>,
+    /// Look for paths no longer than this: seconds, or with a unit (90s, 10m, 2h); the page then has those found by then
+    #[arg(long, value_name = "TIME", value_parser = seconds)]
+    pub max_time: Option<f64>,
 }
 
 /// By what paths are ranked.

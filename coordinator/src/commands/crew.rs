@@ -5,6 +5,7 @@ use crate::exit::{Code, Failure};
 use crate::files::open_in_run;
 use crate::output::{self, Plain, note};
 use crate::progress::Reporter;
+use crate::run::SUMMARY_JSON;
 use crate::work::{Begun, Ended, Growth, Status, Torn, WORKERS_MAX, Watch, Workers};
 use rustix::fs::OFlags;
 
@@ -67,7 +68,7 @@ fn with_way_on(reason: String, ended: &Ended) -> String {
 /// Says that there is nothing to do, and ends as the build did.
 fn say_finished(ended: &Ended, json: bool) -> Result<Code, Failure> {
     let folder = ended.run().folder();
-    let summary = open_in_run(&folder.join("summary.json"), OFlags::RDONLY).ok();
+    let summary = open_in_run(&folder.join(SUMMARY_JSON), OFlags::RDONLY).ok();
     let summary =
         summary.and_then(|file| serde_json::from_reader::<_, serde_json::Value>(file).ok());
     match (json, summary, ended.rounds()) {

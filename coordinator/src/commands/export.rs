@@ -1,3 +1,4 @@
+use super::place::check_place;
 use crate::cli::ExportArguments;
 use crate::exit::{Code, Failure};
 use crate::files::write_whole;
@@ -7,6 +8,7 @@ use std::fs;
 
 /// Writes a roadmap in a format that other programs read.
 pub fn export(arguments: &ExportArguments) -> Result<Code, Failure> {
+    check_place("--out", &arguments.out)?;
     let Ledger { problem, roadmap, path, .. } = Ledger::read(&arguments.run)?;
     let format = FORMATS.iter().find(|format| format.name() == arguments.format);
     let format = format.expect("the command line knows the formats");

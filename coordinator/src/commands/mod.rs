@@ -2,6 +2,7 @@
 
 mod asker;
 mod batch;
+mod bounded;
 mod build;
 mod check;
 mod crew;
@@ -12,6 +13,7 @@ mod import;
 mod load;
 mod log;
 mod paths;
+mod place;
 mod protein;
 mod query;
 mod report;

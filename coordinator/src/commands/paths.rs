@@ -4,6 +4,7 @@ use crate::exit::{Code, Failure};
 use crate::files::{make_empty, write_whole};
 use crate::output::{line, note};
 use crate::work::Run;
+use roadmill::Cancel;
 use roadmill::export::{CannotExport, chimerax, dcd, path_csv, pdb, pymol, xtc};
 use roadmill::pathways::{FrameTable, Pair, Pathway, Pathways};
 use roadmill::query::PATH_REFINEMENT;
@@ -24,7 +25,7 @@ pub fn paths(arguments: &PathsArguments) -> Result<Code, Failure> {
         make_empty(folder)?;
     }
     let begun = Instant::now();
-    let found = asked.find(arguments.dissimilar);
+    let found = asked.find(arguments.dissimilar, &Cancel::new())?;
     let seconds = begun.elapsed().as_secs_f64();
     if found.dropped_edges > 0 {
         note(format_args!(

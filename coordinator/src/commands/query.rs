@@ -1,5 +1,6 @@
 use super::asker::{Asker, TimedAnswer};
 use super::batch;
+use super::place::check_place;
 use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
 use crate::files::write_whole;
@@ -11,6 +12,10 @@ use roadmill::query::{Answer, PATH_REFINEMENT};
 
 /// Answers one query from the roadmap of a run, or, with `--queries`, all queries of a file.
 pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
+    let out = arguments.out.as_ref().filter(|_| arguments.queries.is_none());
+    for (option, file) in [("--out", out), ("--animate", arguments.animate.as_ref())] {
+        file.map_or(Ok(()), |file| check_place(option, file))?;
+    }
     let run = Run::at(&arguments.run).read()?;
     match run.stopped() {
         None => note("the build has not ended; its complete rounds are searched"),

@@ -4,11 +4,11 @@ use super::query::ends;
 use crate::cli::{RankBy, SearchArguments};
 use crate::exit::Failure;
 use crate::work::Recorded;
-use roadmill::Ends;
 use roadmill::model::{Molecule, Scratch};
 use roadmill::pathways::{
     DISTANCE, Dissimilar, KBest, Pathways, Rank, SPACING, dissimilar, k_best,
 };
+use roadmill::{Cancel, Ends};
 
 /// What is asked for, with what the model says of it.
 pub(super) struct Asked<'a> {
@@ -67,15 +67,25 @@ impl<'a> Asked<'a> {
         if self.length == "Å" { DISTANCE } else { self.run.context().space().diameter() / 20.0 }
     }
 
-    /// The best paths, however alike; or, with a distance or `Some(None)` for the usual one, dissimilar ones.
-    pub fn find(&self, distance: Option<Option<f64>>) -> Pathways {
+    /// The best paths, however alike; or, with a distance or `Some(None)` for the usual one, dissimilar ones, of which those
+    /// that are found by then where `cancel` ends the search.
+    ///
+    /// # Errors
+    /// Exit code 2: a path would have too many frames.
+    pub fn find(
+        &self,
+        distance: Option<Option<f64>>,
+        cancel: &Cancel,
+    ) -> Result<Pathways, Failure> {
         let Asked { run, arguments, ref ends, rank, spacing, .. } = *self;
         let (cx, roadmap, scratch) = (run.context(), run.roadmap(), &mut Scratch::new());
         let attachment = run.problem().attachment();
         let count = arguments.count as usize;
+        let too_fine = |error| Failure::usage(format!("--spacing: {error}"));
         let Some(distance) = distance else {
             let asked = KBest { count, rank, spacing };
-            return k_best(cx, roadmap, ends, &attachment, &asked, scratch);
+            let found = k_best(cx, roadmap, ends, &attachment, &asked, scratch);
+            return found.map_err(too_fine);
         };
         let asked = Dissimilar {
             count,
@@ -85,6 +95,7 @@ impl<'a> Asked<'a> {
             tries: arguments.tries as usize,
             shortcuts: arguments.shorten_tries,
         };
-        dissimilar(cx, roadmap, ends, &attachment, &asked, scratch)
+        let found = dissimilar(cx, roadmap, ends, &attachment, &asked, cancel, scratch);
+        found.map_err(too_fine)
     }
 }

@@ -55,6 +55,19 @@ pub(super) fn write_problem(
     Ok(())
 }
 
+/// Removes a problem file that [`write_problem`] has written where nothing was, with the folder of its other files.
+pub(super) fn remove_problem(problem: &Problem, out: &Path) {
+    let Ok(place) = Destination::of(out, Companions::of(problem)) else { return };
+    let text = fs::read_to_string(out).unwrap_or_default();
+    let entries = fs::read_dir(folder_of(out)).into_iter().flatten().flatten();
+    let folders = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let is_its = |name: &String| place.companions_in(name).is_some() && names(&text, name);
+    let folders: Vec<String> = folders.filter(is_its).collect();
+    // What cannot be removed does no harm.
+    let _ = fs::remove_file(out);
+    place.remove_unused(&folders);
+}
+
 /// The files beside a problem file.
 #[derive(Clone, Copy)]
 struct Companions {

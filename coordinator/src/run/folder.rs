@@ -18,12 +18,24 @@ use std::path::{Path, PathBuf};
 
 /// What there may be in a run folder before its ledger is.
 const BEFORE_LEDGER: [&str; 3] = [super::lock::LOCK, super::ledger::BEGUN, super::ledger::DURABLE];
+/// The path of the problem's query, if one was found.
+pub const PATH_CSV: &str = "path.csv";
+/// The summary that the build printed.
+pub const SUMMARY_JSON: &str = "summary.json";
 /// What names are made of that stand beside a run: of a run being put together, and of one set aside where two
 /// cannot change names.
 const NEW: &str = "new";
 const REPLACED: &str = "replaced";
 /// Files that are open at a time while a run folder is removed, which has no folders in it.
 const OPEN_TO_REMOVE: usize = 1;
+
+/// Whether a folder is that of a run and a file of this name, be it there or not, one of its own, as `run/mod.rs` lists them.
+pub fn is_of_run(folder: &Path, name: &str) -> bool {
+    let rest = name.strip_prefix(LEDGER);
+    let is_ledger = rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+    let is_its = is_ledger || [super::lock::LOCK, PATH_CSV, SUMMARY_JSON].contains(&name);
+    is_its && folder.join(LEDGER).is_file()
+}
 
 /// A run folder made for a build.
 #[derive(Debug)]

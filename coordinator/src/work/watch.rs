@@ -6,7 +6,8 @@ use crate::exit::Failure;
 use crate::files::write_whole;
 use crate::memory::resident_bytes;
 use crate::run::{
-    CoordinatorCpu, LedgerWriter, Replay, RunFolder, Scan, Stopped, Summary, Times, Told,
+    CoordinatorCpu, LedgerWriter, PATH_CSV, Replay, RunFolder, SUMMARY_JSON, Scan, Stopped,
+    Summary, Times, Told,
 };
 use roadmill::evaluate::Verdict;
 use roadmill::export::path_csv;
@@ -182,7 +183,7 @@ impl Keeper<'_> {
         }
         let path = path_in(&self.verdicts);
         if let Some(path) = &path {
-            write_whole(&folder.file("path.csv"), path_csv(self.setup.context().space(), path))?;
+            write_whole(&folder.file(PATH_CSV), path_csv(self.setup.context().space(), path))?;
         }
         let coordinator_cpu_seconds = self.cpu.own_seconds();
         let coordinator_cpu = dispatch_seconds.map(|(messages, fold)| {
@@ -199,7 +200,7 @@ impl Keeper<'_> {
         };
         let summary = Summary::new(problem, folder.path(), tally, &self.verdicts, &stopped, times);
         let text = serde_json::to_string_pretty(&summary).map_err(Failure::system)?;
-        write_whole(&folder.file("summary.json"), text + "\n")?;
+        write_whole(&folder.file(SUMMARY_JSON), text + "\n")?;
         // Written last: a build that is killed before this has no end in its ledger and can go on to here again.
         self.ledger.stopped(&stopped)?;
         Ok(Ended {

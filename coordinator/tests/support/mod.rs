@@ -279,6 +279,14 @@ impl Running {
         Process::of(self.pid()).is_some_and(|process| process.state != 'Z')
     }
 
+    /// Whether it has something to do when this signal comes, rather than to end at once.
+    pub fn catches(&self, signal: Signal) -> bool {
+        let status = fs::read_to_string(format!("/proc/{}/status", self.pid())).unwrap_or_default();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        let caught = caught.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+        caught.is_some_and(|mask| mask >> (signal.as_raw() - 1) & 1 == 1)
+    }
+
     pub fn signal(&self, signal: Signal) {
         send(self.pid(), signal);
     }

@@ -1,8 +1,8 @@
 use super::*;
-use crate::Ends;
 use crate::build::{Build, Built};
 use crate::model::ModelKind;
 use crate::pathways::{Dissimilar, Rank, dissimilar};
+use crate::{Cancel, Ends};
 use std::path::Path;
 
 fn built(name: &str, text: &str) -> Built {
@@ -25,7 +25,9 @@ fn page(built: &Built, angles: &[DomainAngle], change: impl Fn(&mut Problem)) ->
     let asked =
         Dissimilar { count: 2, rank: Rank::Cost, distance: 0.2, spacing, tries: 3, shortcuts: 2 };
     let attachment = built.problem().attachment();
-    let pathways = dissimilar(cx, built.roadmap(), ends, &attachment, &asked, scratch);
+    let pathways =
+        dissimilar(cx, built.roadmap(), ends, &attachment, &asked, &Cancel::new(), scratch)
+            .expect("few frames");
     let mut problem = built.problem().clone();
     change(&mut problem);
     let rounds: Vec<RoundOutcome> = [(50, 7, f64::INFINITY), (100, 2, 12.5), (200, 1, 9.0)]

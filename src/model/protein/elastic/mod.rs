@@ -135,7 +135,9 @@ impl About<'_> {
     }
 
     /// The configuration a step away whose shape is `length` from here, about: the step is `first`, and then so much of `more`
-    /// as is needed, no torsion turning by more than [`TURN_MAX`]. Where that is bounded, it is at most once `more`.
+    /// as is needed, no torsion turning by more than [`TURN_MAX`]. Where that is bounded, it is at most once `more`. `first` is kept
+    /// whole, since a spring that is relaxed by half only still pulls: where it alone leads farther than `length`, hardly anything
+    /// of `more` is added, and the step is longer than is asked.
     fn scaled(
         &self,
         first: &[f64],

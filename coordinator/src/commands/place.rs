@@ -1,0 +1,25 @@
+//! Where a command may write its file.
+
+use crate::exit::Failure;
+use crate::files::folder_of;
+use crate::run::is_of_run;
+use std::path::Path;
+
+/// Refuses, before any work is done for it, a place at which no file can be written, or at which a run has one of its own.
+///
+/// # Errors
+/// Exit code 2: a folder is there, or it is a file that makes up a run.
+pub(super) fn check_place(option: &str, path: &Path) -> Result<(), Failure> {
+    let found = path.display();
+    if path.is_dir() {
+        let message = format!("{option}: {found} found, a folder; the name of a file expected");
+        return Err(Failure::usage(message));
+    }
+    let name = path.file_name().and_then(|name| name.to_str());
+    if name.is_some_and(|name| is_of_run(folder_of(path), name)) {
+        let message =
+            format!("{option}: {found} found, a file of a run; the name of another file expected");
+        return Err(Failure::usage(message));
+    }
+    Ok(())
+}
