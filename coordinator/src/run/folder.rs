@@ -18,6 +18,7 @@ use std::path::{Path, PathBuf};
 
 /// What there may be in a run folder before its ledger is.
 const BEFORE_LEDGER: [&str; 3] = [super::lock::LOCK, super::ledger::BEGUN, super::ledger::DURABLE];
+
 /// The path of the problem's query, if one was found.
 pub const PATH_CSV: &str = "path.csv";
 /// The summary that the build printed.
