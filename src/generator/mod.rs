@@ -22,10 +22,16 @@
 mod elastic_growth;
 mod elastic_walk;
 mod expansion_step;
+mod growth;
 mod interpolation;
+mod mrrg;
 mod parent;
 mod reuse;
+mod rrg;
+mod rrt;
+mod rrt_connect;
 mod sample;
+mod tree;
 
 methods! {
     /// The generators, as a problem file names them.
@@ -34,23 +40,34 @@ methods! {
         ExpansionStep(expansion_step::ExpansionStep),
         Reuse(reuse::Reuse),
         ElasticGrowth(elastic_growth::ElasticGrowth),
-        Interpolation(interpolation::Interpolation), // new ones at the end, since ledgers know methods by number
+        Interpolation(interpolation::Interpolation),
+        Rrt(rrt::Rrt),
+        Rrg(rrg::Rrg),
+        Mrrg(mrrg::Mrrg),
+        Tree(tree::Tree),
+        RrtConnect(rrt_connect::RrtConnect), // new ones at the end, since ledgers know methods by number
     }
 }
 
 pub use elastic_growth::{ElasticGrowth, GrowthAim};
 pub use expansion_step::ExpansionStep;
+pub use growth::NeighborCount;
 pub use interpolation::Interpolation;
+pub use mrrg::Mrrg;
 pub use parent::{NoRuns, Parent, ParentRoadmap, ParentRun, Runs};
 pub use reuse::Reuse;
+pub use rrg::Rrg;
+pub use rrt::Rrt;
+pub use rrt_connect::RrtConnect;
 pub use sample::Sample;
+pub use tree::Tree;
 
 use crate::context::Context;
 use crate::digest::Digest;
 use crate::methods::{Complaint, methods};
 use crate::model::Scratch;
 use crate::roadmap::{Increment, Roadmap};
-use crate::sampler::GaveUp;
+use crate::sampler::{GaveUp, SamplerKind};
 use crate::seed::Seed;
 
 /// The most attempts of a generator for one milestone, each of which draws a configuration or a motion.
@@ -128,6 +145,15 @@ impl GeneratorKind {
     pub fn as_sample(&self) -> Option<&Sample> {
         match self {
             GeneratorKind::Sample(sample) => Some(sample),
+            _ => None,
+        }
+    }
+
+    /// The sampler of a method that has one.
+    pub(crate) fn sampler(&self) -> Option<&SamplerKind> {
+        match self {
+            GeneratorKind::Sample(sample) => Some(&sample.sampler),
+            GeneratorKind::Tree(tree) => Some(&tree.sampler),
             _ => None,
         }
     }

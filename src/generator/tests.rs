@@ -57,11 +57,12 @@ fn make(problem: &Problem, ordinal: u64, frozen: &Roadmap) -> Increment {
     made.unwrap_or_else(|gave_up| panic!("{gave_up:?}"))
 }
 
-const GENERATORS: [&str; 4] = [
+const GENERATORS: [&str; 5] = [
     "{ sample = { sampler = { uniform = {} } } }",
     "{ expansion-step = { step = 0.2 } }",
     "{ expansion-step = { step = 0.2, bounces = 1, steps = 3, halvings = 0 } }",
     "{ reuse = { parent = { run = \"parent\" }, spread = 2.0 } }",
+    "{ tree = { step = 0.4 } }",
 ];
 
 /// Another scene than that of the roadmaps, where a method repairs what is invalid in them.

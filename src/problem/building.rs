@@ -47,10 +47,7 @@ pub(super) fn sets_of(source: &Source, file: &File) -> Result<Sets, ProblemError
             let message = format!("{} found; 1 to {SET_NODES_MAX} expected", spec.nodes);
             return fail(&["nodes"], message);
         }
-        let sampler = spec
-            .sampler
-            .as_ref()
-            .or_else(|| spec.generator.as_ref()?.as_sample().map(|s| &s.sampler));
+        let sampler = spec.sampler.as_ref().or_else(|| spec.generator.as_ref()?.sampler());
         if sampler.is_some_and(|sampler| !sampler.method().is_within(BRACKETS_MAX - 2)) {
             let key = if spec.sampler.is_some() { "sampler" } else { "generator" };
             return fail(&[key], too_deep());

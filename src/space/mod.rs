@@ -7,6 +7,7 @@
 //! `w x y z`.
 
 mod configs;
+mod displacement;
 mod quaternion;
 mod rigid;
 

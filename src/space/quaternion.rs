@@ -59,6 +59,26 @@ pub(super) fn turned(from: [f64; 4], by: [f64; 3]) -> [f64; 4] {
     canonical(product).unwrap_or(from)
 }
 
+/// The rotation vector by which `from` is to be [`turned`] to become `to`, by the shorter way: its direction the axis, its
+/// length the angle in radians, at most π. Both quaternions have unit length.
+pub(super) fn rotation_vector(from: [f64; 4], to: [f64; 4]) -> [f64; 3] {
+    // The product of the inverse of `from`, which is its conjugate, and `to`.
+    let ([a, b, c, d], [w, x, y, z]) = (from, to);
+    let cosine = a * w + b * x + c * y + d * z;
+    let axis = [
+        a * x - b * w - c * z + d * y,
+        a * y + b * z - c * w - d * x,
+        a * z - b * y + c * x - d * w,
+    ];
+    let sine = axis.iter().map(|value| value * value).sum::<f64>().sqrt();
+    if sine == 0.0 {
+        return [0.0; 3];
+    }
+    let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
+    let angle = 2.0 * math::atan2(sine, cosine.abs());
+    axis.map(|value| value * sign * (angle / sine))
+}
+
 /// Spherical linear interpolation along the shorter arc; turns `to` around only when the dot
 /// product is negative.
 pub fn slerp(from: [f64; 4], to: [f64; 4], t: f64) -> [f64; 4] {

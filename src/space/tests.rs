@@ -117,3 +117,77 @@ fn values_of_the_same_name_are_told_apart() {
     let found: Vec<&str> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
     assert_eq!(found, ["x", "y", "j", "x-2", "j-2", "j-3", "j-4", "y-2"]);
 }
+
+/// What the length and the angle of displacements are defined by, on samples that include every kind of factor.
+fn some_spaces() -> Vec<Space> {
+    let factor = |kind, at, weight| Factor { kind, at, weight };
+    let real = FactorKind::Real { min: -2.0, max: 3.0 };
+    let factors = vec![
+        factor(real, 0, 1.0),
+        factor(FactorKind::Angle, 1, 0.3),
+        factor(FactorKind::Rotation, 2, 2.0),
+        factor(FactorKind::Rotation, 6, 0.5),
+        factor(real, 10, 0.0),
+    ];
+    let dof = |at| Dof { name: format!("v{at}"), unit: "1" };
+    let linkage = Space::new(factors, (0..11).map(dof).collect(), 1);
+    spaces().into_iter().chain([linkage]).collect()
+}
+
+proptest! {
+    #[test]
+    fn a_displacement_leads_where_it_points(ordinal in 0..u64::MAX - 1) {
+        for space in some_spaces() {
+            let (a, b) = (draw(&space, ordinal), draw(&space, ordinal + 1));
+            let displacement = space.displacement(&a, &b);
+            let distance = space.distance(&a, &b);
+            prop_assert!((displacement.length() - distance).abs() < 1e-6);
+            let mut there = vec![0.0; space.len()];
+            // Through the same configurations as the shortest motion.
+            for t in [0.3, 0.7, 1.0] {
+                let mut between = vec![0.0; space.len()];
+                space.interpolate(&a, &b, t, &mut between);
+                space.along(&a, &displacement, t * displacement.length(), &mut there);
+                prop_assert!(space.distance(&there, &between) < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn angles_are_those_of_the_weighted_tangent_vectors(ordinal in 0..u64::MAX - 2) {
+        for space in some_spaces() {
+            let [a, b, c] = [0, 1, 2].map(|i| draw(&space, ordinal + i));
+            let [u, v] = [&b, &c].map(|to| space.displacement(&a, to));
+            let angle = u.angle(&v).expect("they have lengths");
+            prop_assert_eq!(Some(angle.to_bits()), v.angle(&u).map(f64::to_bits));
+            // By the law of cosines, from the lengths of the two and of their difference.
+            let third = u.factors.iter().flatten().zip(v.factors.iter().flatten());
+            let third = third.map(|(x, y)| (x - y) * (x - y)).sum::<f64>();
+            let cosine = (u.size * u.size + v.size * v.size - third) / (2.0 * u.size * v.size);
+            prop_assert!((math::cos(angle) - cosine).abs() < 1e-9);
+            // A vector points where it points, and its opposite half a turn away.
+            let back = Direction {
+                factors: u.factors.iter().map(|part| part.map(|value| -3.0 * value)).collect(),
+                size: 3.0 * u.size,
+            };
+            prop_assert_eq!(u.angle(&u), Some(0.0));
+            prop_assert!((u.angle(&back).expect("a direction") - PI).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn what_turns_the_short_way_points_the_short_way() {
+    let space = rigid_space(BaseJoint::Rigid2d, [0.0; 3], [9.0; 3], 2.0);
+    let from = [1.0, 1.0, 3.0];
+    let angle = |to: [f64; 3], other: [f64; 3]| {
+        let toward = |to: &[f64; 3]| space.displacement(&from, to);
+        toward(&to).angle(&toward(&other)).expect("both have a length").to_degrees()
+    };
+    // On past π and back to less are opposite turns.
+    assert!((angle([1.0, 1.0, -3.0], [1.0, 1.0, 2.9]) - 180.0).abs() < 1e-9);
+    assert!(angle([1.0, 1.0, -3.0], [1.0, 1.0, 3.1]) < 1e-9);
+    // A turn by half a radian weighs as much as a length of 1.
+    assert!((angle([2.0, 1.0, 3.0], [2.0, 1.0, 2.5]) - 45.0).abs() < 1e-9);
+    assert_eq!(space.displacement(&from, &from).angle(&space.displacement(&from, &[2.0; 3])), None);
+}

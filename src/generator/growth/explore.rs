@@ -1,0 +1,88 @@
+use super::directions::Adjacency;
+use super::set::GrowingSet;
+use super::settings::NeighborCount;
+use super::tree::{GrowingTree, Near};
+use crate::sampler::GaveUp;
+
+/// How a tree or graph grows toward random configurations (S. K. Nath 2013, Algorithm 2; see
+/// [`Mrrg`](crate::generator::Mrrg)). RRT and RRG are its cases of one direction (Lemma 1).
+pub(in crate::generator) struct Exploration {
+    /// How many nearest nodes each new one is tried with; `None` in a tree.
+    pub neighbors: Option<NeighborCount>,
+    /// In how many directions a node is extended.
+    pub directions: u32,
+    /// How many configurations are drawn for each direction after the first.
+    pub trials: u32,
+}
+
+/// The configuration toward which some of the extensions go.
+#[derive(Clone, Copy)]
+pub(in crate::generator) struct Aim<'a> {
+    /// It.
+    pub goal: &'a [f64],
+    /// The probability that an extension goes toward it, as long as no node lies there.
+    pub bias: f64,
+}
+
+/// Grows a tree until the set is full.
+///
+/// # Errors
+/// [`GaveUp`] where too many extensions since the last milestone came to nothing.
+pub(in crate::generator) fn explore(
+    set: &mut GrowingSet,
+    tree: &mut GrowingTree,
+    aim: Option<Aim>,
+    exploration: &Exploration,
+) -> Result<(), GaveUp> {
+    let mut aim = aim.filter(|aim| aim.bias > 0.0 && !tree.has(set, aim.goal));
+    let is_dispersed = exploration.directions > 1 && !set.is_full();
+    let mut adjacency = is_dispersed.then(|| Adjacency::of(set));
+    while !set.is_full() {
+        set.attempt()?;
+        let toward_goal = aim.filter(|aim| set.decide(aim.bias));
+        let mut toward = toward_goal.map_or_else(|| set.draw(), |aim| aim.goal.to_vec());
+        let Some(mut near) = tree.nearest(set, &toward) else {
+            return Err(GaveUp { attempts: 0 });
+        };
+        for direction in 1..=exploration.directions {
+            match set.extend(near, &toward).milestone() {
+                Some(new) => {
+                    exploration.take_in(set, tree, near.number, new);
+                    aim = aim.filter(|aim| set.config(new) != aim.goal);
+                    if let Some(adjacency) = &mut adjacency {
+                        adjacency.grown(set, near.number, new);
+                    }
+                }
+                // A node that cannot be extended in the first direction is not tried in others.
+                None if direction == 1 => break,
+                None => {}
+            }
+            if set.is_full() {
+                break;
+            }
+            if let Some(adjacency) = &adjacency {
+                toward = adjacency.dispersed(set, near.number, exploration.trials);
+                near.distance = set.cx.space.distance(set.config(near.number), &toward);
+            }
+        }
+    }
+    Ok(())
+}
+
+impl Exploration {
+    /// Takes the milestone `new`, which was grown from the place `from`, into the tree, and tries the motions to its
+    /// nearest neighbours in the graph as it was before.
+    fn take_in(&self, set: &mut GrowingSet, tree: &mut GrowingTree, from: u32, new: u32) {
+        if let Some(neighbors) = self.neighbors {
+            let count = neighbors.of(tree.nodes(set));
+            let q = set.config(new).to_vec();
+            for Near { number, .. } in tree.nearest_nodes(set, &q, count) {
+                // Where it was grown from it has its edge.
+                if number != from {
+                    set.join(number, new);
+                }
+            }
+        }
+        tree.add(new);
+    }
+}

@@ -1,0 +1,22 @@
+//! What the generators have in common that grow trees and graphs by steps toward configurations.
+//!
+//! [`set`] is the node set that grows, [`tree`] what it grows from, [`explore`] the growth toward random configurations,
+//! [`directions`] which directions are dispersed, [`settings`] what several of the methods can be told. The methods
+//! themselves stand in files of their own: `rrt.rs`, `rrg.rs`, `mrrg.rs`, `tree.rs` and `rrt_connect.rs`.
+
+mod directions;
+mod explore;
+mod set;
+mod settings;
+mod tree;
+
+pub(super) use explore::{Aim, Exploration, explore};
+pub(super) use set::{Extension, GrowingSet};
+pub use settings::NeighborCount;
+pub(super) use settings::{
+    Complaints, calibrated, default_attempts, default_goal_bias, needs_query, step_of,
+};
+pub(super) use tree::GrowingTree;
+
+#[cfg(test)]
+mod tests;

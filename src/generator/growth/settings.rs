@@ -1,0 +1,122 @@
+use crate::context::Context;
+use crate::math;
+use crate::methods::Complaint;
+use crate::scene::LENGTH_MAX;
+use crate::space::Space;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::E;
+
+/// The step of a problem that names none, as a share of the largest distance in the space: that of OMPL's planners
+/// (I. A. Şucan, M. Moll, L. E. Kavraki, *The Open Motion Planning Library*, 2012; `range` in its documentation).
+const STEP_SHARE: f64 = 0.2;
+
+pub(in crate::generator) fn default_goal_bias() -> f64 {
+    0.05
+}
+
+pub(in crate::generator) fn default_attempts() -> u64 {
+    10_000
+}
+
+/// The step of a method that names one or none, in a space.
+pub(in crate::generator) fn step_of(step: Option<f64>, space: &Space) -> f64 {
+    step.unwrap_or_else(|| STEP_SHARE * space.diameter())
+}
+
+/// The step as it becomes part of a problem: always a number, unless all configurations of the space are one.
+pub(in crate::generator) fn calibrated(step: Option<f64>, space: &Space) -> Option<f64> {
+    step.or_else(|| Some(step_of(None, space)).filter(|step| *step > 0.0))
+}
+
+/// Refuses a problem without a query, where a tree is to begin at its start.
+pub(in crate::generator) fn needs_query(cx: &Context) -> Result<(), String> {
+    match cx.query {
+        Some(_) => Ok(()),
+        None => Err("a tree that begins at the start of a query found, but no [query]".to_owned()),
+    }
+}
+
+/// How many neighbours of a new node are tried: in a problem file `"auto"` or a number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
+#[serde(from = "NeighborWord", into = "NeighborWord")]
+pub enum NeighborCount {
+    /// ⌊2e ln n⌋ in a graph of n nodes, and at least one (S. Karaman, E. Frazzoli, *Sampling-based algorithms for optimal
+    /// motion planning*, 2011, §3.3.3: *"k_RRG = 2e is a valid choice for all problem instances"*).
+    #[default]
+    Auto,
+    /// As many as said.
+    Fixed(u32),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected \"auto\" or a number")]
+enum NeighborWord {
+    Number(u32),
+    Word(AutoWord),
+}
+
+#[derive(Serialize, Deserialize)]
+enum AutoWord {
+    #[serde(rename = "auto")]
+    Auto,
+}
+
+impl From<NeighborWord> for NeighborCount {
+    fn from(word: NeighborWord) -> NeighborCount {
+        match word {
+            NeighborWord::Number(count) => NeighborCount::Fixed(count),
+            NeighborWord::Word(AutoWord::Auto) => NeighborCount::Auto,
+        }
+    }
+}
+
+impl From<NeighborCount> for NeighborWord {
+    fn from(count: NeighborCount) -> NeighborWord {
+        match count {
+            NeighborCount::Fixed(count) => NeighborWord::Number(count),
+            NeighborCount::Auto => NeighborWord::Word(AutoWord::Auto),
+        }
+    }
+}
+
+impl NeighborCount {
+    /// How many, in a graph of so many nodes.
+    pub fn of(self, nodes: usize) -> usize {
+        match self {
+            NeighborCount::Auto => ((2.0 * E * math::ln(nodes as f64)) as usize).max(1),
+            NeighborCount::Fixed(count) => count as usize,
+        }
+    }
+}
+
+/// What is wrong with the settings that several methods have.
+pub(in crate::generator) struct Complaints;
+
+impl Complaints {
+    pub fn of_step(step: Option<f64>) -> Option<Complaint> {
+        step.and_then(|step| Complaint::of_length("step", step, LENGTH_MAX))
+    }
+
+    pub fn of_goal_bias(goal_bias: f64) -> Option<Complaint> {
+        let is_sound = (0.0..1.0).contains(&goal_bias);
+        (!is_sound).then(|| Complaint::new("goal_bias", goal_bias, "at least 0, less than 1"))
+    }
+
+    /// Of a setting that says how many, at least one.
+    pub fn of_count(key: &'static str, count: u64) -> Option<Complaint> {
+        (count == 0).then(|| Complaint::new(key, "0", "at least 1"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In the thesis' graphs of up to 200 nodes *"k ranges between 1 and 28"* (Nath 2013, §5.2.3.1).
+    #[test]
+    fn as_many_neighbours_as_in_the_thesis() {
+        assert_eq!([1, 2, 3, 200].map(|nodes| NeighborCount::Auto.of(nodes)), [1, 3, 5, 28]);
+        assert_eq!(NeighborCount::Fixed(7).of(200), 7);
+    }
+}

@@ -1,0 +1,99 @@
+use super::growth::{
+    Aim, Complaints, Exploration, GrowingSet, GrowingTree, NeighborCount, calibrated,
+    default_attempts, default_goal_bias, explore, needs_query, step_of,
+};
+use super::{Generator, Reads};
+use crate::context::Context;
+use crate::methods::Complaint;
+use crate::model::Scratch;
+use crate::roadmap::{Increment, Roadmap};
+use crate::sampler::GaveUp;
+use crate::seed::Seed;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+
+/// A rapidly-exploring random graph from the query's start (S. Karaman, E. Frazzoli, *Sampling-based algorithms for optimal
+/// motion planning*, Int. J. Robotics Research 30, 2011, Algorithm 5, in the k-nearest form of §3.3.3).
+///
+/// It grows as [`Rrt`](super::Rrt) does, and every new node is tried with its nearest neighbours in the graph, too: the
+/// `neighbors` nodes of the graph, as it was before, that are nearest to it, nearest first, ties by id. All whose motions are valid
+/// become edges. The number can be `auto`: ⌊2e ln n⌋ in a graph of n nodes, which is enough for the shortest
+/// paths in the graph to come near to the shortest there are.
+///
+/// The graph is the connected component of the roadmap at the start of the round that contains the start, and what the set has
+/// added to it. Nodes of other components are left to the connection among sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields)]
+pub struct Rrg {
+    /// The most by which an extension moves, in the space's metric. If none is given, a fifth of the largest distance in the
+    /// space, found when the problem is read.
+    #[serde(default)]
+    pub step: Option<f64>,
+    /// The probability that an extension goes toward the query's goal, as long as no node lies there.
+    #[serde(default = "default_goal_bias")]
+    pub goal_bias: f64,
+    /// How many nearest nodes of each new one are tried.
+    #[serde(default)]
+    pub neighbors: NeighborCount,
+    /// The most extensions tried for one milestone.
+    #[serde(default = "default_attempts")]
+    pub attempts: u64,
+}
+
+impl Default for Rrg {
+    fn default() -> Rrg {
+        Rrg {
+            step: None,
+            goal_bias: default_goal_bias(),
+            neighbors: NeighborCount::default(),
+            attempts: default_attempts(),
+        }
+    }
+}
+
+impl Generator for Rrg {
+    fn reads(&self) -> Reads {
+        Reads::Roadmap
+    }
+
+    fn generate(
+        &self,
+        cx: &Context,
+        seed: &Seed,
+        count: usize,
+        frozen: Option<&Roadmap>,
+        scratch: &mut Scratch,
+    ) -> Result<Increment, GaveUp> {
+        // What is refused in a problem file can still come in bytes.
+        let Some(query) = cx.query.as_ref().filter(|_| self.complaint().is_none()) else {
+            return Err(GaveUp { attempts: 0 });
+        };
+        let limits = (step_of(self.step, &cx.space), self.attempts);
+        let mut set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
+        let [mut tree] = GrowingTree::of(&mut set, seed, [&query.start[..]]);
+        let aim = Aim { goal: &query.goal, bias: self.goal_bias };
+        let graph = Exploration { neighbors: Some(self.neighbors), directions: 1, trials: 1 };
+        explore(&mut set, &mut tree, Some(aim), &graph)?;
+        Ok(set.made)
+    }
+
+    fn reads_query(&self) -> bool {
+        true
+    }
+
+    fn calibrate(&mut self, cx: &Context, _seed: &Seed) {
+        self.step = calibrated(self.step, &cx.space);
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        let is_none = self.neighbors == NeighborCount::Fixed(0);
+        Complaints::of_step(self.step)
+            .or_else(|| Complaints::of_goal_bias(self.goal_bias))
+            .or_else(|| is_none.then(|| Complaint::new("neighbors", "0", "\"auto\" or at least 1")))
+            .or_else(|| Complaints::of_count("attempts", self.attempts))
+    }
+
+    fn suits(&self, cx: &Context) -> Result<(), String> {
+        needs_query(cx)
+    }
+}
