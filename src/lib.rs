@@ -41,6 +41,7 @@ pub mod connect;
 pub mod evaluate;
 pub mod export;
 pub mod finder;
+pub mod folding;
 pub mod generator;
 pub mod img;
 #[doc(hidden)]

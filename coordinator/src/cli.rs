@@ -1,10 +1,16 @@
 //! The command line.
 
+mod fold;
+mod job;
+mod orders;
 mod paths;
 mod transition;
 
+pub use fold::FoldArguments;
+pub use job::JobArguments;
+pub use orders::{FormationArguments, OrdersArguments};
 pub use paths::{FrameFormat, PathsArguments, RankBy, ReportArguments, SearchArguments};
-pub use transition::{EndsArguments, TransitionArguments};
+pub use transition::{ChainArguments, EndsArguments, TransitionArguments};
 
 use crate::exit;
 use clap::builder::{PossibleValue, PossibleValuesParser};
@@ -49,6 +55,9 @@ pub enum Command {
     /// Find several ways through a roadmap, ranked and compared, and write them for other programs
     #[command(allow_negative_numbers = true)]
     Paths(PathsArguments),
+    /// Say in which order the parts of a protein's native structure form, over all pathways of a run
+    #[command(after_help = exit::HELP)]
+    Orders(OrdersArguments),
     /// Write a page about a run: its map, several paths in numbers and pictures, structures that move
     #[command(allow_negative_numbers = true)]
     Report(ReportArguments),
@@ -61,6 +70,8 @@ pub enum Command {
     /// Find how a protein gets from one structure to another: makes the problem and grows its roadmap
     #[command(allow_negative_numbers = true)]
     Transition(TransitionArguments),
+    /// Find in which order the parts of a protein's native structure form: makes the problem and grows its roadmap
+    Fold(FoldArguments),
     /// Look at structures of proteins
     #[command(subcommand)]
     Protein(ProteinCommand),

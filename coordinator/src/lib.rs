@@ -61,11 +61,13 @@ fn run(command: cli::Command) -> Result<Code, Failure> {
         cli::Command::Log(arguments) => commands::log(&arguments),
         cli::Command::Query(arguments) => commands::query(&arguments),
         cli::Command::Paths(arguments) => commands::paths(&arguments),
+        cli::Command::Orders(arguments) => commands::orders(&arguments),
         cli::Command::Report(arguments) => commands::report(&arguments),
         cli::Command::Check(arguments) => commands::check(&arguments),
         cli::Command::Import(arguments) => commands::import(&arguments),
         cli::Command::Export(arguments) => commands::export(&arguments),
         cli::Command::Transition(arguments) => commands::transition(&arguments),
+        cli::Command::Fold(arguments) => commands::fold(&arguments),
         cli::Command::Protein(command) => commands::protein(&command),
         cli::Command::Worker(arguments) => commands::worker(&arguments),
     }

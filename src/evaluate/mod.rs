@@ -26,6 +26,7 @@ mod disjoint_paths;
 mod expansion;
 mod flow;
 mod flow_ratio;
+mod formation_order;
 mod information_gain;
 mod lowest_barrier;
 mod max_flow;
@@ -51,6 +52,7 @@ methods! {
         FlowRatio(flow_ratio::FlowRatio),
         BarrierTrend(barrier_trend::BarrierTrend),
         DisjointPaths(disjoint_paths::DisjointPaths),
+        FormationOrder(formation_order::FormationOrder),
     }
 }
 
@@ -62,6 +64,7 @@ pub use coverage::Coverage;
 pub use disjoint_paths::DisjointPaths;
 pub use expansion::Expansion;
 pub use flow_ratio::FlowRatio;
+pub use formation_order::FormationOrder;
 pub use information_gain::InformationGain;
 pub use lowest_barrier::LowestBarrier;
 pub use max_flow::MaxFlow;

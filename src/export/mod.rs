@@ -57,7 +57,7 @@ pub use parasol::{parasol_map, parasol_path};
 pub use path_csv::path_csv;
 pub use pdb::pdb;
 pub use pymol::pymol;
-pub use report::{Report, RoundOutcome, RoundValue, report};
+pub use report::{Folding, Report, RoundOutcome, RoundValue, report};
 pub use svg::svg;
 pub use xtc::xtc;
 

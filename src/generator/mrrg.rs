@@ -1,6 +1,6 @@
 use super::growth::{
     Aim, Complaints, Exploration, GrowingSet, GrowingTree, NeighborCount, calibrated,
-    default_attempts, default_goal_bias, explore, needs_query, step_of,
+    default_attempts, default_goal_bias, explore, needs_root, root, step_of,
 };
 use super::{Generator, Reads};
 use crate::context::Context;
@@ -12,7 +12,8 @@ use crate::seed::Seed;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
-/// A multi-directional rapidly-exploring random graph from the query's start (S. K. Nath, *Multi-directional rapidly
+/// A multi-directional rapidly-exploring random graph from the query's start, or without a query from the model's native
+/// configuration (S. K. Nath, *Multi-directional rapidly
 /// exploring random graph (mRRG) for motion planning*, thesis, Texas A&M University, 2013, §4.1, Algorithms 2 to 4).
 ///
 /// It grows as [`Rrg`](super::Rrg) does, and wherever a node q_near could be extended toward the random configuration, it is
@@ -100,17 +101,18 @@ impl Generator for Mrrg {
         scratch: &mut Scratch,
     ) -> Result<Increment, GaveUp> {
         // What is refused in a problem file can still come in bytes.
-        let Some(query) = cx.query.as_ref().filter(|_| self.complaint().is_none()) else {
+        let Some(root) = root(cx).filter(|_| self.complaint().is_none()) else {
             return Err(GaveUp { attempts: 0 });
         };
         let limits = (step_of(self.step, &cx.space), self.attempts);
         let mut set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
-        let [mut tree] = GrowingTree::of(&mut set, seed, [&query.start[..]]);
-        let aim = Aim { goal: &query.goal, bias: self.goal_bias };
+        let [mut tree] = GrowingTree::of(&mut set, seed, [root]);
+        let query = cx.query.as_ref();
+        let aim = query.map(|query| Aim { goal: &query.goal[..], bias: self.goal_bias });
         let is_tree = self.neighbors == NeighborCount::Fixed(0);
         let Mrrg { directions, trials, .. } = *self;
         let neighbors = (!is_tree).then_some(self.neighbors);
-        explore(&mut set, &mut tree, Some(aim), &Exploration { neighbors, directions, trials })?;
+        explore(&mut set, &mut tree, aim, &Exploration { neighbors, directions, trials })?;
         Ok(set.made)
     }
 
@@ -135,6 +137,6 @@ impl Generator for Mrrg {
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {
-        needs_query(cx)
+        needs_root(cx)
     }
 }

@@ -1,6 +1,6 @@
 use super::growth::{
     Aim, Complaints, Exploration, GrowingSet, GrowingTree, NeighborCount, calibrated,
-    default_attempts, default_goal_bias, explore, needs_query, step_of,
+    default_attempts, default_goal_bias, explore, needs_root, root, step_of,
 };
 use super::{Generator, Reads};
 use crate::context::Context;
@@ -12,7 +12,7 @@ use crate::seed::Seed;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
-/// A rapidly-exploring random graph from the query's start (S. Karaman, E. Frazzoli, *Sampling-based algorithms for optimal
+/// A rapidly-exploring random graph from the query's start, or without a query from the model's native configuration (S. Karaman, E. Frazzoli, *Sampling-based algorithms for optimal
 /// motion planning*, Int. J. Robotics Research 30, 2011, Algorithm 5, in the k-nearest form of §3.3.3).
 ///
 /// It grows as [`Rrt`](super::Rrt) does, and every new node is tried with its nearest neighbours in the graph, too: the
@@ -65,15 +65,16 @@ impl Generator for Rrg {
         scratch: &mut Scratch,
     ) -> Result<Increment, GaveUp> {
         // What is refused in a problem file can still come in bytes.
-        let Some(query) = cx.query.as_ref().filter(|_| self.complaint().is_none()) else {
+        let Some(root) = root(cx).filter(|_| self.complaint().is_none()) else {
             return Err(GaveUp { attempts: 0 });
         };
         let limits = (step_of(self.step, &cx.space), self.attempts);
         let mut set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
-        let [mut tree] = GrowingTree::of(&mut set, seed, [&query.start[..]]);
-        let aim = Aim { goal: &query.goal, bias: self.goal_bias };
+        let [mut tree] = GrowingTree::of(&mut set, seed, [root]);
+        let query = cx.query.as_ref();
+        let aim = query.map(|query| Aim { goal: &query.goal[..], bias: self.goal_bias });
         let graph = Exploration { neighbors: Some(self.neighbors), directions: 1, trials: 1 };
-        explore(&mut set, &mut tree, Some(aim), &graph)?;
+        explore(&mut set, &mut tree, aim, &graph)?;
         Ok(set.made)
     }
 
@@ -94,6 +95,6 @@ impl Generator for Rrg {
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {
-        needs_query(cx)
+        needs_root(cx)
     }
 }

@@ -1,6 +1,6 @@
 use super::growth::{
     Aim, Complaints, Exploration, GrowingSet, GrowingTree, calibrated, default_attempts,
-    default_goal_bias, explore, needs_query, step_of,
+    default_goal_bias, explore, needs_root, root, step_of,
 };
 use super::{Generator, Reads};
 use crate::context::Context;
@@ -12,7 +12,7 @@ use crate::seed::Seed;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
-/// A rapidly-exploring random tree from the query's start (S. M. LaValle, J. J. Kuffner, *Rapidly-exploring random trees:
+/// A rapidly-exploring random tree from the query's start, or without a query from the model's native configuration (S. M. LaValle, J. J. Kuffner, *Rapidly-exploring random trees:
 /// progress and prospects*, WAFR 2000; S. K. Nath, *Multi-directional rapidly exploring random
 /// graph (mRRG) for motion planning*, thesis, Texas A&M University, 2013, Algorithm 1).
 ///
@@ -65,14 +65,15 @@ impl Generator for Rrt {
         scratch: &mut Scratch,
     ) -> Result<Increment, GaveUp> {
         // What is refused in a problem file can still come in bytes.
-        let Some(query) = cx.query.as_ref().filter(|_| self.complaint().is_none()) else {
+        let Some(root) = root(cx).filter(|_| self.complaint().is_none()) else {
             return Err(GaveUp { attempts: 0 });
         };
         let limits = (step_of(self.step, &cx.space), self.attempts);
         let mut set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
-        let [mut tree] = GrowingTree::of(&mut set, seed, [&query.start[..]]);
-        let aim = Aim { goal: &query.goal, bias: self.goal_bias };
-        explore(&mut set, &mut tree, Some(aim), &TREE)?;
+        let [mut tree] = GrowingTree::of(&mut set, seed, [root]);
+        let query = cx.query.as_ref();
+        let aim = query.map(|query| Aim { goal: &query.goal[..], bias: self.goal_bias });
+        explore(&mut set, &mut tree, aim, &TREE)?;
         Ok(set.made)
     }
 
@@ -91,6 +92,6 @@ impl Generator for Rrt {
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {
-        needs_query(cx)
+        needs_root(cx)
     }
 }

@@ -47,6 +47,7 @@ pub(crate) use description::{Resolve, import};
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
 use crate::structure::Point;
+use crate::structure::measure::Element;
 use bincode::{Decode, Encode};
 use std::any::Any;
 
@@ -226,6 +227,11 @@ pub trait Model: Any + Send + Sync {
     /// not valid.
     fn native(&self) -> Option<&[f64]> {
         None
+    }
+
+    /// The helices and strands of the native configuration, of a model that has them.
+    fn elements(&self) -> &[Element] {
+        &[]
     }
 
     /// What makes a configuration invalid, for people to read: "the robot collides or leaves the bounds".

@@ -89,7 +89,7 @@ pub struct Pair {
 
 impl Pathway {
     /// Measures a path and cuts it into frames. `None` where one of its motions does not pass the finer check.
-    fn of(
+    pub(crate) fn of(
         cx: &Context,
         path: Path,
         spacing: f64,
@@ -102,7 +102,7 @@ impl Pathway {
 }
 
 /// How far each two pathways are apart.
-fn pairs(cx: &Context, pathways: &[Pathway]) -> Vec<Pair> {
+pub(crate) fn pairs(cx: &Context, pathways: &[Pathway]) -> Vec<Pair> {
     let mut pairs = Vec::new();
     for (second, b) in pathways.iter().enumerate() {
         for (first, a) in pathways[..second].iter().enumerate() {

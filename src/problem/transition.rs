@@ -153,7 +153,7 @@ pub fn about_native(
 }
 
 /// An error where an end of a problem is not valid.
-fn expect_valid(protein: &Protein, end: &str, q: &[f64]) -> Result<(), ProblemError> {
+pub(super) fn expect_valid(protein: &Protein, end: &str, q: &[f64]) -> Result<(), ProblemError> {
     protein.broken_rule(q).map_or(Ok(()), |message| {
         Err(ProblemError::pathless(format!(
             "the {end} is not valid: {message}; `rules` and `highest` that it keeps expected"
@@ -208,7 +208,7 @@ fn counterparts(protein: &Protein, target: &[Residue]) -> Result<Vec<Residue>, P
     Ok(matches.iter().map(|[_, there]| target[*there as usize].clone()).collect())
 }
 
-fn protein_of(builder: &ProblemBuilder) -> Result<Protein, ProblemError> {
+pub(super) fn protein_of(builder: &ProblemBuilder) -> Result<Protein, ProblemError> {
     let problem = builder.build()?;
     match problem.model {
         ModelKind::Protein(protein) => Ok(protein),

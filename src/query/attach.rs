@@ -38,7 +38,7 @@ pub(crate) fn attach_for_good(
 }
 
 /// The nodes that were among the nearest to `q` at the end of one of the first `rounds` of the roadmap.
-pub(super) fn once_nearest(
+pub(crate) fn once_nearest(
     cx: &Context,
     roadmap: &Roadmap,
     q: &[f64],

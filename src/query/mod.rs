@@ -20,8 +20,7 @@ mod path;
 mod shorten;
 mod ways;
 
-use attach::once_nearest;
-pub(crate) use attach::{attach, attach_for_good};
+pub(crate) use attach::{attach, attach_for_good, once_nearest};
 pub use path::Path;
 pub use shorten::{shorten, shorten_within};
 pub(crate) use ways::Ways;

@@ -18,7 +18,7 @@ impl Path {
     /// The path along a route: each edge's own motion, turned around where it is walked from its
     /// higher end. Where one configuration follows itself, since an end of the query is a node, say, or a motion turns
     /// where it begins, it stands once.
-    pub(super) fn along<'a>(
+    pub(crate) fn along<'a>(
         cx: &Context,
         route: &Route,
         edges: &[Edge],

@@ -213,6 +213,12 @@ impl Roadmap {
         self.tally.sets()
     }
 
+    /// How far the roadmap goes now.
+    pub fn extent(&self) -> Extent {
+        let (nodes, edges) = (self.configs.len(), self.edges.len());
+        Extent { sets: self.sets(), nodes, edges }
+    }
+
     /// How far the roadmap went at the end of each round.
     pub fn rounds(&self) -> &[Extent] {
         &self.rounds

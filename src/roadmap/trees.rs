@@ -110,6 +110,13 @@ impl Tree {
         self.labels[node.index()].map(|label| label.value)
     }
 
+    /// The next node on the route between `node` and the root, seen from `node`, and the index of the edge between the two; `None` at
+    /// the root, and where there is no route.
+    pub fn next(&self, node: NodeId) -> Option<(NodeId, u32)> {
+        let label = self.labels[node.index()].filter(|_| node != self.root)?;
+        Some((label.next, label.edge))
+    }
+
     /// The route between `node`, which the root can reach, and the root, in the direction in which it is walked.
     pub fn route(&self, node: NodeId) -> Option<Route> {
         let (mut nodes, mut edges, mut at) = (vec![node], Vec::new(), node);

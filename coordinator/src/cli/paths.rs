@@ -5,7 +5,7 @@ use crate::exit;
 use clap::{Args, ValueEnum};
 use roadmill::pathways::DomainAngle;
 use roadmill::structure::parse_range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Which paths are looked for.
 #[derive(Debug, Args)]
@@ -95,6 +95,19 @@ pub struct ReportArguments {
     /// Look for paths no longer than this: seconds, or with a unit (90s, 10m, 2h); the page then has those found by then
     #[arg(long, value_name = "TIME", value_parser = seconds)]
     pub max_time: Option<f64>,
+}
+
+impl ReportArguments {
+    /// The page about a run with what is looked for by itself, for at most so many seconds.
+    pub fn of(
+        run: &Path,
+        out: &Path,
+        search: SearchArguments,
+        max_time: Option<f64>,
+    ) -> ReportArguments {
+        let (run, out) = (run.to_owned(), out.to_owned());
+        ReportArguments { run, out, search, dissimilar: None, max_time }
+    }
 }
 
 /// By what paths are ranked.

@@ -1,31 +1,38 @@
 //! Arguments about the two ends of a protein's transition.
 
 use super::paths::angle;
-use super::{Gaps, GrowthArguments, exit, residues};
+use super::{Gaps, JobArguments, exit, residues};
 use clap::Args;
 use roadmill::pathways::DomainAngle;
 use roadmill::problem::HOLD;
 use roadmill::structure::ResidueNumber;
 use std::path::PathBuf;
 
-/// What is taken of the structures at both ends, and what is done to them.
+/// What is taken of a structure.
 #[derive(Debug, Args)]
-pub struct EndsArguments {
+pub struct ChainArguments {
     /// The chain; a sole chain of amino acids answers to any name
     #[arg(long)]
     pub chain: Option<String>,
-    /// The chain of the second file [default: as --chain]
-    #[arg(long)]
-    pub chain_b: Option<String>,
     /// Only residues from FIRST to LAST, by their numbers in each file
     #[arg(long, value_name = "FIRST-LAST", value_parser = residues, allow_hyphen_values = true)]
     pub residues: Option<(ResidueNumber, ResidueNumber)>,
     /// What is made of gaps in a chain
     #[arg(long, value_enum, default_value_t = Gaps::Error)]
     pub gaps: Gaps,
-    /// Another chain of the first file, which stands still; may be given several times
+    /// Another chain of the file, or of the first of two, which stands still; may be given several times
     #[arg(long = "obstacle", value_name = "CHAIN")]
     pub obstacles: Vec<String>,
+}
+
+/// What is taken of the structures at both ends, and what is done to them.
+#[derive(Debug, Args)]
+pub struct EndsArguments {
+    #[command(flatten)]
+    pub first: ChainArguments,
+    /// The chain of the second file [default: as --chain]
+    #[arg(long)]
+    pub chain_b: Option<String>,
     /// Both ends of a transition are relaxed, each Cα held with so many kT/Å²; 0 leaves the ends as they are
     #[arg(long, value_name = "KT", default_value_t = HOLD, value_parser = hold)]
     pub hold: f64,
@@ -41,23 +48,11 @@ pub struct TransitionArguments {
     pub second: PathBuf,
     #[command(flatten)]
     pub ends: EndsArguments,
-    /// Base seed [default: 1]
-    #[arg(long, value_name = "SEED")]
-    pub seed: Option<u64>,
-    /// Run folder to be made; the problem goes beside it as FOLDER.toml, and the page about the run as FOLDER.html
-    #[arg(long, value_name = "FOLDER")]
-    pub out: PathBuf,
-    /// Replace the problem and the run that are there
-    #[arg(long)]
-    pub force: bool,
-    /// Go on with the run that is there, if it is of this problem
-    #[arg(long, conflicts_with = "force")]
-    pub or_resume: bool,
     /// An angle between domains for the page, as of `report`; may be given several times
     #[arg(long = "angle", value_name = "NAME=RANGE/RANGE/RANGE", value_parser = angle)]
     pub angles: Vec<DomainAngle>,
     #[command(flatten)]
-    pub growth: GrowthArguments,
+    pub job: JobArguments,
 }
 
 fn hold(text: &str) -> Result<f64, String> {

@@ -1,15 +1,18 @@
 use super::bounded::bounded;
+use super::orders::{native_of, usual_formation};
 use super::place::check_place;
 use super::search::Asked;
-use crate::cli::ReportArguments;
+use crate::cli::{ReportArguments, SearchArguments};
 use crate::exit::{Code, Failure};
 use crate::files::write_whole;
 use crate::output::note;
 use crate::signals::Signals;
 use crate::work::{Recorded, Run};
-use roadmill::export::{Report, report as page};
+use roadmill::Ends;
+use roadmill::export::{Folding, Report, report as page};
+use roadmill::folding::{Formation, Native, examples};
 use roadmill::model::Scratch;
-use roadmill::pathways::Rank;
+use roadmill::pathways::{Pathways, Rank, SPACING};
 
 /// Writes a page about a run, with several dissimilar paths through its roadmap; also where there is no path yet.
 ///
@@ -36,15 +39,77 @@ pub(super) fn report_on(
         let way = format!("`roadmill report {run} --out {out}` writes it");
         Err(Failure::new(Code::Interrupted, format!("a signal came; there is no page: {way}")))
     };
-    let asked = Asked::of(run, &arguments.search)?;
-    let distance = arguments.dissimilar.unwrap_or_else(|| asked.usual_distance());
-    let found =
-        bounded(signals, arguments.max_time, |cancel| asked.find(Some(Some(distance)), cancel))??;
+    let shown = shown(run, arguments, signals)?;
     interrupted()?;
     let end = match run.stopped() {
         None => "it has not ended, or was killed; these are its complete rounds",
         Some(stopped) => &stopped.reason,
     };
+    let (count, found_count) = (arguments.search.count, shown.pathways.pathways.len());
+    let page = page(
+        &Report {
+            problem: run.problem(),
+            cx: run.context(),
+            roadmap: run.roadmap(),
+            ends: &shown.ends,
+            pathways: &shown.pathways,
+            asked: &shown.asked,
+            angles: &arguments.search.angles,
+            folding: shown
+                .folding
+                .as_ref()
+                .map(|(native, formation)| Folding { native, formation }),
+            rounds: run.rounds(),
+            program: &run.program(),
+            end,
+        },
+        &mut Scratch::new(),
+    );
+    interrupted()?;
+    write_whole(&arguments.out, &page)?;
+    note(format_args!(
+        "{}: {found_count} of {count} paths, {:.1} MB",
+        arguments.out.display(),
+        page.len() as f64 / 1e6
+    ));
+    if shown.pathways.is_cut {
+        note(format_args!(
+            "{}: the time was up before the search for paths was over",
+            arguments.out.display()
+        ));
+    }
+    Ok(Code::Done)
+}
+
+/// What a page shows.
+struct Shown {
+    ends: Ends,
+    pathways: Pathways,
+    /// How the paths were looked for, in words.
+    asked: String,
+    folding: Option<(Native, Formation)>,
+}
+
+/// The paths between the ends that are asked for or that the problem has; of a protein about a native structure, without any
+/// ends, its folding.
+fn shown(run: &Recorded, arguments: &ReportArguments, signals: &Signals) -> Result<Shown, Failure> {
+    let SearchArguments { start, goal, .. } = &arguments.search;
+    let has_ends = run.problem().query().is_some() || start.is_some() || goal.is_some();
+    match native_of(run).filter(|_| !has_ends) {
+        Some(native) => shown_of_folding(run, native, arguments),
+        None => shown_between(run, arguments, signals),
+    }
+}
+
+fn shown_between(
+    run: &Recorded,
+    arguments: &ReportArguments,
+    signals: &Signals,
+) -> Result<Shown, Failure> {
+    let asked = Asked::of(run, &arguments.search)?;
+    let distance = arguments.dissimilar.unwrap_or_else(|| asked.usual_distance());
+    let found =
+        bounded(signals, arguments.max_time, |cancel| asked.find(Some(Some(distance)), cancel))??;
     let by = match asked.rank {
         Rank::Barrier => "the highest energy on them, then by cost",
         Rank::Cost => "what they cost",
@@ -59,33 +124,27 @@ pub(super) fn report_on(
     if found.is_cut {
         in_words += " The time for the search was up before its end: with more, others may be found, or better ones.";
     }
-    let page = page(
-        &Report {
-            problem: run.problem(),
-            cx: run.context(),
-            roadmap: run.roadmap(),
-            ends: &asked.ends,
-            pathways: &found,
-            asked: &in_words,
-            angles: &arguments.search.angles,
-            rounds: run.rounds(),
-            program: &run.program(),
-            end,
-        },
-        &mut Scratch::new(),
+    Ok(Shown { ends: asked.ends, pathways: found, asked: in_words, folding: None })
+}
+
+fn shown_of_folding(
+    run: &Recorded,
+    native: Native,
+    arguments: &ReportArguments,
+) -> Result<Shown, Failure> {
+    let (cx, scratch) = (run.context(), &mut Scratch::new());
+    let formation = usual_formation(run, &native);
+    let spacing = arguments.search.spacing.unwrap_or(SPACING);
+    let (count, attachment) = (arguments.search.count as usize, run.problem().attachment());
+    let asked = (count, spacing);
+    let found = examples(cx, run.roadmap(), (&native, &formation), &attachment, asked, scratch);
+    let pathways = found.map_err(|error| Failure::usage(format!("--spacing: {error}")))?;
+    let in_words = format!(
+        "One pathway for each of the {count} most frequent orders of the helices and strands, the one that costs least: from an \
+         unstructured conformation, which is another for each, to the native one. {} found.",
+        pathways.pathways.len()
     );
-    interrupted()?;
-    write_whole(&arguments.out, &page)?;
-    note(format_args!(
-        "{}: {found_count} of {count} paths, {:.1} MB",
-        arguments.out.display(),
-        page.len() as f64 / 1e6
-    ));
-    if found.is_cut {
-        note(format_args!(
-            "{}: the time was up before the search for paths was over",
-            arguments.out.display()
-        ));
-    }
-    Ok(Code::Done)
+    let first = pathways.pathways.first().and_then(|first| first.path.configs.iter().next());
+    let ends = Ends { start: first.unwrap_or(&native.q).to_vec(), goal: native.q.clone() };
+    Ok(Shown { ends, pathways, asked: in_words, folding: Some((native, formation)) })
 }

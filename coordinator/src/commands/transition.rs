@@ -1,101 +1,26 @@
-use super::build::{bounded_problem, grow_in};
-use super::load::load_file;
-use super::place::check_place;
+use super::job::Job;
 use super::protein::{announce, problem_of};
 use super::report::report_on;
-use super::written::{remove_problem, write_problem};
 use crate::cli::{ReportArguments, SearchArguments, TransitionArguments};
-use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
-use crate::output::note;
-use crate::signals::Signals;
-use crate::work::Run;
-use std::ffi::OsString;
-use std::fs;
-use std::path::PathBuf;
-use std::sync::Arc;
-use std::time::Instant;
-
-/// The share of `--max-time` that the search for the page's paths has in any case: a build that ends because of the time leaves
-/// nothing of it.
-const SEARCH_MIN: f64 = 0.1;
 
 /// Makes the problem of a protein's transition between two structures, grows its roadmap, and writes a page about it.
-///
-/// The problem is written beside the run folder first, and read from there, so that whatever becomes of the build it can
-/// be looked at, changed, and built again. A problem file that is there already is used if it is the same problem. Where the
-/// command line or the run folder cannot be used, so that no build begins, no problem is left either.
 pub fn transition(arguments: &TransitionArguments) -> Result<Code, Failure> {
-    let cpu = CpuClock::start();
-    let TransitionArguments { first, second, ends, seed, out, force, or_resume, angles, growth } =
-        arguments;
-    // Without a slash at the end, as shells complete it.
-    let out = &out.components().collect::<PathBuf>();
-    if out.file_name().is_none() {
-        let message = format!("--out: {} found; the name of a folder expected", out.display());
-        return Err(Failure::usage(message));
-    }
-    let beside = |extension: &str| {
-        let mut file = OsString::from(out);
-        file.push(extension);
-        PathBuf::from(file)
-    };
-    let (file, page) = (beside(".toml"), beside(".html"));
-    check_place("--out", &page)?;
-    if page.try_exists().unwrap_or(true) && !(*force || *or_resume) {
-        let message = format!("{}: it is there already; --force replaces it", page.display());
-        return Err(Failure::usage(message));
-    }
-    let made = problem_of(first, second, ends, &file)?;
-    let seed = seed.unwrap_or(made.problem.seed());
-    let problem = made.problem.clone().with_seed(seed);
-    // What cannot be used of the command line is said before anything is written.
-    bounded_problem(problem.clone(), growth)?;
-    // From here on a signal never leaves half of anything unexplained.
-    let signals = Arc::new(Signals::listen().map_err(Failure::system)?);
-    let is_there = file.try_exists().unwrap_or(true);
-    if is_there && !force {
-        let there = load_file(&file)?;
-        if there.digest() != problem.digest() {
-            let message = format!(
-                "{}: another problem found; the same, or --force, or another --out expected",
-                file.display()
-            );
-            return Err(Failure::usage(message));
-        }
-        note(format_args!("{}: the problem is there already", file.display()));
-    } else {
-        if let Some(folder) = out.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-            fs::create_dir_all(folder).map_err(|error| {
-                Failure::system(format!("{}: cannot be made: {error}", folder.display()))
-            })?;
-        }
-        let comment = "# Written by `roadmill transition`.\n";
-        write_problem(&problem, comment, &file, *force)?;
-    }
-    announce(&made);
-    let begun = Instant::now();
-    let ended = load_file(&file).and_then(|problem| {
-        let (problem, workers) = bounded_problem(problem, growth)?;
-        let growing = Run::begin(problem).workers(&workers).signals(&signals);
-        grow_in(growing, (Some(out), *force, *or_resume), growth, cpu)
-    });
-    let code = ended.as_ref().map_or_else(|failure| failure.code, |code| *code);
-    // Such a failure comes before the first round: the run folder is taken, or another process works on the run.
-    if code == Code::Usage && !is_there {
-        remove_problem(&problem, &file);
-    }
-    // Also of a roadmap that a limit has ended: the page says so.
-    if matches!(code, Code::Done | Code::NoSuccess) {
-        let left = |whole: f64| (whole - begun.elapsed().as_secs_f64()).max(SEARCH_MIN * whole);
-        let asked = ReportArguments {
-            run: out.clone(),
-            out: page,
-            search: SearchArguments::usual(angles.clone()),
-            dissimilar: None,
-            max_time: growth.max_time.map(left),
-        };
-        report_on(&Run::at(out).read()?, &asked, &signals)?;
-    }
-    ended
+    let TransitionArguments { first, second, ends, angles, job } = arguments;
+    let job = Job::begin(job)?;
+    let made = problem_of(first, second, ends, &job.file)?;
+    let comment = "# Written by `roadmill transition`.\n";
+    job.carry_out(
+        &made.problem,
+        comment,
+        || announce(&made),
+        |run, page| {
+            let search = SearchArguments::usual(angles.clone());
+            report_on(
+                run,
+                &ReportArguments::of(page.run, page.out, search, page.max_time),
+                page.signals,
+            )
+        },
+    )
 }

@@ -8,6 +8,7 @@
 
 mod along;
 mod chart;
+mod folding;
 mod growth;
 mod header;
 mod map;
@@ -21,6 +22,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
+pub use folding::Folding;
 pub use rounds::{RoundOutcome, RoundValue};
 
 use super::markup::escaped;
@@ -58,6 +60,8 @@ pub struct Report<'a> {
     pub asked: &'a str,
     /// Angles between domains, of molecules: the first two are the axes of the map, all are shown along the paths.
     pub angles: &'a [DomainAngle],
+    /// In which order the parts of a native structure form, of a protein about one.
+    pub folding: Option<Folding<'a>>,
     /// What the build came to at the end of every round, in their order.
     pub rounds: &'a [RoundOutcome],
     /// Which program made the roadmap.
@@ -95,6 +99,7 @@ pub fn report(report: &Report, scratch: &mut Scratch) -> String {
     let motion = Motion::of(report, scratch);
     let mut body = header::section(report);
     body += "<main>\n";
+    body += &folding::section(report);
     body += &tables::section(report);
     let mut scripts = String::new();
     if let Some(motion) = &motion

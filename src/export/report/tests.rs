@@ -50,6 +50,7 @@ fn page(built: &Built, angles: &[DomainAngle], change: impl Fn(&mut Problem)) ->
             pathways: &pathways,
             asked: "Two paths were asked for & <found>.",
             angles,
+            folding: None,
             rounds: &rounds,
             program: "roadmill 0",
             end: "all criteria are met",

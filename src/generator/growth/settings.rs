@@ -1,6 +1,7 @@
 use crate::context::Context;
 use crate::math;
 use crate::methods::Complaint;
+use crate::model::Scratch;
 use crate::scene::LENGTH_MAX;
 use crate::space::Space;
 use bincode::{Decode, Encode};
@@ -29,7 +30,24 @@ pub(in crate::generator) fn calibrated(step: Option<f64>, space: &Space) -> Opti
     step.or_else(|| Some(step_of(None, space)).filter(|step| *step > 0.0))
 }
 
-/// Refuses a problem without a query, where a tree is to begin at its start.
+/// Where a tree begins: at the query's start, or, in a problem without a query, at the model's native configuration.
+pub(in crate::generator) fn root(cx: &Context) -> Option<&[f64]> {
+    let start = cx.query.as_ref().map(|query| &query.start[..]);
+    start.or_else(|| cx.model.native())
+}
+
+/// Refuses a problem in which a tree has nowhere to begin.
+pub(in crate::generator) fn needs_root(cx: &Context) -> Result<(), String> {
+    let Some(root) = root(cx) else {
+        return Err("a tree that begins at the start of a query found, but no [query]".to_owned());
+    };
+    match cx.model.is_valid(root, &mut Scratch::new()) {
+        true => Ok(()),
+        false => Err("a tree found, but it begins where the configuration is not valid".to_owned()),
+    }
+}
+
+/// Refuses a problem without a query, where trees are to begin at both its ends.
 pub(in crate::generator) fn needs_query(cx: &Context) -> Result<(), String> {
     match cx.query {
         Some(_) => Ok(()),

@@ -17,11 +17,14 @@ use super::{ENERGY, KT, Protein};
 use crate::model::{Cost, Directed, Elastic, Model, ModelScratch, NodeValue, Scratch, Validity};
 use crate::space::Space;
 use crate::structure::Point;
+use crate::structure::measure::{Element, elements};
 
 /// A protein whose torsions turn, in its energy.
 pub(super) struct ChainInEnergy {
     space: Space,
     native: Vec<f64>,
+    /// Helices and strands of the source structure.
+    elements: Vec<Element>,
     conformer: Conformer,
     /// A conformation still to be placed, with what the chain lacks.
     empty: Placed,
@@ -71,6 +74,7 @@ impl ChainInEnergy {
         ChainInEnergy {
             space: crate::model::Description::space(protein),
             native: linkage.source(),
+            elements: elements(&protein.source),
             energy: energy_of(protein, &conformer),
             empty: conformer.placed(),
             conformer,
@@ -224,6 +228,10 @@ impl Model for ChainInEnergy {
 
     fn native(&self) -> Option<&[f64]> {
         Some(&self.native)
+    }
+
+    fn elements(&self) -> &[Element] {
+        &self.elements
     }
 
     fn invalidity(&self) -> &'static str {

@@ -34,9 +34,16 @@ pub fn ca_contacts(residues: &[Residue], reach: f64, apart: usize) -> Vec<(usize
     let positions: Vec<(usize, Point)> =
         residues.iter().enumerate().filter_map(|(i, r)| Some((i, r.position("CA")?))).collect();
     let (indices, positions): (Vec<usize>, Vec<Point>) = positions.into_iter().unzip();
-    near_pairs(&positions, reach)
-        .filter(|(a, b, distance)| *distance <= reach && indices[*b] - indices[*a] >= apart)
-        .map(|(a, b, _)| (indices[a], indices[b]))
+    let pairs = contacts_of_points(&positions, reach, 0).into_iter();
+    let pairs = pairs.map(|(a, b)| (indices[a], indices[b]));
+    pairs.filter(|(a, b)| b - a >= apart).collect()
+}
+
+/// The same of a chain by the positions of its Cα atoms, which are those of all residues in their order.
+pub fn contacts_of_points(positions: &[Point], reach: f64, apart: usize) -> Vec<(usize, usize)> {
+    near_pairs(positions, reach)
+        .filter(|(a, b, distance)| *distance <= reach && b - a >= apart)
+        .map(|(a, b, _)| (a, b))
         .collect()
 }
 

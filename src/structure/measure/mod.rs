@@ -6,6 +6,7 @@
 mod cells;
 mod contacts;
 mod domain_angle;
+mod elements;
 mod hydrogen_bonds;
 mod jacobi;
 mod ladders;
@@ -19,8 +20,11 @@ mod superposition;
 #[cfg(test)]
 mod tests;
 
-pub use contacts::{APART, CA_REACH, NativeContacts, ca_contacts, share_of_ca_contacts};
+pub use contacts::{
+    APART, CA_REACH, NativeContacts, ca_contacts, contacts_of_points, share_of_ca_contacts,
+};
 pub use domain_angle::{BACKBONE_AND_CB, CA, angle_of_centroids, domain_angle};
+pub use elements::{Element, elements};
 pub use hydrogen_bonds::{
     COUPLING as HYDROGEN_BOND_COUPLING, HydrogenBond, WEAKEST as WEAKEST_HYDROGEN_BOND,
     amide_hydrogens, energy as hydrogen_bond_energy, hydrogen_bonds, strongest_two,

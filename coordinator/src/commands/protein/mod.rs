@@ -9,7 +9,7 @@ use crate::exit::{Code, Failure};
 use roadmill::structure::Residue;
 use std::collections::BTreeMap;
 
-pub(super) use problem::{announce, problem_of};
+pub(super) use problem::{announce, name_of, problem_of, spec_of};
 
 /// Does what is to be done with structures of proteins.
 pub fn protein(command: &ProteinCommand) -> Result<Code, Failure> {

@@ -1,4 +1,4 @@
-use crate::cli::{EndsArguments, ProteinProblemArguments};
+use crate::cli::{ChainArguments, EndsArguments, ProteinProblemArguments};
 use crate::commands::written::write_problem;
 use crate::exit::{Code, Failure};
 use crate::output::line;
@@ -19,7 +19,7 @@ pub fn problem(arguments: &ProteinProblemArguments) -> Result<Code, Failure> {
             announce(&made);
         }
         None => {
-            let problem = about_native(&name_of(out), Path::new(""), &spec_of(first, ends));
+            let problem = about_native(&name_of(out), Path::new(""), &spec_of(first, &ends.first));
             write_problem(&problem.map_err(Failure::usage)?, comment, out, *force)?;
         }
     }
@@ -33,30 +33,33 @@ pub(in crate::commands) fn problem_of(
     ends: &EndsArguments,
     out: &Path,
 ) -> Result<Transition, Failure> {
-    let chain = ends.chain_b.as_ref().or(ends.chain.as_ref());
-    let spec = spec_of(first, ends).target(file_of(second, chain, ends).into());
+    let chain = ends.chain_b.as_ref().or(ends.first.chain.as_ref());
+    let target = file_of(second, chain, &ends.first);
+    let spec = spec_of(first, &ends.first).target(target.into());
     transition(&name_of(out), Path::new(""), &spec, ends.hold).map_err(Failure::usage)
 }
 
-fn name_of(out: &Path) -> String {
+/// The name of the problem that is written to a file.
+pub(in crate::commands) fn name_of(out: &Path) -> String {
     out.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-fn file_of(path: &Path, chain: Option<&String>, ends: &EndsArguments) -> FileSpec {
+fn file_of(path: &Path, chain: Option<&String>, what: &ChainArguments) -> FileSpec {
     let mut file = FileSpec::new(path);
     if let Some(chain) = chain {
         file = file.chain(chain);
     }
-    match ends.residues {
+    match what.residues {
         Some((first, last)) => file.residues(range(first, last)),
         None => file,
     }
 }
 
-fn spec_of(first: &Path, ends: &EndsArguments) -> ProteinSpec {
-    let spec = ProteinSpec::new(file_of(first, ends.chain.as_ref(), ends).into())
-        .obstacles(ends.obstacles.iter().cloned());
-    if ends.gaps == crate::cli::Gaps::Rigid { spec.gaps(Gaps::Rigid) } else { spec }
+/// The protein of a file.
+pub(in crate::commands) fn spec_of(first: &Path, what: &ChainArguments) -> ProteinSpec {
+    let spec = ProteinSpec::new(file_of(first, what.chain.as_ref(), what).into())
+        .obstacles(what.obstacles.iter().cloned());
+    if what.gaps == crate::cli::Gaps::Rigid { spec.gaps(Gaps::Rigid) } else { spec }
 }
 
 /// Says how near the goal is to the target, and how far the ends were relaxed.

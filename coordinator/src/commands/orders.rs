@@ -1,0 +1,156 @@
+use crate::cli::{FormationArguments, OrdersArguments};
+use crate::exit::{Code, Failure};
+use crate::files::{make_empty, write_whole};
+use crate::output::{line, note};
+use crate::work::{Recorded, Run};
+use roadmill::evaluate::{EvaluatorKind, FormationOrder};
+use roadmill::folding::{Formation, Native, Settings};
+use roadmill::model::Scratch;
+use std::fmt::Write;
+use std::path::Path;
+
+/// So many of the most frequent orders are printed.
+const PRINTED: usize = 10;
+
+/// Says in which order the parts of a protein's native structure form, over all pathways of a run's roadmap.
+pub fn orders(arguments: &OrdersArguments) -> Result<Code, Failure> {
+    let run = Run::at(&arguments.run).read()?;
+    let (native, settings) = (native(&run)?, settings(&run, &arguments.formation));
+    if let Some(folder) = &arguments.out {
+        make_empty(folder)?;
+    }
+    let formation = formation(&run, &native, &settings);
+    print(&run, &native, &settings, &formation);
+    if let Some(folder) = &arguments.out {
+        write(&native, &formation, folder)?;
+    }
+    match formation.pathways {
+        0 => Err(Failure::new(
+            Code::NoSuccess,
+            "no pathway: no route joins an unstructured conformation to the native one".to_owned(),
+        )),
+        _ => Ok(Code::Done),
+    }
+}
+
+/// # Errors
+/// Exit code 2: the run's model has no helices and no strands.
+fn native(run: &Recorded) -> Result<Native, Failure> {
+    native_of(run).ok_or_else(|| {
+        let message = "this run's model has no native structure with helices or strands; that of a protein expected";
+        Failure::usage(message)
+    })
+}
+
+/// The native structure of the run's model, if it has one with helices or strands.
+pub(super) fn native_of(run: &Recorded) -> Option<Native> {
+    let native = Native::of(run.context().model(), &mut Scratch::new());
+    native.filter(|native| !native.parts.is_empty())
+}
+
+/// Prints the orders in a run's roadmap by its own criterion.
+pub(super) fn say(run: &Recorded) -> Result<(), Failure> {
+    let (native, settings) = (native(run)?, settings(run, &FormationArguments::default()));
+    print(run, &native, &settings, &formation(run, &native, &settings));
+    Ok(())
+}
+
+/// How the parts of the native structure form by the run's own criterion.
+pub(super) fn usual_formation(run: &Recorded, native: &Native) -> Formation {
+    formation(run, native, &settings(run, &FormationArguments::default()))
+}
+
+/// What is asked for, or else what the run's criterion has.
+fn settings(run: &Recorded, asked: &FormationArguments) -> Settings {
+    let of_run = run.problem().evaluators().iter().find_map(|evaluator| match evaluator {
+        EvaluatorKind::FormationOrder(order) => Some(FormationOrder::settings(order)),
+        _ => None,
+    });
+    let usual = of_run.unwrap_or_default();
+    Settings {
+        formed: asked.formed.unwrap_or(usual.formed),
+        unstructured: asked.unstructured.unwrap_or(usual.unstructured),
+    }
+}
+
+fn formation(run: &Recorded, native: &Native, settings: &Settings) -> Formation {
+    let attachment = run.problem().attachment();
+    Formation::of(run.context(), run.roadmap(), native, settings, &attachment, &mut Scratch::new())
+}
+
+fn print(run: &Recorded, native: &Native, settings: &Settings, formation: &Formation) {
+    line(format_args!(
+        "{} pathways to the native conformation, through {} nodes, from conformations with at most {} of {} native contacts",
+        formation.pathways,
+        run.roadmap().configs().len(),
+        settings.unstructured,
+        native.contacts.len()
+    ));
+    line(format_args!(
+        "a part is formed when {} % of its contacts are there and stay",
+        100.0 * settings.formed
+    ));
+    if formation.pathways == 0 {
+        return;
+    }
+    line("part         contacts  formed at a share of all native contacts of");
+    for (part, at) in native.parts.iter().zip(&formation.at) {
+        let name = pad(&part.name, 12);
+        line(format_args!("{name}{:>9}  {at:.3}", part.contacts.len()));
+    }
+    for (title, orders) in [
+        ("share  order of the helices and strands", &formation.elements),
+        ("share  order of the pairings", &formation.pairings),
+    ] {
+        if orders.is_empty() || orders[0].groups.is_empty() {
+            continue;
+        }
+        line(title);
+        for order in orders.iter().take(PRINTED) {
+            let share = order.pathways as f64 / formation.pathways as f64;
+            line(format_args!("{share:.3}  {}", order.in_words(native)));
+        }
+        if orders.len() > PRINTED {
+            note(format_args!("{} further orders; --out writes all", orders.len() - PRINTED));
+        }
+    }
+}
+
+/// A text with blanks behind it, by its letters, which have one column each.
+fn pad(text: &str, width: usize) -> String {
+    let blanks = width.saturating_sub(text.chars().count());
+    text.to_owned() + &" ".repeat(blanks)
+}
+
+/// Writes `orders.csv`, `parts.csv`, `precedence.csv` and `contacts.csv`.
+fn write(native: &Native, formation: &Formation, folder: &Path) -> Result<(), Failure> {
+    let mut orders = "of,order,pathways,share\n".to_owned();
+    let all = (formation.elements.iter().map(|order| ("elements", order)))
+        .chain(formation.pairings.iter().map(|order| ("pairings", order)));
+    for (of, order) in all {
+        let share = order.pathways as f64 / formation.pathways as f64;
+        writeln!(orders, "{of},{},{},{share}", order.in_words(native), order.pathways)
+            .expect("writing to memory cannot fail");
+    }
+    let mut parts = "part,contacts,formed_at\n".to_owned();
+    for (part, at) in native.parts.iter().zip(&formation.at) {
+        writeln!(parts, "{},{},{at}", part.name, part.contacts.len())
+            .expect("writing to memory cannot fail");
+    }
+    let mut precedence = "first,second,share\n".to_owned();
+    for (a, first) in native.parts.iter().enumerate() {
+        for (b, second) in native.parts.iter().enumerate().filter(|(b, _)| *b != a) {
+            let share = formation.precedence.share(a, b);
+            writeln!(precedence, "{},{},{share}", first.name, second.name)
+                .expect("writing to memory cannot fail");
+        }
+    }
+    let mut contacts = "first,second,formed_at\n".to_owned();
+    for ((a, b), at) in native.contacts.iter().zip(&formation.contacts) {
+        writeln!(contacts, "{},{},{at}", a + 1, b + 1).expect("writing to memory cannot fail");
+    }
+    write_whole(&folder.join("orders.csv"), orders)?;
+    write_whole(&folder.join("parts.csv"), parts)?;
+    write_whole(&folder.join("precedence.csv"), precedence)?;
+    write_whole(&folder.join("contacts.csv"), contacts)
+}
