@@ -91,7 +91,7 @@ fn every_unstructured_node_has_a_pathway_and_the_cheapest_route_counts() {
 }
 
 #[test]
-fn parts_that_form_at_the_same_milestone_have_no_order() {
+fn parts_that_form_at_the_same_frame_have_no_order() {
     let tree = ToNative::by(vec![edge(0, 1, 1.0), edge(1, 2, 1.0)], NodeId(2));
     let formation = along(&tree, &["00000", "11110"], &Settings::default());
     assert_eq!(formation.elements, [Order { groups: vec![vec![0, 1]], pathways: 1 }]);

@@ -30,7 +30,7 @@ pub(super) fn section(report: &Report) -> String {
         html,
         "<p>{} pathways, one from each unstructured conformation of the roadmap to the native one, by the least cost. A helix, a strand \
          or a pairing of two counts as formed where a share of its native contacts is there and stays until the end; parts in brackets form at the \
-         same milestone. Contacts: Cα at most 7 Å apart, of residues at least four places apart along the chain.</p>",
+         same frame of a pathway. Contacts: Cα at most 7 Å apart, of residues at least four places apart along the chain.</p>",
         formation.pathways
     )
     .expect("memory");

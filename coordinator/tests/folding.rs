@@ -1,0 +1,84 @@
+//! `fold` and `orders`: in which order the parts of a native structure form, from its file to a page.
+
+mod support;
+
+use std::fs;
+use support::Scratch;
+
+/// The peptide that ships: a hairpin of two strands.
+const PEPTIDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/structures/1UAO.pdb");
+
+#[test]
+fn a_hairpin_folds_in_one_command_whoever_works() {
+    let scratch = Scratch::new();
+    fs::copy(PEPTIDE, scratch.path("native.pdb")).expect("it ships");
+    let fold = |out: &str, more: &[&str]| {
+        let done = scratch.run(&[&["fold", "native.pdb", "--out", out], more].concat());
+        done.assert_code(0);
+        (scratch.summary(out).digest, done.stdout)
+    };
+    let (digest, said) = fold("one", &["--threads", "1"]);
+    assert!(said.contains("formation-order") && said.contains("all criteria are met"), "{said}");
+    // Both strands are made of their pairing alone, so all three form together on every pathway.
+    for told in ["pathways to the native conformation", "1.000  [β1 β2]", "1.000  β1–β2"] {
+        assert!(said.contains(told), "{told}\n{said}");
+    }
+    let page = fs::read_to_string(scratch.path("one.html")).expect("it is written");
+    assert!(page.contains("</html>") && page.contains("<section id=\"folding\">"));
+    assert!(page.contains("[β1 β2]") && page.contains("40 % of the contacts"));
+    assert!(!page.contains(">NaN"), "every number that is shown is one");
+
+    assert_eq!(fold("two", &["--workers", "2"]).0, digest);
+    assert_eq!(fold("one", &["--threads", "2", "--or-resume"]).0, digest);
+    scratch.build("three", &["one.toml", "--workers", "1"], 0);
+    assert_eq!(scratch.summary("three").digest, digest);
+    scratch.run(&["verify", "two", "--all", "--threads", "2"]).assert_code(0);
+
+    scratch.run(&["orders", "one", "--out", "tables"]).assert_code(0);
+    let table = |name: &str| fs::read_to_string(scratch.path("tables").join(name)).expect(name);
+    assert!(table("orders.csv").contains("elements,[β1 β2],"));
+    assert!(table("precedence.csv").contains("β1,β2,0\n"));
+    assert_eq!(table("parts.csv").lines().count(), 1 + 3);
+    let contacts = table("contacts.csv");
+    assert!(contacts.lines().skip(1).all(|line| line.split(',').count() == 3), "{contacts}");
+    // With every contact needed the strands form later than with the first.
+    let formed_at = |share: &str| {
+        let done = scratch.run(&["orders", "one", "--formed", share]);
+        done.assert_code(0);
+        let line = done.stdout.lines().find(|line| line.starts_with("β1 ")).expect("a line");
+        line.split_whitespace().last().and_then(|at| at.parse::<f64>().ok()).expect("a number")
+    };
+    assert!(formed_at("0.2") < formed_at("1"));
+}
+
+#[test]
+fn what_cannot_be_said_is_an_error() {
+    let scratch = Scratch::new();
+    fs::copy(PEPTIDE, scratch.path("native.pdb")).expect("it ships");
+    // A roadmap that has not come to unstructured conformations yet: there is a page, which says so, and no order.
+    let fold = ["fold", "native.pdb", "--out", "short", "--max-sets", "1", "--threads", "1"];
+    scratch.run(&fold).assert_code(3);
+    let page = fs::read_to_string(scratch.path("short.html")).expect("it is written");
+    assert!(page.contains("No pathway"), "the page says so");
+    let done = scratch.run(&["orders", "short"]);
+    done.assert_code(3);
+    assert!(done.stderr.contains("no pathway"), "{}", done.stderr);
+    // Shares that are none.
+    for share in ["0", "1.5", "NaN", "most"] {
+        let done = scratch.run(&["orders", "short", "--formed", share]);
+        done.assert_code(2);
+        assert!(done.stderr.contains("above 0, at most 1"), "{}", done.stderr);
+    }
+    // A robot has no native structure, and neither has one an order.
+    let maze = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/maze.toml");
+    scratch.build("maze", &[maze, "--threads", "1"], 0);
+    let done = scratch.run(&["orders", "maze"]);
+    done.assert_code(2);
+    assert!(done.stderr.contains("that of a protein expected"), "{}", done.stderr);
+    let problem = fs::read_to_string(maze).expect("it ships");
+    let problem = problem.split("[[evaluators]]").next().expect("a beginning");
+    scratch.write("ordered.toml", &format!("{problem}[[evaluators]]\nformation-order = {{}}\n"));
+    let done = scratch.run(&["check", "ordered.toml"]);
+    done.assert_code(2);
+    assert!(done.stderr.contains("a protein with helices or strands expected"), "{}", done.stderr);
+}
