@@ -55,12 +55,18 @@ fn a_hairpin_folds_in_one_command_whoever_works() {
 fn what_cannot_be_said_is_an_error() {
     let scratch = Scratch::new();
     fs::copy(PEPTIDE, scratch.path("native.pdb")).expect("it ships");
-    // A roadmap that has not come to unstructured conformations yet: there is a page, which says so, and no order.
     let fold = ["fold", "native.pdb", "--out", "short", "--max-sets", "1", "--threads", "1"];
     scratch.run(&fold).assert_code(3);
-    let page = fs::read_to_string(scratch.path("short.html")).expect("it is written");
+    // A roadmap that does not come to unstructured conformations: there is a page, which says so, and no order.
+    let problem = fs::read_to_string(scratch.path("short.toml")).expect("it is written");
+    let near = problem.replace("step = 0.25", "step = 0.05").replace("step = 1.0", "step = 0.05");
+    assert_eq!(near.matches("step = 0.05").count(), 2, "{near}");
+    scratch.write("near.toml", &near);
+    scratch.build("near", &["near.toml", "--max-sets", "10", "--threads", "1"], 3);
+    scratch.run(&["report", "near", "--out", "near.html"]).assert_code(0);
+    let page = fs::read_to_string(scratch.path("near.html")).expect("it is written");
     assert!(page.contains("No pathway"), "the page says so");
-    let done = scratch.run(&["orders", "short"]);
+    let done = scratch.run(&["orders", "near"]);
     done.assert_code(3);
     assert!(done.stderr.contains("no pathway"), "{}", done.stderr);
     // Shares that are none.

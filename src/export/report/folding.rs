@@ -8,9 +8,10 @@ use std::fmt::Write;
 /// So many orders are listed.
 const LISTED: usize = 12;
 
-/// Side of a contact map, and the room at its left and below it, in pixels.
+/// Side of a contact map, the room for numbers at its left and below it, and that at its other sides, in pixels.
 const MAP: f64 = 190.0;
 const ROOM: f64 = 34.0;
+const EDGE: f64 = 10.0;
 
 /// What is known of the folding of a protein.
 #[derive(Clone, Copy, Debug)]
@@ -112,11 +113,12 @@ fn maps(native: &Native, formation: &Formation) -> String {
          larger the share of pathways on which it is there for good by the time that so many of all native contacts are there.</p>\n<div class=\"charts\">\n",
     );
     for fifth in 0..4 {
-        let (size, at) = (MAP + ROOM, |place: f64| place / residues as f64 * MAP);
+        let at = |place: f64| place / residues as f64 * MAP;
+        let [width, height] = [ROOM + MAP + EDGE, EDGE + MAP + ROOM];
         let percent = 20 * (fifth + 1);
         write!(
             html,
-            "<figure><figcaption>{percent} % of the contacts</figcaption><svg viewBox=\"0 0 {size} {size}\" role=\"img\" \
+            "<figure><figcaption>{percent} % of the contacts</figcaption><svg viewBox=\"0 -{EDGE} {width} {height}\" role=\"img\" \
              aria-label=\"Contacts that are there for good at {percent} %\"><rect x=\"{ROOM}\" y=\"0\" width=\"{MAP}\" height=\"{MAP}\" fill=\"none\" stroke=\"#8b8b86\"/>"
         )
         .expect("memory");
