@@ -57,7 +57,7 @@ pub(in crate::generator) fn explore(
                 None if direction == 1 => break,
                 None => {}
             }
-            if set.is_full() {
+            if direction == exploration.directions || set.is_full() {
                 break;
             }
             if let Some(adjacency) = &adjacency {

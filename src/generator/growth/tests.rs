@@ -21,6 +21,7 @@ const PLANE: &str = r#"
 motion = "rigid-2d"
 min = [0, 0]
 max = [8, 6]
+bounds = "body"
 [robot]
 bodies = [{ shape = { box = { size = [1.0, 0.2, 1.0] } } }]
 [[obstacles]]
@@ -40,6 +41,7 @@ const SPACE: &str = r#"
 motion = "rigid-3d"
 min = [0, 0, 0]
 max = [6, 4, 4]
+bounds = "body"
 [robot]
 bodies = [{ shape = { box = { size = [1.0, 0.3, 0.2] } } }]
 [[obstacles]]
@@ -361,7 +363,7 @@ fn a_tree_has_one_edge_less_than_nodes_and_no_edge_is_longer_than_a_step() {
 fn the_goal_is_reached_and_comes_once() {
     for generator in ["rrt", "rrg", "mrrg"] {
         let settings = format!("{{ {generator} = {{ step = 0.8, goal_bias = 0.2 }} }}");
-        let (problem, roadmap) = grown(PLANE, &settings, 20, 20);
+        let (problem, roadmap) = grown(PLANE, &settings, 20, 40);
         let goal = &problem.query().expect("a query").goal;
         let there = roadmap.configs().iter().filter(|q| q == goal).count();
         assert_eq!(there, 1, "{generator}");
@@ -482,7 +484,7 @@ fn settings_are_refused_with_what_is_expected() {
     refused(PLANE, "{ mrrg = { trials = 1001 } }", "trials = 1001 found; 1 to 1000 expected");
     let sampler = "{ tree = { sampler = { gaussian = { deviation = -1.0 } } } }";
     refused(PLANE, sampler, "deviation");
-    refused(PLANE, "{ tree = { sampler = { energy = { min = 0, max = 1 } } } }", "energy");
+    refused(PLANE, "{ tree = { sampler = { energy = { always = 0.0, never = 1.0 } } } }", "energy");
 }
 
 #[test]
