@@ -1,0 +1,36 @@
+"""The picture of a comparison: two domain angles, the map's nodes, and all paths."""
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+
+def draw(file, names, nodes, energies, paths, others, ends):
+    """Writes an SVG file.
+
+    `names` are those of the two angles; everything else comes as pairs of arrays of them, degrees: `nodes`, coloured by `energies`,
+    model kJ/mol above the least; `paths`, a list; `others`, a list of label, colour and pair; `ends`, a list of label and pair.
+    """
+    # The same picture gives the same bytes; text stays text.
+    plt.rcParams.update({"svg.hashsalt": "roadmill", "svg.fonttype": "none", "font.size": 9})
+    figure, axes = plt.subplots(figsize=(7.2, 5.6), layout="constrained")
+    # Low nodes above high ones, which are more. Dots are drawn as one bitmap: an SVG of as many circles would take megabytes.
+    order = np.argsort(-energies)
+    low, high = np.percentile(energies, [0, 95])
+    dots = axes.scatter(
+        nodes[0][order], nodes[1][order], c=energies[order] - low, s=2, lw=0, cmap="Greys_r", vmin=-(high - low), vmax=high - low, rasterized=True
+    )
+    bar = figure.colorbar(dots, ax=axes, fraction=0.03, pad=0.01, label="energy of a node above the lowest, model kJ/mol")
+    bar.ax.set_ylim(0, high - low)
+    for k, (x, y) in enumerate(paths):
+        axes.plot(x, y, lw=1.1, marker=".", ms=3, color=plt.cm.viridis(0.1 + 0.8 * k / max(1, len(paths) - 1)), label=f"roadmill, path {k + 1}")
+    for label, colour, (x, y) in others:
+        axes.plot(x, y, lw=1.1, marker=".", ms=3, color=colour, label=label)
+    for label, (x, y) in ends:
+        axes.plot(x, y, "*", ms=13, mfc="white", mec="black", zorder=5)
+        axes.annotate(label, (x, y), xytext=(8, 8), textcoords="offset points", zorder=6, bbox={"fc": "white", "ec": "none", "pad": 1, "alpha": 0.8})
+    axes.set_xlabel(f"{names[0]} angle, degrees")
+    axes.set_ylabel(f"{names[1]} angle, degrees")
+    axes.legend(loc="lower right", fontsize=8, framealpha=0.9)
+    figure.savefig(file, dpi=110, metadata={"Date": None})
