@@ -7,7 +7,6 @@
 import os
 import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
 
@@ -17,20 +16,23 @@ MODES = ["alternating", "one-way", "both-ways"]  # in the order of ProDy's numbe
 STEPS = 100  # the most steps; each mode ends sooner, at 1 Å or where it tears
 
 
-def walk(source, target, mode, module):
-    """The frames of a walk, Å, the CPU seconds that it took, and whether a second one had the same bits."""
-    with tempfile.TemporaryDirectory() as folder:
-        found = []
-        for k in range(2):
-            out = f"{folder}/{k}.npz"
-            command = [sys.executable, __file__, str(source), str(target), mode, module, out]
+def walk(source, target, mode, module, folder):
+    """The frames of a walk, Å, the CPU seconds that it took, and whether a second one had the same bits.
+
+    Walks are kept in `folder`; what is there is taken.
+    """
+    found = []
+    for k in (1, 2):
+        out = Path(folder) / f"{Path(module).stem}-{mode}-{k}.npz"
+        if not out.exists():
+            command = [sys.executable, __file__, str(source), str(target), mode, module, str(out)]
             # One thread, so that CPU seconds are those of the work and not of threads that wait.
             environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
             done = subprocess.run(command, capture_output=True, text=True, env=environment)
             if done.returncode != 0:
                 sys.exit(f"ProDy's adaptive ANM, {mode}: {(done.stderr.strip() or 'failed').splitlines()[-1]}")
-            with np.load(out) as arrays:
-                found.append((arrays["frames"], float(arrays["cpu"])))
+        with np.load(out) as arrays:
+            found.append((arrays["frames"], float(arrays["cpu"])))
     (frames, cpu), (other, _) = found
     return frames, cpu, frames.shape == other.shape and frames.tobytes() == other.tobytes()
 

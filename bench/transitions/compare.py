@@ -3,7 +3,7 @@
 
     ROADMILL_DATA=shared/data python3 bench/transitions/compare.py --work FOLDER [--map RUN ...] [--again] [--picture FILE.svg]
 
-Prints two tables as Markdown and a list of what was found about every map, and draws all paths over two domain angles. Compared are
+Prints tables as Markdown and a list of what was found about every map, and draws all paths over two domain angles. Compared are
 
 - roadmill's maps from 4AKE to 1AKE, chain A, and five dissimilar paths out of each: `FOLDER/usual`, with the settings that are usual,
   `FOLDER/hold-0`, whose ends are left as they are, and the runs given by `--map`, each with its problem RUN.toml and its structures
@@ -12,6 +12,8 @@ Prints two tables as Markdown and a list of what was found about every map, and 
 - ProDy's adaptive ANM in its three modes, on CA, with the settings that are usual; with `--module`, that of a Python file, too.
 - the 98 frames of dynamic importance sampling that MDAnalysis is tested with (O. Beckstein, E. Denning, J. Perilla, T. Woolf,
   J. Mol. Biol. 394, 2009), all atoms; it is no program that could be run again.
+
+Of the last map nodes are taken in which one domain is closed and the other open, and paths looked for by way of them (orders.py).
 
 Terms. *Torn*: a frame with a virtual bond, from one CA to the next, that is farther than 0.3 Å from its lengths in both crystals. *Length*: the sum
 of the CA RMSD of successive frames, each two superposed. *Midway*: the smallest share of a path's length at which a domain angle has come to the
@@ -30,6 +32,7 @@ import numpy as np
 
 import adaptive
 import maps
+import orders
 from measures import ANGLES, TORN, angle, frechet, hausdorff, midway, off_bonds, rmsds, shares, steps, virtual_bonds
 from structures import Backbone, exists, read_dims, read_pdb, same_residues
 
@@ -116,6 +119,7 @@ def main():
     parser.add_argument("--roadmill", default="roadmill", help="the program [default: the one in PATH]")
     parser.add_argument("--again", action="store_true", help="build every map and export its paths a second time")
     parser.add_argument("--module", type=Path, help="a Python file with another calcAdaptiveANM")
+    parser.add_argument("--nodes", type=int, default=2, help="nodes of the last map by way of which either order is tried [default: 2]")
     parser.add_argument("--picture", type=Path, help="an SVG file to be written")
     asked = parser.parse_args()
     if "ROADMILL_DATA" not in os.environ:
@@ -142,7 +146,7 @@ def main():
         for mode in adaptive.MODES:
             if module != "prody" and mode == "both-ways":
                 continue
-            frames, cpu, same = adaptive.walk(data / "4AKE.pdb", data / "1AKE.pdb", mode, module)
+            frames, cpu, same = adaptive.walk(data / "4AKE.pdb", data / "1AKE.pdb", mode, module, asked.work)
             walks.append((Path_(f"{name}, {mode}", Backbone(numbers, crystals[0].names, frames, None)), cpu, same))
 
     print("### What each gives")
@@ -170,16 +174,37 @@ def main():
         nodes = roadmap.alphas
         lines = [f"{len(nodes)} distinct nodes of {roadmap.all}, {int((off_bonds(nodes, ends) > TORN).sum())} of them torn"]
         lines.append(f"CA computed here from torsions within {one.off_kinematics():.4f} Å of those that roadmill wrote")
-        for path in [dims, *(path for path, _, _ in walks)]:
+        for path in (dims, walks[0][0]):
             nearest = rmsds(nodes, path.alphas).min(axis=0)
             lines.append(f"frames of {path.name}: the nearest node {np.median(nearest):.2f} Å away in the median, {nearest.max():.2f} Å at most")
         print(f"\n{one.folder.name}:\n" + "\n".join(f"- {line}" for line in lines), flush=True)
+
+    ways = orders.detours(roadmap, asked.roadmill, asked.nodes)
+    first, second = ANGLES
+    print(f"\n### By way of nodes of {one.folder.name} in which one domain is closed and the other open")
+    table = Table(
+        "moves first", "node", f"{first} closure", f"{second} closure", "energy, kJ/mol", "barrier, kJ/mol", "cost, kT", "length, Å",
+        f"{first} midway", f"{second} midway",
+    )
+    for way in ways:
+        cells = [way.first, way.node, *(f"{way.closures[name]:.2f}" for name in ANGLES), f"{way.energy:.0f}"]
+        if way.path is None:
+            table.row(*cells, "no path", "", "", "", "")
+            continue
+        share = shares(way.path.alphas)
+        halves = [midway(angle(way.path.alphas, ranges, numbers), share) for ranges in ANGLES.values()]
+        length = steps(way.path.alphas).sum()
+        table.row(*cells, f"{way.barrier:.0f}", f"{way.cost:.0f}", f"{length:.1f}", *(f"{half:.2f}" for half in halves))
 
     if asked.picture:
         import picture
 
         both = lambda alphas: np.array([angle(alphas, ranges, numbers) for ranges in ANGLES.values()])
         others = [("DIMS", "tab:red", both(dims.alphas)), (walks[0][0].name, "tab:orange", both(walks[0][0].alphas))]
+        for name, colour in zip(ANGLES, ("tab:blue", "tab:green")):
+            best = min((way for way in ways if way.first == name and way.path), key=lambda way: (way.barrier, way.cost), default=None)
+            if best:
+                others.append((f"roadmill, by way of node {best.node}", colour, both(best.path.alphas)))
         marks = [(name, both(end[None])[:, 0]) for name, end in zip(("4AKE, open", "1AKE, closed"), ends)]
         picture.draw(asked.picture, list(ANGLES), both(nodes), roadmap.energies, [both(path.alphas) for path in shown], others, marks)
         print(f"\n{asked.picture}: written, {asked.picture.stat().st_size} bytes")

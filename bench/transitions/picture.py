@@ -19,7 +19,7 @@ def draw(file, names, nodes, energies, paths, others, ends):
     order = np.argsort(-energies)
     low, high = np.percentile(energies, [0, 95])
     dots = axes.scatter(
-        nodes[0][order], nodes[1][order], c=energies[order] - low, s=2, lw=0, cmap="Greys_r", vmin=-(high - low), vmax=high - low, rasterized=True
+        nodes[0][order], nodes[1][order], c=energies[order] - low, s=4, lw=0, cmap="Greys_r", vmin=-0.7 * (high - low), vmax=1.4 * (high - low), rasterized=True
     )
     bar = figure.colorbar(dots, ax=axes, fraction=0.03, pad=0.01, label="energy of a node above the lowest, model kJ/mol")
     bar.ax.set_ylim(0, high - low)
