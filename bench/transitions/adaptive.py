@@ -4,6 +4,7 @@
 `frames`, `(frames, residues, 3)`, and `cpu`, the seconds of the call alone. MODE is `alternating`, `one-way` or `both-ways`; MODULE is
 `prody`, or a Python file that has a `calcAdaptiveANM` like it.
 """
+
 import os
 import subprocess
 import sys

@@ -22,6 +22,7 @@ RUN-again, which `--again` makes, and the files of its paths. All distances are 
 
 Needs roadmill, and of Python numpy, gemmi, ProDy, MDAnalysis, MDAnalysisTests and matplotlib.
 """
+
 import argparse
 import os
 import sys
@@ -38,8 +39,8 @@ from structures import Backbone, exists, read_dims, read_pdb, same_residues
 
 
 @dataclass
-class Path_:
-    """A path of the comparison."""
+class Way:
+    """A path of the comparison, whosever it is."""
 
     name: str
     backbone: Backbone
@@ -94,7 +95,6 @@ def row_of(path, ends, dims, numbers):
         f"{hausdorff(distances):.2f}",
         f"{frechet(distances):.2f}",
         *(f"{half:.2f}" for half in halves),
-        list(ANGLES)[int(np.argmin(halves))],
     )
 
 
@@ -115,13 +115,21 @@ def prepared(asked, data):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--work", type=Path, required=True, help="folder of the maps that are built")
-    parser.add_argument("--map", type=Path, action="append", default=[], help="another run; the last one is shown path by path")
+    parser.add_argument(
+        "--map", type=Path, action="append", default=[], help="another run; the last one is shown path by path"
+    )
     parser.add_argument("--roadmill", default="roadmill", help="the program [default: the one in PATH]")
     parser.add_argument("--again", action="store_true", help="build every map and export its paths a second time")
     parser.add_argument("--module", type=Path, help="a Python file with another calcAdaptiveANM")
-    parser.add_argument("--nodes", type=int, default=2, help="nodes of the last map by way of which either order is tried [default: 2]")
+    parser.add_argument(
+        "--nodes", type=int, default=2, help="nodes of the last map by way of which either order is tried [default: 2]"
+    )
     parser.add_argument("--picture", type=Path, help="an SVG file to be written")
     asked = parser.parse_args()
+    if asked.module:
+        exists(asked.module, "a Python file with a function calcAdaptiveANM")
+    if asked.picture:
+        exists(asked.picture.resolve().parent, "a folder for the picture")
     if "ROADMILL_DATA" not in os.environ:
         sys.exit("ROADMILL_DATA: not set; the folder with structures/4AKE.pdb and structures/1AKE.pdb expected")
     data = exists(Path(os.environ["ROADMILL_DATA"]) / "structures", "the folder of structures below ROADMILL_DATA")
@@ -134,7 +142,7 @@ def main():
     near = rmsds(dims.alphas[[0, -1]], np.array(ends))
     if near[0, 0] > near[0, 1]:  # It goes from closed to open.
         dims.alphas, dims.atoms = dims.alphas[::-1], dims.atoms[::-1]
-    dims = Path_("DIMS", dims)
+    dims = Way("DIMS", dims)
 
     found = prepared(asked, data)
     for one in found:
@@ -147,24 +155,39 @@ def main():
             if module != "prody" and mode == "both-ways":
                 continue
             frames, cpu, same = adaptive.walk(data / "4AKE.pdb", data / "1AKE.pdb", mode, module, asked.work)
-            walks.append((Path_(f"{name}, {mode}", Backbone(numbers, crystals[0].names, frames, None)), cpu, same))
+            walks.append((Way(f"{name}, {mode}", Backbone(numbers, crystals[0].names, frames, None)), cpu, same))
 
     print("### What each gives")
-    table = Table(
-        "of", "nodes", "CPU s", "alternatives", "frames", "torn frames", "virtual bonds off by, Å", "virtual bonds, Å",
-        "most phi > 0", "ends off the crystals, Å", "same again",
-    )
+    columns = [
+        "of",
+        "nodes",
+        "CPU s",
+        "alternatives",
+        "frames",
+        "torn frames",
+        "virtual bonds off by, Å",
+        "virtual bonds, Å",
+    ]
+    table = Table(*columns, "most phi > 0", "ends off the crystals, Å", "same again")
     shown = None
     for one in found:
-        shown = [Path_(f"{one.folder.name}, path {k + 1}", path) for k, path in enumerate(one.paths)]
+        shown = [Way(f"{one.folder.name}, path {k + 1}", path) for k, path in enumerate(one.paths)]
         cpu = f"{one.summary['cpu_seconds']:.0f}" + (f" + {one.paths_cpu:.0f}" if one.paths_cpu is not None else "")
-        table.row(f"roadmill, {one.folder.name}", one.summary["nodes"], cpu, len(shown), *summed_up(shown, ends), words(one.same))
+        table.row(
+            f"roadmill, {one.folder.name}",
+            one.summary["nodes"],
+            cpu,
+            len(shown),
+            *summed_up(shown, ends),
+            words(one.same),
+        )
     for path, cpu, same in walks:
         table.row(path.name, "", f"{cpu:.1f}", 1, *summed_up([path], ends), words(same))
     table.row("DIMS", "", "not known", 1, *summed_up([dims], ends), "not tried")
 
     print("\n### Paths one by one")
-    table = Table("path", "frames", "length, Å", "torn", "Hausdorff to DIMS, Å", "Fréchet to DIMS, Å", *(f"{name} midway" for name in ANGLES), "first")
+    midways = [f"{name} midway" for name in ANGLES]
+    table = Table("path", "frames", "length, Å", "torn", "Hausdorff to DIMS, Å", "Fréchet to DIMS, Å", *midways)
     for path in [*shown, *(path for path, _, _ in walks), dims]:
         table.row(*row_of(path, ends, dims.alphas, numbers))
 
@@ -172,19 +195,22 @@ def main():
     for one in found:
         roadmap = one.roadmap()
         nodes = roadmap.alphas
-        lines = [f"{len(nodes)} distinct nodes of {roadmap.all}, {int((off_bonds(nodes, ends) > TORN).sum())} of them torn"]
+        lines = [
+            f"{len(nodes)} distinct nodes of {roadmap.all}, {int((off_bonds(nodes, ends) > TORN).sum())} of them torn"
+        ]
         lines.append(f"CA computed here from torsions within {one.off_kinematics():.4f} Å of those that roadmill wrote")
         for path in (dims, walks[0][0]):
             nearest = rmsds(nodes, path.alphas).min(axis=0)
-            lines.append(f"frames of {path.name}: the nearest node {np.median(nearest):.2f} Å away in the median, {nearest.max():.2f} Å at most")
+            lines.append(
+                f"frames of {path.name}: the nearest node {np.median(nearest):.2f} Å away in the median, {nearest.max():.2f} Å at most"
+            )
         print(f"\n{one.folder.name}:\n" + "\n".join(f"- {line}" for line in lines), flush=True)
 
     ways = orders.detours(roadmap, asked.roadmill, asked.nodes)
-    first, second = ANGLES
+    closures = [f"{name} closure" for name in ANGLES]
     print(f"\n### By way of nodes of {one.folder.name} in which one domain is closed and the other open")
     table = Table(
-        "moves first", "node", f"{first} closure", f"{second} closure", "energy, kJ/mol", "barrier, kJ/mol", "cost, kT", "length, Å",
-        f"{first} midway", f"{second} midway",
+        "moves first", "node", *closures, "energy, kJ/mol", "barrier, kJ/mol", "cost, kT", "length, Å", *midways
     )
     for way in ways:
         cells = [way.first, way.node, *(f"{way.closures[name]:.2f}" for name in ANGLES), f"{way.energy:.0f}"]
@@ -201,12 +227,24 @@ def main():
 
         both = lambda alphas: np.array([angle(alphas, ranges, numbers) for ranges in ANGLES.values()])
         others = [("DIMS", "tab:red", both(dims.alphas)), (walks[0][0].name, "tab:orange", both(walks[0][0].alphas))]
-        for name, colour in zip(ANGLES, ("tab:blue", "tab:green")):
-            best = min((way for way in ways if way.first == name and way.path), key=lambda way: (way.barrier, way.cost), default=None)
+        for name, colour in zip(ANGLES, ("black", "deeppink")):
+            best = min(
+                (way for way in ways if way.first == name and way.path),
+                key=lambda way: (way.barrier, way.cost),
+                default=None,
+            )
             if best:
-                others.append((f"roadmill, by way of node {best.node}", colour, both(best.path.alphas)))
+                others.append((f"roadmill, {name} first (node {best.node})", colour, both(best.path.alphas)))
         marks = [(name, both(end[None])[:, 0]) for name, end in zip(("4AKE, open", "1AKE, closed"), ends)]
-        picture.draw(asked.picture, list(ANGLES), both(nodes), roadmap.energies, [both(path.alphas) for path in shown], others, marks)
+        picture.draw(
+            asked.picture,
+            list(ANGLES),
+            both(nodes),
+            roadmap.energies,
+            [both(path.alphas) for path in shown],
+            others,
+            marks,
+        )
         print(f"\n{asked.picture}: written, {asked.picture.stat().st_size} bytes")
 
 

@@ -1,4 +1,5 @@
 """roadmill's part of the comparison: its program is run, and its runs and paths are read."""
+
 import csv
 import json
 import re
@@ -23,7 +24,9 @@ def run(program, *words):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     command = [str(word) for word in (program, *words)]
     # A configuration of a protein is some thousand characters.
-    print("$ " + " ".join(word if len(word) < 100 else word[:40] + "…" for word in command), file=sys.stderr, flush=True)
+    print(
+        "$ " + " ".join(word if len(word) < 100 else word[:40] + "…" for word in command), file=sys.stderr, flush=True
+    )
     try:
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     except OSError as error:
@@ -40,7 +43,9 @@ class Map:
 
     def __init__(self, folder, program, again):
         self.folder, self.program = Path(folder), program
-        summary = exists(self.folder / "summary.json", "the folder of a run that has ended (roadmill transition, roadmill build)")
+        summary = exists(
+            self.folder / "summary.json", "the folder of a run that has ended (roadmill transition, roadmill build)"
+        )
         self.summary = json.loads(summary.read_text())
         self.problem = exists(f"{folder}.toml", "the problem file beside the run, as `roadmill transition` writes it")
         self.source = backbone_of(folder)
@@ -79,7 +84,7 @@ class Map:
 
     def limits(self):
         """The limit that ended the build, if one did, so that another build ends there, too."""
-        return ["--max-sets", self.summary["sets"]] if self.summary["stop"] != "done" else []
+        return ["--max-sets", self.summary["sets"]] if self.summary["stop"] != "satisfied" else []
 
     def roadmap(self):
         """The run's nodes."""

@@ -3,6 +3,7 @@
 Coordinates are arrays in Å: `(atoms, 3)` of a conformation, `(frames, atoms, 3)` of a path. Two conformations are compared by
 the root-mean-square distance of all CA after the one superposition that makes it least (W. Kabsch, Acta Cryst. A32, 1976).
 """
+
 import numpy as np
 
 # By how much a virtual bond, from one CA to the next, may be off its lengths in both crystals before the chain counts as torn, Å.

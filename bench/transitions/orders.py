@@ -4,6 +4,7 @@ The *closure* of a domain is how far its angle has gone from the problem's start
 the other still open the most, by the difference of their closures. `roadmill paths --dissimilar --count 1` looks for a path from the start to such a
 node, and for one from it to the goal; both together are a path on which that domain moves first.
 """
+
 import csv
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,4 +1,5 @@
 """The picture of a comparison: two domain angles, the map's nodes, and all paths."""
+
 import matplotlib
 
 matplotlib.use("svg")
@@ -14,23 +15,34 @@ def draw(file, names, nodes, energies, paths, others, ends):
     """
     # The same picture gives the same bytes; text stays text.
     plt.rcParams.update({"svg.hashsalt": "roadmill", "svg.fonttype": "none", "font.size": 9})
-    figure, axes = plt.subplots(figsize=(7.2, 5.6), layout="constrained")
+    figure, axes = plt.subplots(figsize=(7.2, 6.2), layout="constrained")
     # Low nodes above high ones, which are more. Dots are drawn as one bitmap: an SVG of as many circles would take megabytes.
     order = np.argsort(-energies)
     low, high = np.percentile(energies, [0, 95])
     dots = axes.scatter(
-        nodes[0][order], nodes[1][order], c=energies[order] - low, s=4, lw=0, cmap="Greys_r", vmin=-0.7 * (high - low), vmax=1.4 * (high - low), rasterized=True
+        *nodes[:, order],
+        c=energies[order] - low,
+        s=4,
+        lw=0,
+        cmap="Greys_r",
+        vmin=-0.7 * (high - low),
+        vmax=1.4 * (high - low),
+        rasterized=True,
     )
-    bar = figure.colorbar(dots, ax=axes, fraction=0.03, pad=0.01, label="energy of a node above the lowest, model kJ/mol")
+    bar = figure.colorbar(
+        dots, ax=axes, fraction=0.03, pad=0.01, label="energy of a node above the lowest, model kJ/mol"
+    )
     bar.ax.set_ylim(0, high - low)
     for k, (x, y) in enumerate(paths):
-        axes.plot(x, y, lw=1.1, marker=".", ms=3, color=plt.cm.viridis(0.1 + 0.8 * k / max(1, len(paths) - 1)), label=f"roadmill, path {k + 1}")
+        colour = plt.cm.viridis(0.1 + 0.8 * k / max(1, len(paths) - 1))
+        axes.plot(x, y, lw=1.1, marker=".", ms=3, color=colour, label=f"roadmill, path {k + 1}")
     for label, colour, (x, y) in others:
         axes.plot(x, y, lw=1.1, marker=".", ms=3, color=colour, label=label)
-    for label, (x, y) in ends:
+    for (label, (x, y)), shift in zip(ends, ((8, 8), (10, -12))):
         axes.plot(x, y, "*", ms=13, mfc="white", mec="black", zorder=5)
-        axes.annotate(label, (x, y), xytext=(8, 8), textcoords="offset points", zorder=6, bbox={"fc": "white", "ec": "none", "pad": 1, "alpha": 0.8})
+        box = {"fc": "white", "ec": "none", "pad": 1, "alpha": 0.8}
+        axes.annotate(label, (x, y), xytext=shift, textcoords="offset points", zorder=6, bbox=box)
     axes.set_xlabel(f"{names[0]} angle, degrees")
     axes.set_ylabel(f"{names[1]} angle, degrees")
-    axes.legend(loc="lower right", fontsize=8, framealpha=0.9)
-    figure.savefig(file, dpi=110, metadata={"Date": None})
+    figure.legend(loc="outside lower center", ncols=3, fontsize=8)
+    figure.savefig(file, dpi=96, metadata={"Date": None})

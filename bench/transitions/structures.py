@@ -1,4 +1,5 @@
 """Conformations out of files: crystals, paths that roadmill wrote, and the trajectory that comes with MDAnalysis."""
+
 import sys
 from dataclasses import dataclass
 from pathlib import Path
