@@ -22,7 +22,8 @@ VARIANTS = {
 def with_strategies(tables, keep):
     """The problem with the strategies alone whose labels are kept."""
     kept = [strategy for strategy in tables["strategies"] if keep(strategy["label"])]
-    image = {**tables["img"]}
+    # Short rounds, so that builds can be compared at numbers of CPU seconds and of nodes.
+    image = {**tables["img"], "sets_per_round": 4}
     if "schedule" in image:
         image["schedule"] = [label for label in image["schedule"] if keep(label)]
     return {**tables, "strategies": kept, "img": image, "evaluators": JUDGED, "limits": {}}
@@ -41,28 +42,36 @@ def ends_of(lab, name):
     return peak - column(row, "barrier ["), peak - column(row, "barrier_back")
 
 
+def measured(lab, name, run):
+    """What a roadmap has come to at its last judgement, and its best paths."""
+    at = {"nodes": run.last.nodes, "components": run.last.components, "cpu": run.last.cpu, **judged(run.last)}
+    for by in ("barrier", "cost"):
+        _, best, _ = lab.paths(run, f"{name}-by-{by}", "--by", by, "--count", "1")
+        if best:
+            at[f"barrier by {by}"] = column(best[0], "barrier [")
+            at[f"barrier back by {by}"] = column(best[0], "barrier_back")
+            at[f"cost by {by}"] = column(best[0], "cost [")
+            at[f"cost back by {by}"] = column(best[0], "cost_back")
+    return at
+
+
 def strategies(lab, asked, hydrophobic=True):
+    """Builds at equal CPU, by all strategies and by some."""
     tables = lab.transition("calmodulin", CALMODULIN)
     mark = ""
     if not hydrophobic:
         tables, mark = without_pairs(tables), "-bare"
-    rows, curve = [], []
-    for variant, keep in VARIANTS.items():
-        name = f"calmodulin{mark}-{variant.replace(' ', '-')}"
-        found = []
-        for seed in asked.seeds:
-            run = lab.build(f"{name}-{seed}", with_strategies(tables, keep), seed, cpu_limit=asked.cpu)
-            at = {"nodes": run.last.nodes, "components": run.last.components, "cpu": run.last.cpu, **judged(run.last)}
-            for by in ("barrier", "cost"):
-                _, best, _ = lab.paths(run, f"{name}-{seed}-by-{by}", "--by", by, "--count", "1")
-                if best:
-                    at[f"barrier by {by}"] = column(best[0], "barrier [")
-                    at[f"barrier back by {by}"] = column(best[0], "barrier_back")
-                    at[f"cost by {by}"] = column(best[0], "cost [")
-                    at[f"cost back by {by}"] = column(best[0], "cost_back")
-            found.append(at)
+    found, curve = {variant: [] for variant in VARIANTS}, []
+    for seed in asked.seeds:
+        for variant, keep in VARIANTS.items():
+            name = f"calmodulin{mark}-{variant.replace(' ', '-')}-{seed}"
+            run = lab.build(name, with_strategies(tables, keep), seed, cpu_limit=asked.cpu)
+            if run.rounds:
+                found[variant].append(measured(lab, name, run))
             curve += [(variant, seed, r.nodes, f"{r.cpu:.1f}", *shown(judged(r))) for r in run.rounds]
-        of = lambda key, digits=0: spread([at.get(key) for at in found], digits)
+    rows = []
+    for variant, measures in found.items():
+        of = lambda key, digits=0: spread([at.get(key) for at in measures], digits)
         rows.append(
             (variant, of("cpu", 1), of("nodes"), of("components"), of("barrier by barrier", 1), of("barrier back by barrier", 1),
              of("cost by cost"), of("cost back by cost"), of("ratio", 2), of("flow", 3), of("flow back", 3))
@@ -70,7 +79,19 @@ def strategies(lab, asked, hydrophobic=True):
     head = ["strategies", "CPU s", "nodes", "components", "barrier, kJ/mol", "back", "cost, kT", "back", "flow ratio", "flow, 1/kT", "back"]
     table(head, rows)
     print()
-    table(["strategies", "seed", "nodes", "CPU s", "highest energy, kJ/mol", "cost, kT", "flow ratio", "flow", "flow back"], curve)
+    at_nodes(found, curve)
+
+
+def at_nodes(found, curve):
+    """The same at numbers of nodes: medians over the seeds whose builds went so far."""
+    rows = []
+    for nodes in (200, 400, 800, 1600, 3200, 6400):
+        for variant in found:
+            line = [row for row in curve if row[0] == variant and row[2] == nodes]
+            if line:
+                medians = [spread([float(row[at]) for row in line if row[at] != "none"], 3 if at > 6 else 1) for at in range(3, 9)]
+                rows.append((nodes, variant, len(line), *medians))
+    table(["nodes", "strategies", "builds", "CPU s", "highest energy, kJ/mol", "cost, kT", "flow ratio", "flow, 1/kT", "back"], rows)
 
 
 def shown(at):

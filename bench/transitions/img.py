@@ -25,7 +25,10 @@ def run(lab, asked):
             while True:
                 rebuilt = lab.build(f"img-{name}-{seed}-again", {**tables, "evaluators": []}, seed, "--max-nodes", str(size))
                 costs.append(rebuilt.cpu)
-                if size >= needed:
+                if size == needed:
+                    ratio = incremental.last.verdicts[0].value
+                    break
+                if size > needed:
                     ratio = lab.go_on(incremental, {**tables, "evaluators": JUDGED}, size)
                     note(f"at {size} nodes the flow ratio is {ratio:.2f}")
                     if ratio >= RATIO or size >= 4 * needed:

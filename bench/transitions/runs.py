@@ -14,9 +14,9 @@ import subprocess
 import sys
 import time
 import tomllib
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
-from ledgers import Ledger
+from ledgers import Ledger, Round, Verdict
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PAUSE = 0.05  # seconds between two looks at a build
@@ -58,7 +58,14 @@ class Run:
     folder: str
     cpu: float
     rounds: list
-    summary: dict | None
+    summary: dict
+
+    @staticmethod
+    def known(folder, cpu, rounds, summary):
+        """A run out of what was noted of it."""
+        for round_ in rounds:
+            round_["verdicts"] = [Verdict(**verdict) for verdict in round_["verdicts"]]
+        return Run(folder, cpu, [Round(**round_) for round_ in rounds], summary)
 
     @property
     def last(self):
@@ -110,48 +117,63 @@ class Lab:
 
     def build(self, name, tables, seed, *arguments, cpu_limit=None, workers=None, before=()):
         """Builds anew; the run. `cpu_limit` ends it at so many CPU seconds, which needs a single process; `before` are words that
-        the command begins with, such as a profiler's."""
+        the command begins with, such as a profiler's. A build that was made before by the same command is not made again."""
         file, folder = self.path(f"{name}.toml"), self.path(name)
-        with open(file, "w") as opened:
-            opened.write(toml({**tables, "name": name}))
+        text = toml({**tables, "name": name})
         who = ["--workers", str(workers)] if workers else ["--threads", "1"]
-        whole = ["build", file, "--out", folder, "--seed", str(seed), *who, "--json", *arguments]
-        errors = open(self.path(f"{name}.err"), "w+")
+        whole = [*before, self.binary, "build", file, "--out", folder, "--seed", str(seed), *who, "--json", *arguments]
+        asked = {"command": whole, "problem": text, "cpu_limit": cpu_limit}
+        noted = self.path(f"{name}.json")
+        if os.path.exists(noted):
+            with open(noted) as opened:
+                known = json.load(opened)
+            if known.pop("asked") == asked:
+                return Run.known(**known)
+        with open(file, "w") as opened:
+            opened.write(text)
         if os.path.exists(os.path.join(folder, "ledger")):
             shutil.rmtree(folder)
-        process = subprocess.Popen([*before, self.binary, *whole], stdout=subprocess.PIPE, stderr=errors, text=True)
-        ledger, rounds, asked = Ledger(folder), [], False
-        os.set_blocking(process.stdout.fileno(), False)
-        told = ""
+        run = self.watched(name, whole, folder, cpu_limit)
+        with open(noted, "w") as opened:
+            json.dump({"asked": asked, **asdict(run)}, opened)
+        cpu, summary = run.cpu, run.summary
+        note(f"{name} seed {seed}: {summary['nodes']} nodes, {cpu:.1f} CPU s, {summary['stop']}")
+        return run
+
+    def watched(self, name, command, folder, cpu_limit):
+        """Runs a build and notes every judgement as it is written."""
+        output, errors = (open(self.path(f"{name}.{kind}"), "w+") for kind in ("out", "err"))
+        process = subprocess.Popen(command, stdout=output, stderr=errors)
+        ledger, rounds, is_asked_to_end = Ledger(folder), [], False
         while True:
-            pid, status, usage = os.wait4(process.pid, os.WNOHANG)
-            told += process.stdout.read() or ""
+            pid, _, usage = os.wait4(process.pid, os.WNOHANG)
             now = usage.ru_utime + usage.ru_stime if pid else cpu_of(process.pid)
-            for judged in ledger.more():
-                judged.cpu = now
-                rounds.append(judged)
+            for judged_round in ledger.more():
+                judged_round.cpu = now
+                rounds.append(judged_round)
             if pid:
                 break
-            if cpu_limit and now >= cpu_limit and not asked:
+            if cpu_limit and now >= cpu_limit and not is_asked_to_end:
                 process.send_signal(signal.SIGINT)
-                asked = True
+                is_asked_to_end = True
             time.sleep(PAUSE)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        lines = [json.loads(line) for line in told.splitlines() if line.startswith("{")]
+        process.returncode = 0  # waited for above
+        output.seek(0), errors.seek(0)
+        lines = [json.loads(line) for line in output if line.startswith("{")]
+        complaint = errors.read()
+        output.close(), errors.close()
         summary = next((line for line in lines if line["event"] == "summary"), None)
-        # 3: a limit ended it; interrupted builds have a code of their own.
-        if summary is None or not rounds:
-            errors.seek(0)
-            sys.exit(f"{name}: exit code {process.returncode}\n{errors.read()}")
-        note(f"{name} seed {seed}: {summary['nodes']} nodes, {usage.ru_utime + usage.ru_stime:.1f} CPU s, {summary['stop']}")
-        return Run(folder, usage.ru_utime + usage.ru_stime, rounds, summary)
+        # Whatever limit ended it has a summary; only a build without one has failed.
+        if summary is None:
+            sys.exit(f"{name}: {complaint}")
+        return Run(folder, now, rounds, summary)
 
     def go_on(self, run, tables, nodes):
         """Goes on with a build by other evaluators (`JUDGED`) to so many nodes; the flow ratio there."""
         name = os.path.basename(run.folder)
         file = self.path(f"{name}-on.toml")
         with open(file, "w") as opened:
-            opened.write(toml({**tables, "name": name}))
+            opened.write(toml({**tables, "name": name, "seed": run.summary["seed"]}))
         self.command("resume", run.folder, "--with", file, "--threads", "1", "--max-nodes", str(nodes), "--json", codes=(0, 3))
         ledger = Ledger(run.folder)
         ledger.more()
@@ -159,14 +181,21 @@ class Lab:
 
     def paths(self, run, name, *arguments):
         """Several paths of a run: the folder they are written to, the rows of its table, and the CPU seconds."""
-        folder = self.path(name)
-        if os.path.exists(folder):
-            for file in os.listdir(folder):
-                os.remove(os.path.join(folder, file))
+        folder, noted = self.path(name), self.path(f"{name}.json")
+        asked = [run.summary["digest"], *arguments]
+        if os.path.exists(noted):
+            with open(noted) as opened:
+                known = json.load(opened)
+            if known["asked"] == asked:
+                return folder, known["rows"], known["cpu"]
+        shutil.rmtree(folder, ignore_errors=True)
         _, cpu = self.command("paths", run.folder, "--out", folder, *arguments, codes=(0, 3))
         note(f"paths of {name}: {cpu:.1f} CPU s")
         table = os.path.join(folder, "paths.csv")
-        return folder, read_csv(table) if os.path.exists(table) else [], cpu
+        rows = read_csv(table) if os.path.exists(table) else []
+        with open(noted, "w") as opened:
+            json.dump({"asked": asked, "rows": rows, "cpu": cpu}, opened)
+        return folder, rows, cpu
 
 
 def cpu_of(pid):
