@@ -4,6 +4,7 @@
 to so many CPU seconds, and compares the roadmaps of the last rounds judged before that. `residues` looks at the best
 paths of these builds. `trend` builds once for longer and fits what the numbers do as the nodes grow.
 """
+
 import math
 import os
 
@@ -73,10 +74,33 @@ def strategies(lab, asked, hydrophobic=True):
     for variant, measures in found.items():
         of = lambda key, digits=0: spread([at.get(key) for at in measures], digits)
         rows.append(
-            (variant, of("cpu", 1), of("nodes"), of("components"), of("barrier by barrier", 1), of("barrier back by barrier", 1),
-             of("cost by cost"), of("cost back by cost"), of("ratio", 2), of("flow", 3), of("flow back", 3))
+            (
+                variant,
+                of("cpu", 1),
+                of("nodes"),
+                of("components"),
+                of("barrier by barrier", 1),
+                of("barrier back by barrier", 1),
+                of("cost by cost"),
+                of("cost back by cost"),
+                of("ratio", 2),
+                of("flow", 3),
+                of("flow back", 3),
+            )
         )
-    head = ["strategies", "CPU s", "nodes", "components", "barrier, kJ/mol", "back", "cost, kT", "back", "flow ratio", "flow, 1/kT", "back"]
+    head = [
+        "strategies",
+        "CPU s",
+        "nodes",
+        "components",
+        "barrier, kJ/mol",
+        "back",
+        "cost, kT",
+        "back",
+        "flow ratio",
+        "flow, 1/kT",
+        "back",
+    ]
     table(head, rows)
     print()
     at_nodes(found, curve)
@@ -89,14 +113,36 @@ def at_nodes(found, curve):
         for variant in found:
             line = [row for row in curve if row[0] == variant and row[2] == nodes]
             if line:
-                medians = [spread([float(row[at]) for row in line if row[at] != "none"], 3 if at > 6 else 1) for at in range(3, 9)]
+                medians = [
+                    spread([float(row[at]) for row in line if row[at] != "none"], 3 if at > 6 else 1)
+                    for at in range(3, 9)
+                ]
                 rows.append((nodes, variant, len(line), *medians))
-    table(["nodes", "strategies", "builds", "CPU s", "highest energy, kJ/mol", "cost, kT", "flow ratio", "flow, 1/kT", "back"], rows)
+    table(
+        [
+            "nodes",
+            "strategies",
+            "builds",
+            "CPU s",
+            "highest energy, kJ/mol",
+            "cost, kT",
+            "flow ratio",
+            "flow, 1/kT",
+            "back",
+        ],
+        rows,
+    )
 
 
 def shown(at):
     number = lambda value, digits: "none" if value is None or not math.isfinite(value) else f"{value:.{digits}f}"
-    return (number(at["peak"], 1), number(at["cost"], 0), number(at["ratio"], 2), number(at["flow"], 3), number(at["flow back"], 3))
+    return (
+        number(at["peak"], 1),
+        number(at["cost"], 0),
+        number(at["ratio"], 2),
+        number(at["flow"], 3),
+        number(at["flow back"], 3),
+    )
 
 
 def turned(before, after):
@@ -138,7 +184,11 @@ def residues(lab, asked):
     table(
         ["torsion", "from end to end, degrees", "way gone, degrees"],
         [
-            (f"{kind} {residue}", spread([math.degrees(t[1]) for t in turns][:per_seed], 1), spread([math.degrees(t[0]) for t in turns][:per_seed], 1))
+            (
+                f"{kind} {residue}",
+                spread([math.degrees(t[1]) for t in turns][:per_seed], 1),
+                spread([math.degrees(t[0]) for t in turns][:per_seed], 1),
+            )
             for (residue, kind), turns in farthest
         ],
     )
@@ -169,17 +219,34 @@ def trend(lab, asked):
     rows = []
     for r in shown_at:
         at = judged(r)
-        rows.append((r.nodes, r.edges, f"{r.cpu:.1f}", f"{at['peak'] - start:.1f}", f"{at['peak'] - goal:.1f}", *shown(at)[1:]))
-    table(["nodes", "edges", "CPU s", "barrier, kJ/mol", "back", "cost, kT", "flow ratio", "flow, 1/kT", "flow back"], rows)
+        rows.append(
+            (r.nodes, r.edges, f"{r.cpu:.1f}", f"{at['peak'] - start:.1f}", f"{at['peak'] - goal:.1f}", *shown(at)[1:])
+        )
+    table(
+        ["nodes", "edges", "CPU s", "barrier, kJ/mol", "back", "cost, kT", "flow ratio", "flow, 1/kT", "flow back"],
+        rows,
+    )
     print()
     later = [r for r in rounds if r.nodes >= rounds[-1].nodes / 8]
     seconds, scale = slope([(r.nodes, r.cpu) for r in later])
     rows = [("CPU s", f"{seconds:.2f}", f"{rounds[-1].cpu:.0f}", "86400", "604800")]
     ends = [(86400 / scale) ** (1 / seconds), (604800 / scale) ** (1 / seconds)]
     rows.append(("nodes", "", str(rounds[-1].nodes), *(f"{nodes:.2g}" for nodes in ends)))
-    for what, key in [("cost of the cheapest path, kT", "cost"), ("flow there, 1/kT", "flow"), ("flow back, 1/kT", "flow back"), ("flow ratio", "ratio")]:
+    for what, key in [
+        ("cost of the cheapest path, kT", "cost"),
+        ("flow there, 1/kT", "flow"),
+        ("flow back, 1/kT", "flow back"),
+        ("flow ratio", "ratio"),
+    ]:
         exponent, one = slope([(r.nodes, judged(r)[key]) for r in later])
-        rows.append((what, f"{exponent:.3f}", f"{judged(rounds[-1])[key]:.4g}", *(f"{one * nodes**exponent:.4g}" for nodes in ends)))
+        rows.append(
+            (
+                what,
+                f"{exponent:.3f}",
+                f"{judged(rounds[-1])[key]:.4g}",
+                *(f"{one * nodes**exponent:.4g}" for nodes in ends),
+            )
+        )
     table([f"over nodes {later[0].nodes} to {later[-1].nodes}", "exponent", "now", "after a day", "after a week"], rows)
 
 
@@ -195,6 +262,8 @@ def run(lab, asked):
 
 
 def options(parser):
-    parser.add_argument("part", nargs="?", default="every", choices=["strategies", "without-pairs", "residues", "trend", "every"])
+    parser.add_argument(
+        "part", nargs="?", default="every", choices=["strategies", "without-pairs", "residues", "trend", "every"]
+    )
     parser.add_argument("--cpu", type=float, default=40.0, help="CPU seconds of a build (40)")
     parser.add_argument("--long", type=float, default=300.0, help="CPU seconds of the longer build (300)")

@@ -5,6 +5,7 @@ give pairs, so a control with permuted pairs is not possible. In their place sta
 constraints alone, hydrophobic pairs alone, and of a protein with two structures the constraints of the first alone, which
 is an energy that knows nothing of the goal.
 """
+
 import math
 
 from runs import CALMODULIN, JUDGED, column, judged, spread, table
@@ -20,6 +21,7 @@ def changed(tables, energy=None, **keys):
 
 def neighbours(tables, count):
     """The problem with another number of neighbours at which new nodes are joined."""
+
     def of(strategy):
         among = strategy.get("among", {"nodes-and-components": {}})
         return {**strategy, "among": {name: {**settings, "neighbors": count} for name, settings in among.items()}}
@@ -55,18 +57,44 @@ def run(lab, asked):
         found = []
         for seed in asked.seeds:
             name = f"controls-{asked.protein}-{number}-{seed}"
-            run = lab.build(name, {**change(tables), "evaluators": JUDGED, "limits": {}}, seed, "--max-nodes", str(asked.nodes))
+            run = lab.build(
+                name, {**change(tables), "evaluators": JUDGED, "limits": {}}, seed, "--max-nodes", str(asked.nodes)
+            )
             enough = next((r.nodes for r in run.rounds if judged(r)["is enough"]), None)
             _, best, _ = lab.paths(run, f"{name}-paths", "--by", "cost", "--count", "1")
             start = column(best[0], "peak") - column(best[0], "barrier [") if best else math.nan
             at = judged(run.last)
-            found.append({**at, "enough": enough, "barrier": at["peak"] - start, "edges": run.last.edges, "cpu": run.cpu})
+            found.append(
+                {**at, "enough": enough, "barrier": at["peak"] - start, "edges": run.last.edges, "cpu": run.cpu}
+            )
         of = lambda key, digits=0: spread([at[key] for at in found], digits)
         met = sum(at["enough"] is not None for at in found)
         enough = of("enough") + (f", {met} of {len(found)}" if met < len(found) else "")
-        rows.append((variant, enough, of("barrier", 1), of("cost"), of("ratio", 2), of("flow", 3), of("flow back", 3), of("edges"), of("cpu", 1)))
+        rows.append(
+            (
+                variant,
+                enough,
+                of("barrier", 1),
+                of("cost"),
+                of("ratio", 2),
+                of("flow", 3),
+                of("flow back", 3),
+                of("edges"),
+                of("cpu", 1),
+            )
+        )
     table(
-        ["variant", "nodes until the criteria", "barrier, kJ/mol", "cost, kT", "flow ratio", "flow, 1/kT", "back", "edges", "CPU s"],
+        [
+            "variant",
+            "nodes until the criteria",
+            "barrier, kJ/mol",
+            "cost, kT",
+            "flow ratio",
+            "flow, 1/kT",
+            "back",
+            "edges",
+            "CPU s",
+        ],
         rows,
     )
 
@@ -74,4 +102,6 @@ def run(lab, asked):
 def options(parser):
     parser.add_argument("protein", nargs="?", default="chignolin", choices=["chignolin", "calmodulin"])
     parser.add_argument("--nodes", type=int, default=3200, help="nodes of a build (3200)")
-    parser.add_argument("--variants", type=int, nargs="*", help=f"which, of 0 to {len(VARIANTS) - 1}; all if none is named")
+    parser.add_argument(
+        "--variants", type=int, nargs="*", help=f"which, of 0 to {len(VARIANTS) - 1}; all if none is named"
+    )

@@ -2,6 +2,7 @@
 
 Only what the studies of transitions need is read: the ends of rounds and the judgements. Sets are passed over unread.
 """
+
 import os
 import struct
 from dataclasses import dataclass, field

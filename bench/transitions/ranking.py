@@ -5,6 +5,7 @@ Fréchet distance (Cα RMSD after superposition, Å) of their best paths is foun
 far the nearest of the other seed's five is. Which part moves first is read off the torsions: a part is midway where its
 torsions (Euclidean distance) have come half the way to their values at the goal. Needs numpy.
 """
+
 import itertools
 import math
 
@@ -62,7 +63,7 @@ def midways(folder, path, parts):
     for part, (first, last) in parts.items():
         names = [name for name in rows[0] if "_" in name and first <= int(name.split("_")[1].split()[0]) <= last]
         values = np.array([[float(row[name]) for name in names] for row in rows])
-        left = np.linalg.norm((values - values[-1] + math.pi) % (2 * math.pi) - math.pi, axis=1) / 1.0
+        left = np.linalg.norm((values - values[-1] + math.pi) % (2 * math.pi) - math.pi, axis=1)
         found[part] = shares[int(np.argmax(left <= left[0] / 2))]
     return found
 
@@ -84,7 +85,19 @@ def run(lab, asked):
             shares = (f"{middle[part]:.2f}" for part in parts)
             numbers = (f"{column(row, key):.0f}" for key in ("barrier [", "cost [", "cost_back"))
             listed.append((seed, row["path"], *numbers, f"{column(row, 'length'):.2f}", *shares, first))
-    table(["seed", "path", "barrier, kJ/mol", "cost, kT", "back", "length, Å", *(f"{part} midway at" for part in parts), "first"], listed)
+    table(
+        [
+            "seed",
+            "path",
+            "barrier, kJ/mol",
+            "cost, kT",
+            "back",
+            "length, Å",
+            *(f"{part} midway at" for part in parts),
+            "first",
+        ],
+        listed,
+    )
     print()
     between = []
     for one, other in itertools.combinations(sets, 2):
@@ -96,11 +109,32 @@ def run(lab, asked):
         pairs = [(a, b) for a, b in itertools.combinations(range(len(nearest)), 2) if nearest[a] != nearest[b]]
         agree = sum((costs[0][a] < costs[0][b]) == (costs[1][nearest[a]] < costs[1][nearest[b]]) for a, b in pairs)
         within = sum(min(line) < 1.5 for line in apart)
-        between.append((one, other, apart[0, 0], nearest[0] + 1, within, len(apart), f"{agree} of {len(pairs)}", float(np.median(apart.min(axis=1)))))
+        between.append(
+            (
+                one,
+                other,
+                apart[0, 0],
+                nearest[0] + 1,
+                within,
+                len(apart),
+                f"{agree} of {len(pairs)}",
+                float(np.median(apart.min(axis=1))),
+            )
+        )
         note(f"seeds {one} and {other}: {apart[0, 0]:.2f} Å")
     table(
-        ["seeds", "best and best, Å", "nearest to the best", "paths with one within 1.5 Å", "median of the nearest, Å", "order of costs agrees"],
-        [(f"{a}, {b}", f"{best:.2f}", f"path {near}", f"{within} of {all_}", f"{middle:.2f}", agree) for a, b, best, near, within, all_, agree, middle in between],
+        [
+            "seeds",
+            "best and best, Å",
+            "nearest to the best",
+            "paths with one within 1.5 Å",
+            "median of the nearest, Å",
+            "order of costs agrees",
+        ],
+        [
+            (f"{a}, {b}", f"{best:.2f}", f"path {near}", f"{within} of {all_}", f"{middle:.2f}", agree)
+            for a, b, best, near, within, all_, agree, middle in between
+        ],
     )
     print(f"\nbest to best: {spread([row[2] for row in between], 2)} Å")
     for path in sorted({path for path, _ in firsts}):

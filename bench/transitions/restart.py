@@ -3,6 +3,7 @@
 The same problem is built with 1, 2 and 4 workers, and once more with 2 while a worker and then the coordinator are killed
 (SIGKILL), twice; each time it is resumed. All digests have to be the same, and `verify --all` has to find nothing.
 """
+
 import json
 import os
 import signal
@@ -23,7 +24,20 @@ def children(pid):
 def killed(lab, name, file, seed, nodes):
     """Builds, killing a worker at once and the coordinator some rounds later, twice; the digest, and at which rounds."""
     folder, kills = lab.path(name), []
-    whole = ["build", file, "--out", folder, "--seed", str(seed), "--workers", "2", "--max-nodes", str(nodes), "--json", "--or-resume"]
+    whole = [
+        "build",
+        file,
+        "--out",
+        folder,
+        "--seed",
+        str(seed),
+        "--workers",
+        "2",
+        "--max-nodes",
+        str(nodes),
+        "--json",
+        "--or-resume",
+    ]
     for turn in range(3):
         process = subprocess.Popen([lab.binary, *whole], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         ledger, before = Ledger(folder), None
@@ -60,11 +74,19 @@ def run(lab, asked):
     with open(file, "w") as opened:
         opened.write(toml({**tables, "name": name}))
     last, kills = killed(lab, name, file, seed, asked.nodes)
-    rows.append((f"2 workers, one killed twice; coordinator killed after rounds {' and '.join(map(str, kills))}", last["nodes"], last["digest"]))
+    rows.append(
+        (
+            f"2 workers, one killed twice; coordinator killed after rounds {' and '.join(map(str, kills))}",
+            last["nodes"],
+            last["digest"],
+        )
+    )
     table(["build", "nodes", "digest"], rows)
     same = len({row[2] for row in rows}) == 1
     out, cpu = lab.command("verify", lab.path(name), "--all", "--threads", "1")
-    print(f"\nall the same: {'yes' if same else 'NO'}; `verify --all` of the killed one ({cpu:.1f} CPU s): {out.strip()}")
+    print(
+        f"\nall the same: {'yes' if same else 'NO'}; `verify --all` of the killed one ({cpu:.1f} CPU s): {out.strip()}"
+    )
     if not same or len(kills) != 2:
         raise SystemExit(1)
 

@@ -4,6 +4,7 @@ CPU seconds are those of the system (user and system time) of the process and of
 them. A build can be ended at a number of CPU seconds: it is watched through /proc and interrupted as by Ctrl-C, so
 its last complete round stays.
 """
+
 import csv
 import json
 import os
@@ -19,7 +20,7 @@ from dataclasses import asdict, dataclass
 from ledgers import Ledger, Round, Verdict
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-PAUSE = 0.05  # seconds between two looks at a build
+PAUSE = 0.2  # seconds between two looks at a build
 TICK = os.sysconf("SC_CLK_TCK")
 
 CALMODULIN = ("1CFD.pdb", "1CLL.pdb", ["--residues", "4-147"])
@@ -117,7 +118,8 @@ class Lab:
 
     def build(self, name, tables, seed, *arguments, cpu_limit=None, workers=None, before=()):
         """Builds anew; the run. `cpu_limit` ends it at so many CPU seconds, which needs a single process; `before` are words that
-        the command begins with, such as a profiler's. A build that was made before by the same command is not made again."""
+        the command begins with, such as a profiler's. A build that was made before by the same command is not made again.
+        """
         file, folder = self.path(f"{name}.toml"), self.path(name)
         text = toml({**tables, "name": name})
         who = ["--workers", str(workers)] if workers else ["--threads", "1"]
@@ -170,14 +172,20 @@ class Lab:
 
     def go_on(self, run, tables, nodes):
         """Goes on with a build by other evaluators (`JUDGED`) to so many nodes; the flow ratio there."""
-        name = os.path.basename(run.folder)
-        file = self.path(f"{name}-on.toml")
-        with open(file, "w") as opened:
-            opened.write(toml({**tables, "name": name, "seed": run.summary["seed"]}))
-        self.command("resume", run.folder, "--with", file, "--threads", "1", "--max-nodes", str(nodes), "--json", codes=(0, 3))
         ledger = Ledger(run.folder)
-        ledger.more()
-        return judged(ledger.rounds[-1])["ratio"]
+
+        def there():
+            ledger.more()
+            return [r for r in ledger.rounds if r.nodes >= nodes and len(r.verdicts) == len(JUDGED)]
+
+        if not there():
+            name = os.path.basename(run.folder)
+            file = self.path(f"{name}-on.toml")
+            with open(file, "w") as opened:
+                opened.write(toml({**tables, "name": name, "seed": run.summary["seed"]}))
+            limit = ["--threads", "1", "--max-nodes", str(nodes), "--json"]
+            self.command("resume", run.folder, "--with", file, *limit, codes=(0, 3))
+        return judged(there()[0])["ratio"]
 
     def paths(self, run, name, *arguments):
         """Several paths of a run: the folder they are written to, the rows of its table, and the CPU seconds."""

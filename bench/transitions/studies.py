@@ -6,6 +6,7 @@
 docs/transition-studies.md says what came of them. Every build is one process and one thread where nothing else is said, and
 CPU seconds are the system's (user and system), not wall time. `ranking` needs numpy, the others nothing but Python 3.11 or later.
 """
+
 import argparse
 import os
 import sys
@@ -50,7 +51,9 @@ def main():
     data = os.environ.get("ROADMILL_DATA")
     if not data:
         sys.exit("ROADMILL_DATA: not set; the folder with `structures` expected")
-    STUDIES[asked.study].run(Lab(os.path.abspath(asked.binary), os.path.abspath(data), os.path.abspath(asked.out)), asked)
+    STUDIES[asked.study].run(
+        Lab(os.path.abspath(asked.binary), os.path.abspath(data), os.path.abspath(asked.out)), asked
+    )
 
 
 main()

@@ -4,6 +4,7 @@
 each, of other seeds, take turns, so that drifts of the machine meet both; what counts are nodes per CPU second and,
 where nothing else runs, nodes per second.
 """
+
 import json
 import statistics
 import subprocess
@@ -28,7 +29,15 @@ def alone(lab, asked):
         of = lambda at, digits=0: spread([row[at] for row in found], digits)
         rows.append((protein, asked.nodes, of(0), of(1), of(2), of(3), of(4, 1)))
     table(
-        ["protein", "nodes", "nodes kept per CPU s", "edges", "configurations asked about", "motions asked about", "nodes of configurations, %"],
+        [
+            "protein",
+            "nodes",
+            "nodes kept per CPU s",
+            "edges",
+            "configurations asked about",
+            "motions asked about",
+            "nodes of configurations, %",
+        ],
         rows,
     )
 
@@ -60,9 +69,27 @@ def pairs(lab, asked):
             rates["two builds"].append((nodes / sum(run.cpu for run in both), nodes / wall))
         by = list(zip(rates["two workers"], rates["two builds"]))
         ratio = lambda which: spread([one[which] / two[which] for one, two in by], 3)
-        rows.append((protein, asked.nodes, *(spread([r[0] for r in of]) for of in rates.values()), ratio(0), *(spread([r[1] for r in of]) for of in rates.values()), ratio(1)))
+        rows.append(
+            (
+                protein,
+                asked.nodes,
+                *(spread([r[0] for r in of]) for of in rates.values()),
+                ratio(0),
+                *(spread([r[1] for r in of]) for of in rates.values()),
+                ratio(1),
+            )
+        )
     table(
-        ["protein", "nodes", "two workers, nodes per CPU s", "two builds", "ratio", "two workers, nodes per s", "two builds", "ratio"],
+        [
+            "protein",
+            "nodes",
+            "two workers, nodes per CPU s",
+            "two builds",
+            "ratio",
+            "two workers, nodes per s",
+            "two builds",
+            "ratio",
+        ],
         rows,
     )
 
@@ -72,9 +99,18 @@ def profile(lab, asked):
     for protein in asked.proteins:
         tables = {**problem_of(lab, protein), "evaluators": []}
         file = lab.path("profile.data")
-        lab.build(f"profile-{protein}", tables, asked.seeds[0], "--max-nodes", str(asked.nodes), before=["perf", "record", "-q", "-e", "cpu-clock", "-F", "199", "-o", file])
+        lab.build(
+            f"profile-{protein}",
+            tables,
+            asked.seeds[0],
+            "--max-nodes",
+            str(asked.nodes),
+            before=["perf", "record", "-q", "-e", "cpu-clock", "-F", "199", "-o", file],
+        )
         report = subprocess.run(
-            ["perf", "report", "-i", file, "--stdio", "--percent-limit", "1", "--sort", "symbol"], capture_output=True, text=True
+            ["perf", "report", "-i", file, "--stdio", "--percent-limit", "1", "--sort", "symbol"],
+            capture_output=True,
+            text=True,
         )
         print(f"{protein}:")
         print("\n".join(line for line in report.stdout.splitlines() if line and not line.startswith("#")))
@@ -86,5 +122,7 @@ def run(lab, asked):
 
 def options(parser):
     parser.add_argument("part", nargs="?", default="alone", choices=["alone", "pairs", "profile"])
-    parser.add_argument("--proteins", nargs="*", default=["calmodulin", "kinase"], help="chignolin, calmodulin, kinase (the last two)")
+    parser.add_argument(
+        "--proteins", nargs="*", default=["calmodulin", "kinase"], help="chignolin, calmodulin, kinase (the last two)"
+    )
     parser.add_argument("--nodes", type=int, default=3200, help="nodes of a build (3200)")
