@@ -11,10 +11,15 @@ import math
 
 import numpy as np
 
+import calmodulin
 from img import problem_of
 from runs import column, note, read_csv, spread, table
 
 FAST = ["--count", "5", "--dissimilar", "--tries", "6", "--shorten-tries", "20", "--format", "csv,pdb"]
+
+# Shares of a path's length that differ by less count as the same.
+TOGETHER = 0.02
+BEST = ["--count", "1", "--by", "cost", "--format", "csv,pdb"]
 
 PARTS = {
     "chignolin": {"1–5": (1, 5), "6–10": (6, 10)},
@@ -64,26 +69,37 @@ def midways(folder, path, parts):
         names = [name for name in rows[0] if "_" in name and first <= int(name.split("_")[1].split()[0]) <= last]
         values = np.array([[float(row[name]) for name in names] for row in rows])
         left = np.linalg.norm((values - values[-1] + math.pi) % (2 * math.pi) - math.pi, axis=1)
-        found[part] = shares[int(np.argmax(left <= left[0] / 2))]
+        after = int(np.argmax(left <= left[0] / 2))
+        # Between two configurations torsions turn evenly; what is left of the way is taken to shrink evenly, too.
+        passed = (left[after - 1] - left[0] / 2) / (left[after - 1] - left[after])
+        found[part] = shares[after - 1] + passed * (shares[after] - shares[after - 1])
     return found
 
 
 def run(lab, asked):
+    if asked.best and asked.protein != "calmodulin":
+        raise SystemExit("--best: calmodulin expected")
     parts = PARTS[asked.protein]
     tables, sets = problem_of(lab, asked.protein), {}
     for seed in asked.seeds:
         name = f"ranking-{asked.protein}-{seed}"
-        built = lab.build(name, tables, seed, "--max-nodes", str(asked.most))
-        folder, rows, _ = lab.paths(built, f"{name}-paths", *FAST)
+        if asked.best:
+            problem = calmodulin.with_strategies(tables, calmodulin.VARIANTS["all"])
+            built = lab.build(f"calmodulin-all-{seed}", problem, seed, cpu_limit=asked.best)
+            how = BEST
+        else:
+            built, how = lab.build(name, tables, seed, "--max-nodes", str(asked.most)), FAST
+        folder, rows, _ = lab.paths(built, f"{name}-paths", *how)
         sets[seed] = folder, rows, [frames_of(f"{folder}/path-{row['path']}.pdb") for row in rows]
     listed, firsts = [], []
     for seed, (folder, rows, _) in sets.items():
         for row in rows:
             middle = midways(folder, row["path"], parts)
-            first = min(middle, key=middle.get)
+            first, second = sorted(parts, key=middle.get)[:2]
+            first = first if middle[second] - middle[first] >= TOGETHER else "together"
             firsts.append((row["path"], first))
             shares = (f"{middle[part]:.2f}" for part in parts)
-            numbers = (f"{column(row, key):.0f}" for key in ("barrier [", "cost [", "cost_back"))
+            numbers = (f"{column(row, key):.1f}" for key in ("barrier [", "cost [", "cost_back"))
             listed.append((seed, row["path"], *numbers, f"{column(row, 'length'):.2f}", *shares, first))
     table(
         [
@@ -105,7 +121,7 @@ def run(lab, asked):
         apart = np.array([[frechet(a, b) for b in right[2]] for a in left[2]])
         costs = [[column(row, "cost [") for row in of[1]] for of in (left, right)]
         nearest = [int(np.argmin(line)) for line in apart]
-        # Of pairs of paths with nearest ones that differ: whether the cheaper one's nearest is the cheaper one, too.
+        # Of each two paths with nearest ones that differ: whether the cheaper one's nearest is the cheaper one, too.
         pairs = [(a, b) for a, b in itertools.combinations(range(len(nearest)), 2) if nearest[a] != nearest[b]]
         agree = sum((costs[0][a] < costs[0][b]) == (costs[1][nearest[a]] < costs[1][nearest[b]]) for a, b in pairs)
         within = sum(min(line) < 1.5 for line in apart)
@@ -139,9 +155,15 @@ def run(lab, asked):
     print(f"\nbest to best: {spread([row[2] for row in between], 2)} Å")
     for path in sorted({path for path, _ in firsts}):
         of = [first for which, first in firsts if which == path]
-        print(f"path {path}: first " + ", ".join(f"{part} {of.count(part)}" for part in parts if part in of))
+        print(f"path {path}: first " + ", ".join(f"{part} {of.count(part)}" for part in [*parts, "together"] if part in of))
 
 
 def options(parser):
     parser.add_argument("protein", nargs="?", default="chignolin", choices=list(PARTS))
     parser.add_argument("--most", type=int, default=40_000, help="nodes of a build at most (40000)")
+    parser.add_argument(
+        "--best",
+        type=float,
+        metavar="CPU",
+        help="of calmodulin only the cheapest path, of the builds that `calmodulin strategies --cpu CPU` makes",
+    )
