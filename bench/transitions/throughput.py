@@ -20,7 +20,7 @@ def alone(lab, asked):
     for protein in asked.proteins:
         tables, found = {**problem_of(lab, protein), "evaluators": []}, []
         for seed in asked.seeds:
-            run = lab.build(f"throughput-{protein}", tables, seed, "--max-nodes", str(asked.nodes))
+            run = lab.build(f"throughput-{protein}-{seed}", tables, seed, "--max-nodes", str(asked.nodes))
             sets = [json.loads(line) for line in lab.command("log", run.folder, "--json")[0].splitlines()]
             total = lambda key: sum(line[key] for line in sets)
             checked = total("configurations_checked"), total("motions_checked")
@@ -50,13 +50,13 @@ def pairs(lab, asked):
         build = lambda name, seed, workers: lab.build(name, tables, seed, *limit, workers=workers)
         for seed in asked.seeds:
             begun = time.monotonic()
-            run = build(f"pair-{protein}-0", seed, 2)
+            run = build(f"pair-{protein}-{seed}", seed, 2)
             wall = time.monotonic() - begun
             rates["two workers"].append((run.summary["nodes"] / run.cpu, run.summary["nodes"] / wall))
             both = [None, None]
 
             def one(at):
-                both[at] = build(f"pair-{protein}-{at + 1}", seed + 100 * (at + 1), 1)
+                both[at] = build(f"pair-{protein}-{seed}-{at + 1}", seed + 100 * (at + 1), 1)
 
             threads = [threading.Thread(target=one, args=(at,)) for at in range(2)]
             begun = time.monotonic()
