@@ -44,7 +44,10 @@ def ends_of(lab, name):
 
 
 def measured(lab, name, run):
-    """What a roadmap has come to at its last judgement, and its best paths."""
+    """What a roadmap has come to at its last judgement, and its best paths.
+
+    Where the build was interrupted between a round and its judgement, the paths are out of a roadmap that has that round, too.
+    """
     at = {"nodes": run.last.nodes, "components": run.last.components, "cpu": run.last.cpu, **judged(run.last)}
     for by in ("barrier", "cost"):
         _, best, _ = lab.paths(run, f"{name}-by-{by}", "--by", by, "--count", "1")

@@ -155,7 +155,10 @@ def run(lab, asked):
     print(f"\nbest to best: {spread([row[2] for row in between], 2)} Å")
     for path in sorted({path for path, _ in firsts}):
         of = [first for which, first in firsts if which == path]
-        print(f"path {path}: first " + ", ".join(f"{part} {of.count(part)}" for part in [*parts, "together"] if part in of))
+        print(
+            f"path {path}: first "
+            + ", ".join(f"{part} {of.count(part)}" for part in [*parts, "together"] if part in of)
+        )
 
 
 def options(parser):
