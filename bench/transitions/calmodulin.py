@@ -65,9 +65,10 @@ def strategies(lab, asked, hydrophobic=True):
     mark = ""
     if not hydrophobic:
         tables, mark = without_pairs(tables), "-bare"
-    found, curve = {variant: [] for variant in VARIANTS}, []
+    variants = {variant: keep for variant, keep in VARIANTS.items() if variant in asked.only}
+    found, curve = {variant: [] for variant in variants}, []
     for seed in asked.seeds:
-        for variant, keep in VARIANTS.items():
+        for variant, keep in variants.items():
             name = f"calmodulin{mark}-{variant.replace(' ', '-')}-{seed}"
             run = lab.build(name, with_strategies(tables, keep), seed, cpu_limit=asked.cpu)
             if run.rounds:
@@ -268,5 +269,6 @@ def options(parser):
     parser.add_argument(
         "part", nargs="?", default="every", choices=["strategies", "without-pairs", "residues", "trend", "every"]
     )
+    parser.add_argument("--only", nargs="+", default=list(VARIANTS), choices=list(VARIANTS), help="which strategies")
     parser.add_argument("--cpu", type=float, default=40.0, help="CPU seconds of a build (40)")
     parser.add_argument("--long", type=float, default=300.0, help="CPU seconds of the longer build (300)")
