@@ -215,7 +215,13 @@ def main():
             along = np.array([angle(frame, ranges.split("/")) for frame in frames])
             middle = (along[0] + along[-1]) / 2
             crossed = np.nonzero((along[:-1] - middle) * (along[1:] - middle) <= 0)[0]
-            midways += f" {share[crossed[0]]:.2f} |" if len(crossed) else " never |"
+            if len(crossed):
+                # Between two frames the angle is taken to be linear.
+                k, turned = crossed[0], along[crossed[0] + 1] - along[crossed[0]]
+                part = (middle - along[k]) / turned if turned else 0.0
+                midways += f" {share[k] + part * (share[k + 1] - share[k]):.2f} |"
+            else:
+                midways += " never |"
         barrier = max(energies) - energies[0]
         most = max(positive_phi(frame) for frame in frames)
         of_ends = max(positive_phi(frames[0]), positive_phi(frames[-1]))
@@ -233,4 +239,5 @@ def main():
     sys.exit(1 if bad else 0)
 
 
-main()
+if __name__ == "__main__":
+    main()
