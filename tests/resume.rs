@@ -15,8 +15,18 @@ use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
 
-const PROBLEMS: [&str; 8] =
-    ["judged", "settled", "meshes", "slide", "adaptive", "axis", "landscape", "expansion"];
+const PROBLEMS: [&str; 10] = [
+    "judged",
+    "settled",
+    "meshes",
+    "slide",
+    "adaptive",
+    "axis",
+    "landscape",
+    "expansion",
+    "growth",
+    "directions",
+];
 
 fn load(name: &str) -> Problem {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems");

@@ -68,6 +68,7 @@ fn a_disturbed_build_in_an_energy_comes_to_the_same() {
 #[test]
 fn a_disturbed_build_of_sets_that_grow_comes_to_the_same() {
     disturbed_builds_come_to_the_same("expansion");
+    disturbed_builds_come_to_the_same("growth");
 }
 
 fn generate(scratch: &Scratch, sets: &str, out: &str) -> Done {

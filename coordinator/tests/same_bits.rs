@@ -239,6 +239,12 @@ fn same_bits_for_sets_that_grow_from_the_roadmap() {
 }
 
 #[test]
+fn same_bits_for_trees_and_graphs_that_grow_by_steps() {
+    processes_build_what_threads_build("growth");
+    processes_build_what_threads_build("directions");
+}
+
+#[test]
 fn same_bits_for_a_turning_body_and_a_mesh() {
     same_bits_however_built(&RIGID_3D);
 }
