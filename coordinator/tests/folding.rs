@@ -49,6 +49,19 @@ fn a_hairpin_folds_in_one_command_whoever_works() {
         line.split_whitespace().last().and_then(|at| at.parse::<f64>().ok()).expect("a number")
     };
     assert!(formed_at("0.2") < formed_at("1"));
+
+    // The run's own criterion is found within another, too: here every conformation is unstructured.
+    let problem = fs::read_to_string(scratch.path("one.toml")).expect("it is written");
+    let (before, _) = problem.split_once("[[evaluators]]").expect("it has a criterion");
+    let within = "[[evaluators]]\nall = [{ formation-order = { unstructured = 10 } }]\n";
+    scratch.write("within.toml", &format!("{before}{within}"));
+    scratch.build("within", &["within.toml", "--max-sets", "10", "--threads", "1"], 3);
+    let done = scratch.run(&["orders", "within"]);
+    done.assert_code(0);
+    assert!(done.stdout.contains("at most 10 of 10 native contacts"), "{}", done.stdout);
+    // Objects alone are for programs to read.
+    let (_, said) = fold("json", &["--threads", "1", "--json"]);
+    assert!(!said.contains("pathways to"), "{said}");
 }
 
 #[test]
@@ -75,6 +88,12 @@ fn what_cannot_be_said_is_an_error() {
         done.assert_code(2);
         assert!(done.stderr.contains("above 0, at most 1"), "{}", done.stderr);
     }
+    // Four residues are no helix and no strand.
+    let part = ["fold", "native.pdb", "--residues", "1-4", "--out", "part"];
+    let done = scratch.run(&part);
+    done.assert_code(2);
+    assert!(done.stderr.contains("without helices and strands"), "{}", done.stderr);
+    assert!(!scratch.path("part.toml").exists(), "no problem is left");
     // A robot has no native structure, and neither has one an order.
     let maze = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/maze.toml");
     scratch.build("maze", &[maze, "--threads", "1"], 0);

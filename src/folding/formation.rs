@@ -26,6 +26,13 @@ pub struct Settings {
     pub unstructured: u32,
 }
 
+impl Settings {
+    /// The share from which on a part is formed, as text: `60 %`.
+    pub fn formed_percent(&self) -> String {
+        format!("{} %", (self.formed * 1e8).round() / 1e6)
+    }
+}
+
 impl Default for Settings {
     /// 60 %, and no contact: S. Nath 2013, §5.3; the share is that of N. M. Amato & G. Song 2002.
     fn default() -> Settings {
@@ -245,7 +252,8 @@ impl AtFrame {
         };
         let parts = native.parts.iter().map(|part| {
             let there = part.contacts.iter().filter(|at| kept[**at as usize]).count();
-            there as f64 >= settings.formed * part.contacts.len() as f64
+            // 0.55 times 20 is a little more than 11 in binary numbers.
+            there as f64 >= settings.formed * part.contacts.len() as f64 - 1e-9
         });
         let all = parts.chain(kept.iter().copied()).enumerate();
         AtFrame { depth, since: all.map(|(index, is_there)| since(index, is_there)).collect() }

@@ -2,7 +2,7 @@ use super::growth::{
     Aim, Complaints, Exploration, GrowingSet, GrowingTree, NeighborCount, calibrated,
     default_attempts, default_goal_bias, explore, needs_root, root, step_of,
 };
-use super::{Generator, Reads};
+use super::{ATTEMPTS_MAX, Generator, Reads};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -133,7 +133,7 @@ impl Generator for Mrrg {
             .or_else(|| Complaints::of_goal_bias(self.goal_bias))
             .or_else(|| of_directions("directions", self.directions))
             .or_else(|| of_directions("trials", self.trials))
-            .or_else(|| Complaints::of_count("attempts", self.attempts))
+            .or_else(|| Complaint::of_attempts(self.attempts, ATTEMPTS_MAX))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

@@ -2,7 +2,7 @@ use super::growth::{
     Aim, Complaints, Exploration, GrowingSet, GrowingTree, NeighborCount, calibrated,
     default_attempts, default_goal_bias, explore, needs_root, root, step_of,
 };
-use super::{Generator, Reads};
+use super::{ATTEMPTS_MAX, Generator, Reads};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -91,7 +91,7 @@ impl Generator for Rrg {
         Complaints::of_step(self.step)
             .or_else(|| Complaints::of_goal_bias(self.goal_bias))
             .or_else(|| is_none.then(|| Complaint::new("neighbors", "0", "\"auto\" or at least 1")))
-            .or_else(|| Complaints::of_count("attempts", self.attempts))
+            .or_else(|| Complaint::of_attempts(self.attempts, ATTEMPTS_MAX))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

@@ -2,7 +2,7 @@ use super::growth::{
     Complaints, Exploration, Extension, GrowingSet, GrowingTree, calibrated, default_attempts,
     explore, needs_query, step_of,
 };
-use super::{Generator, Reads};
+use super::{ATTEMPTS_MAX, Generator, Reads};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -86,7 +86,8 @@ impl Generator for RrtConnect {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        Complaints::of_step(self.step).or_else(|| Complaints::of_count("attempts", self.attempts))
+        Complaints::of_step(self.step)
+            .or_else(|| Complaint::of_attempts(self.attempts, ATTEMPTS_MAX))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

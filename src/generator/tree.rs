@@ -1,8 +1,8 @@
-use super::Generator;
 use super::growth::{
     Complaints, Exploration, GrowingSet, GrowingTree, calibrated, default_attempts, explore,
     step_of,
 };
+use super::{ATTEMPTS_MAX, Generator};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -87,7 +87,7 @@ impl Generator for Tree {
         let of_sampler = self.sampler.method().complaint();
         of_sampler
             .or_else(|| Complaints::of_step(self.step))
-            .or_else(|| Complaints::of_count("attempts", self.attempts))
+            .or_else(|| Complaint::of_attempts(self.attempts, ATTEMPTS_MAX))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

@@ -11,7 +11,7 @@ use std::path::Path;
 /// writes a page about it.
 pub fn fold(arguments: &FoldArguments) -> Result<Code, Failure> {
     let FoldArguments { file, chain, job } = arguments;
-    let job = Job::begin(job)?;
+    let (is_json, job) = (job.growth.json, Job::begin(job)?);
     let problem = folding(&name_of(&job.file), Path::new(""), &spec_of(file, chain));
     let comment = "# Written by `roadmill fold`.\n";
     job.carry_out(
@@ -19,7 +19,10 @@ pub fn fold(arguments: &FoldArguments) -> Result<Code, Failure> {
         comment,
         || (),
         |run, page| {
-            orders::say(run)?;
+            // With --json standard output is for the objects alone.
+            if !is_json {
+                orders::say(run)?;
+            }
             let search = SearchArguments::usual(Vec::new());
             report_on(
                 run,

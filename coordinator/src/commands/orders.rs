@@ -21,16 +21,14 @@ pub fn orders(arguments: &OrdersArguments) -> Result<Code, Failure> {
     }
     let formation = formation(&run, &native, &settings);
     print(&run, &native, &settings, &formation);
+    if formation.pathways == 0 {
+        let message = "no pathway: no route joins an unstructured conformation to the native one";
+        return Err(Failure::new(Code::NoSuccess, message.to_owned()));
+    }
     if let Some(folder) = &arguments.out {
         write(&native, &formation, folder)?;
     }
-    match formation.pathways {
-        0 => Err(Failure::new(
-            Code::NoSuccess,
-            "no pathway: no route joins an unstructured conformation to the native one".to_owned(),
-        )),
-        _ => Ok(Code::Done),
-    }
+    Ok(Code::Done)
 }
 
 /// # Errors
@@ -55,22 +53,28 @@ pub(super) fn say(run: &Recorded) -> Result<(), Failure> {
     Ok(())
 }
 
-/// How the parts of the native structure form by the run's own criterion.
-pub(super) fn usual_formation(run: &Recorded, native: &Native) -> Formation {
-    formation(run, native, &settings(run, &FormationArguments::default()))
+/// How the parts of the native structure form by the run's own criterion, which comes with it.
+pub(super) fn usual_formation(run: &Recorded, native: &Native) -> (Settings, Formation) {
+    let settings = settings(run, &FormationArguments::default());
+    (settings, formation(run, native, &settings))
 }
 
 /// What is asked for, or else what the run's criterion has.
 fn settings(run: &Recorded, asked: &FormationArguments) -> Settings {
-    let of_run = run.problem().evaluators().iter().find_map(|evaluator| match evaluator {
-        EvaluatorKind::FormationOrder(order) => Some(FormationOrder::settings(order)),
-        _ => None,
-    });
+    let of_run = criterion(run.problem().evaluators());
     let usual = of_run.unwrap_or_default();
     Settings {
         formed: asked.formed.unwrap_or(usual.formed),
         unstructured: asked.unstructured.unwrap_or(usual.unstructured),
     }
+}
+
+/// The settings of the first criterion of this kind, be it a part of another.
+fn criterion(evaluators: &[EvaluatorKind]) -> Option<Settings> {
+    evaluators.iter().find_map(|evaluator| match evaluator {
+        EvaluatorKind::FormationOrder(order) => Some(FormationOrder::settings(order)),
+        other => criterion(other.method().parts()),
+    })
 }
 
 fn formation(run: &Recorded, native: &Native, settings: &Settings) -> Formation {
@@ -87,8 +91,8 @@ fn print(run: &Recorded, native: &Native, settings: &Settings, formation: &Forma
         native.contacts.len()
     ));
     line(format_args!(
-        "a part is formed when {} % of its contacts are there and stay",
-        100.0 * settings.formed
+        "a part is formed when {} of its contacts are there and stay",
+        settings.formed_percent()
     ));
     if formation.pathways == 0 {
         return;

@@ -10,7 +10,7 @@ use crate::signals::Signals;
 use crate::work::{Recorded, Run};
 use roadmill::Ends;
 use roadmill::export::{Folding, Report, report as page};
-use roadmill::folding::{Formation, Native, examples};
+use roadmill::folding::{Formation, Native, Settings, examples};
 use roadmill::model::Scratch;
 use roadmill::pathways::{Pathways, Rank, SPACING};
 
@@ -55,10 +55,11 @@ pub(super) fn report_on(
             pathways: &shown.pathways,
             asked: &shown.asked,
             angles: &arguments.search.angles,
-            folding: shown
-                .folding
-                .as_ref()
-                .map(|(native, formation)| Folding { native, formation }),
+            folding: shown.folding.as_ref().map(|(native, settings, formation)| Folding {
+                native,
+                settings,
+                formation,
+            }),
             rounds: run.rounds(),
             program: &run.program(),
             end,
@@ -87,7 +88,7 @@ struct Shown {
     pathways: Pathways,
     /// How the paths were looked for, in words.
     asked: String,
-    folding: Option<(Native, Formation)>,
+    folding: Option<(Native, Settings, Formation)>,
 }
 
 /// The paths between the ends that are asked for or that the problem has; of a protein about a native structure, without any
@@ -133,7 +134,7 @@ fn shown_of_folding(
     arguments: &ReportArguments,
 ) -> Result<Shown, Failure> {
     let (cx, scratch) = (run.context(), &mut Scratch::new());
-    let formation = usual_formation(run, &native);
+    let (settings, formation) = usual_formation(run, &native);
     let spacing = arguments.search.spacing.unwrap_or(SPACING);
     let (count, attachment) = (arguments.search.count as usize, run.problem().attachment());
     let asked = (count, spacing);
@@ -141,10 +142,11 @@ fn shown_of_folding(
     let pathways = found.map_err(|error| Failure::usage(format!("--spacing: {error}")))?;
     let in_words = format!(
         "One pathway for each of the {count} most frequent orders of the helices and strands, the one that costs least: from an \
-         unstructured conformation, which is another for each, to the native one. {} found.",
+         unstructured conformation, which is another for each, to the native one. {} found. Below, the start, or A, is where the first of them \
+         begins in the map and in what is said of the ends, and where each of them begins in what is shown along it.",
         pathways.pathways.len()
     );
     let first = pathways.pathways.first().and_then(|first| first.path.configs.iter().next());
     let ends = Ends { start: first.unwrap_or(&native.q).to_vec(), goal: native.q.clone() };
-    Ok(Shown { ends, pathways, asked: in_words, folding: Some((native, formation)) })
+    Ok(Shown { ends, pathways, asked: in_words, folding: Some((native, settings, formation)) })
 }

@@ -2,7 +2,7 @@
 
 use super::super::markup::escaped;
 use super::Report;
-use crate::folding::{Formation, Native, Order};
+use crate::folding::{Formation, Native, Order, Settings};
 use std::fmt::Write;
 
 /// So many orders are listed.
@@ -18,21 +18,28 @@ const EDGE: f64 = 10.0;
 pub struct Folding<'a> {
     /// The native structure.
     pub native: &'a Native,
+    /// What counts as formed, and what as unstructured.
+    pub settings: &'a Settings,
     /// How its parts form.
     pub formation: &'a Formation,
 }
 
 /// The section of orders and contact maps; empty where nothing is known of folding.
 pub(super) fn section(report: &Report) -> String {
-    let Some(Folding { native, formation }) = report.folding else { return String::new() };
+    let Some(Folding { native, settings, formation }) = report.folding else {
+        return String::new();
+    };
     let mut html =
         String::from("<section id=\"folding\"><h2>In which order the structure forms</h2>\n");
     writeln!(
         html,
-        "<p>{} pathways, one from each unstructured conformation of the roadmap to the native one, by the least cost. A helix, a strand \
-         or a pairing of two counts as formed where a share of its native contacts is there and stays until the end; parts in brackets form at the \
-         same frame of a pathway. Contacts: Cα at most 7 Å apart, of residues at least four places apart along the chain.</p>",
-        formation.pathways
+        "<p>A pathway leads from every conformation with at most {} of the {} native contacts, if any route joins it to the native one, by the \
+         least cost: {} pathways. A helix, a strand or a pairing of two is formed from where on {} of its native contacts are there and stay until the end; \
+         parts in brackets form at the same frame of a pathway. Contacts: Cα at most 7 Å apart, of residues at least four places apart along the chain.</p>",
+        settings.unstructured,
+        native.contacts.len(),
+        formation.pathways,
+        settings.formed_percent(),
     )
     .expect("memory");
     if formation.pathways == 0 {
@@ -50,7 +57,7 @@ pub(super) fn section(report: &Report) -> String {
 
 /// The most frequent orders with their shares.
 fn orders(report: &Report, title: &str, orders: &[Order]) -> String {
-    let Some(Folding { native, formation }) = report.folding else { return String::new() };
+    let Some(Folding { native, formation, .. }) = report.folding else { return String::new() };
     if orders.first().is_none_or(|order| order.groups.is_empty()) {
         return String::new();
     }

@@ -180,8 +180,10 @@ impl<'a> GrowingSet<'a> {
         let mut q = toward.to_vec();
         if !is_there {
             self.cx.space.interpolate(start, toward, self.step / from.distance, &mut q);
-            // A step can be too short to move anything.
-            if self.cx.space.canonicalize(&mut q).is_err() || q == start {
+            // A step can be too short to move anything, or, of rotations, to move anything by what was asked.
+            if self.cx.space.canonicalize(&mut q).is_err()
+                || self.cx.space.distance(start, &q) < 0.5 * self.step
+            {
                 return Extension::Trapped;
             }
         }

@@ -120,11 +120,6 @@ impl Complaints {
         let is_sound = (0.0..1.0).contains(&goal_bias);
         (!is_sound).then(|| Complaint::new("goal_bias", goal_bias, "at least 0, less than 1"))
     }
-
-    /// Of a setting that says how many, at least one.
-    pub fn of_count(key: &'static str, count: u64) -> Option<Complaint> {
-        (count == 0).then(|| Complaint::new(key, "0", "at least 1"))
-    }
 }
 
 #[cfg(test)]

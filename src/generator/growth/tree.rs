@@ -32,7 +32,7 @@ impl<'a> GrowingTree<'a> {
     ///
     /// Where none does, one set of its label makes the configuration a milestone, which then is the tree: the first set, or,
     /// where sets are too small to hold all the configurations, the first that has room. The tree of any other set
-    /// begins at the configuration and leaves it to that set to make it a node, so that none comes twice: what
+    /// begins at the configuration and leaves it to that set to make it a node, so that it comes once per strategy: what
     /// grows from there hangs at no node, and is joined to the rest by the connection among sets.
     pub fn of<const N: usize>(
         set: &mut GrowingSet<'a>,
