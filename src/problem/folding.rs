@@ -39,6 +39,9 @@ const DIRECTIONS: u32 = 7;
 /// cheap enough for.
 const NEIGHBORS: u32 = 5;
 
+/// The most extensions tried for one milestone: of a large protein that has grown into a corner hardly any is valid.
+const ATTEMPTS: u64 = 1_000_000;
+
 /// A pathway begins where at most one native contact in so many is there. Random conformations of a chain have one or the other by
 /// chance, mostly within helices.
 const CONTACTS_FOR_ONE: usize = 20;
@@ -101,6 +104,7 @@ fn grown(step: f64) -> StrategySpec {
         step: Some(step),
         directions: DIRECTIONS,
         neighbors: NeighborCount::Fixed(NEIGHBORS),
+        attempts: ATTEMPTS,
         ..Mrrg::default()
     };
     let among = AmongKind::Neighbors(Neighbors::default());
