@@ -1,6 +1,6 @@
 use super::growth::{
-    Aim, Complaints, Exploration, GrowingSet, GrowingTree, NeighborCount, calibrated,
-    default_attempts, default_goal_bias, explore, needs_root, root, step_of,
+    Complaints, Exploration, GrowingSet, NeighborCount, calibrated, default_attempts,
+    default_goal_bias, grow_from_root, needs_root, step_of,
 };
 use super::{ATTEMPTS_MAX, Generator, Reads};
 use crate::context::Context;
@@ -65,17 +65,13 @@ impl Generator for Rrg {
         scratch: &mut Scratch,
     ) -> Result<Increment, GaveUp> {
         // What is refused in a problem file can still come in bytes.
-        let Some(root) = root(cx).filter(|_| self.complaint().is_none()) else {
+        if self.complaint().is_some() {
             return Err(GaveUp { attempts: 0 });
-        };
+        }
         let limits = (step_of(self.step, &cx.space), self.attempts);
-        let mut set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
-        let [mut tree] = GrowingTree::of(&mut set, seed, [root]);
-        let query = cx.query.as_ref();
-        let aim = query.map(|query| Aim { goal: &query.goal[..], bias: self.goal_bias });
+        let set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
         let graph = Exploration { neighbors: Some(self.neighbors), directions: 1, trials: 1 };
-        explore(&mut set, &mut tree, aim, &graph)?;
-        Ok(set.made)
+        grow_from_root(set, seed, self.goal_bias, &graph)
     }
 
     fn reads_query(&self) -> bool {

@@ -1,6 +1,6 @@
 use super::growth::{
-    Aim, Complaints, Exploration, GrowingSet, GrowingTree, calibrated, default_attempts,
-    default_goal_bias, explore, needs_root, root, step_of,
+    Complaints, Exploration, GrowingSet, calibrated, default_attempts, default_goal_bias,
+    grow_from_root, needs_root, step_of,
 };
 use super::{ATTEMPTS_MAX, Generator, Reads};
 use crate::context::Context;
@@ -65,16 +65,12 @@ impl Generator for Rrt {
         scratch: &mut Scratch,
     ) -> Result<Increment, GaveUp> {
         // What is refused in a problem file can still come in bytes.
-        let Some(root) = root(cx).filter(|_| self.complaint().is_none()) else {
+        if self.complaint().is_some() {
             return Err(GaveUp { attempts: 0 });
-        };
+        }
         let limits = (step_of(self.step, &cx.space), self.attempts);
-        let mut set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
-        let [mut tree] = GrowingTree::of(&mut set, seed, [root]);
-        let query = cx.query.as_ref();
-        let aim = query.map(|query| Aim { goal: &query.goal[..], bias: self.goal_bias });
-        explore(&mut set, &mut tree, aim, &TREE)?;
-        Ok(set.made)
+        let set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
+        grow_from_root(set, seed, self.goal_bias, &TREE)
     }
 
     fn reads_query(&self) -> bool {

@@ -1,8 +1,10 @@
 use super::directions::Adjacency;
 use super::set::GrowingSet;
-use super::settings::NeighborCount;
+use super::settings::{NeighborCount, root};
 use super::tree::{GrowingTree, Near};
+use crate::roadmap::Increment;
 use crate::sampler::GaveUp;
+use crate::seed::Seed;
 
 /// How a tree or graph grows toward random configurations (S. K. Nath 2013, Algorithm 2; see
 /// [`Mrrg`](crate::generator::Mrrg)). RRT and RRG are its cases of one direction (Lemma 1).
@@ -22,6 +24,26 @@ pub(in crate::generator) struct Aim<'a> {
     pub goal: &'a [f64],
     /// The probability that an extension goes toward it, as long as no node lies there.
     pub bias: f64,
+}
+
+/// Grows a tree or a graph from its [root] until the set is full: what RRT, RRG and mRRG have in common. An extension goes
+/// toward the goal of the query, if there is one, with the probability `goal_bias`.
+///
+/// # Errors
+/// [`GaveUp`] where there is no root, or too many extensions since the last milestone came to nothing.
+pub(in crate::generator) fn grow_from_root(
+    mut set: GrowingSet,
+    seed: &Seed,
+    goal_bias: f64,
+    exploration: &Exploration,
+) -> Result<Increment, GaveUp> {
+    let cx = set.cx;
+    // What is refused in a problem file can still come in bytes.
+    let Some(root) = root(cx) else { return Err(GaveUp { attempts: 0 }) };
+    let [mut tree] = GrowingTree::of(&mut set, seed, [root]);
+    let aim = cx.query.as_ref().map(|query| Aim { goal: &query.goal[..], bias: goal_bias });
+    explore(&mut set, &mut tree, aim, exploration)?;
+    Ok(set.made)
 }
 
 /// Grows a tree until the set is full.

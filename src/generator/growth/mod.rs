@@ -10,12 +10,11 @@ mod set;
 mod settings;
 mod tree;
 
-pub(super) use explore::{Aim, Exploration, explore};
+pub(super) use explore::{Exploration, explore, grow_from_root};
 pub(super) use set::{Extension, GrowingSet};
 pub use settings::NeighborCount;
 pub(super) use settings::{
-    Complaints, calibrated, default_attempts, default_goal_bias, needs_query, needs_root, root,
-    step_of,
+    Complaints, calibrated, default_attempts, default_goal_bias, needs_query, needs_root, step_of,
 };
 pub(super) use tree::GrowingTree;
 

@@ -31,7 +31,7 @@ pub(in crate::generator) fn calibrated(step: Option<f64>, space: &Space) -> Opti
 }
 
 /// Where a tree begins: at the query's start, or, in a problem without a query, at the model's native configuration.
-pub(in crate::generator) fn root(cx: &Context) -> Option<&[f64]> {
+pub(super) fn root(cx: &Context) -> Option<&[f64]> {
     let start = cx.query.as_ref().map(|query| &query.start[..]);
     start.or_else(|| cx.model.native())
 }
