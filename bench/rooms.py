@@ -92,12 +92,76 @@ def corridor(bends, length, width, gap, radius):
     )
 
 
+# What is carried, its depth, width and height along x, y and z: boxes with their places.
+SOFA = [([1.8, 0.8, 0.4], [0.0, 0.0, 0.0]), ([1.8, 0.2, 0.4], [0.0, -0.3, 0.4])]
+PIANO = [
+    ([1.5, 0.5, 0.6], [0.0, 0.0, 0.2]),
+    ([1.5, 0.3, 0.15], [0.0, 0.4, 0.0]),
+    ([0.1, 0.1, 0.6], [-0.65, 0.5, -0.35]),
+    ([0.1, 0.1, 0.6], [0.65, 0.5, -0.35]),
+]
+STOREY = 2.5
+LINTEL = 2.1
+
+
+def apartment(columns, rows, seed, door, robot):
+    """Rooms 4 by 4 with a door between some, a cupboard, a table and a bed in each that is neither the first nor the last."""
+    drawn = random.Random(seed)
+    side, wall = 4.0, 0.15
+    has_door = doors_of(columns, rows, 0.2, drawn)
+    boxes = []
+    for column in range(columns):
+        for row in range(rows):
+            for along_y, other in [(True, (column + 1, row)), (False, (column, row + 1))]:
+                if other[0] == columns or other[1] == rows:
+                    continue
+                across = (column + 1 if along_y else row + 1) * side
+                begin = (row if along_y else column) * side
+                pieces = [(begin, begin + side, STOREY, STOREY / 2)]
+                if has_door((column, row), other):
+                    at = begin + drawn.uniform(0.5, side - 0.5 - door)
+                    pieces = [
+                        (begin, at, STOREY, STOREY / 2),
+                        (at, at + door, STOREY - LINTEL, (STOREY + LINTEL) / 2),
+                        (at + door, begin + side, STOREY, STOREY / 2),
+                    ]
+                for low, high, height, z in pieces:
+                    middle, length = (low + high) / 2, high - low
+                    if along_y:
+                        boxes.append(box(across, middle, wall, length, height, z))
+                    else:
+                        boxes.append(box(middle, across, length, wall, height, z))
+            if (column, row) not in [(0, 0), (columns - 1, rows - 1)]:
+                x, y = column * side, row * side
+                boxes.append(box(x + 0.4, y + 0.6, 0.6, 0.9, 2.0, 1.0))
+                boxes.append(box(x + 2.2, y + 2.1, 0.8, 0.8, 0.75, 0.375))
+                boxes.append(box(x + 3.2, y + 3.4, 1.3, 0.9, 0.5, 0.25))
+    bodies = ",\n    ".join(f"{{ shape = {{ box = {{ size = {size} }} }}, position = {at} }}" for size, at in robot)
+    width, depth = columns * side, rows * side
+    # Outer walls, floor and ceiling are obstacles, so that the scene is the same for a program that bounds the origin only.
+    for x in [0.0, width]:
+        boxes.append(box(x, depth / 2, wall, depth, STOREY, STOREY / 2))
+    for y in [0.0, depth]:
+        boxes.append(box(width / 2, y, width, wall, STOREY, STOREY / 2))
+    for z in [-0.05, STOREY + 0.05]:
+        boxes.append(box(width / 2, depth / 2, width, depth, 0.1, z))
+    turned = "0.7, 1.0, 0.0, 0.0, 0.0"
+    return (
+        f'[space]\nmotion = "rigid-3d"\nmin = [0.0, 0.0, 0.0]\nmax = [{width!r}, {depth!r}, {STOREY}]\n'
+        f'bounds = "body"\n\n[robot]\nbodies = [\n    {bodies},\n]\n\n'
+        + "".join(boxes)
+        + f"\n[query]\nstart = [2.0, 2.0, {turned}]\ngoal = [{width - 2!r}, {depth - 2!r}, {turned}]\n"
+    )
+
+
 SCENES = {
     "house-36": house(6, 6, 1, 2.5, 0.0, [1.5, 0.6, 0.5], False),
     "house-144": house(12, 12, 2, 3.0, 0.1, [1.0, 0.6, 0.5], False),
     "house-36-3d": house(6, 6, 3, 2.5, 0.05, [1.5, 0.6, 0.4], True),
     "corridor-20": corridor(20, 20.0, 1.0, 1.5, 0.2),
     "corridor-40": corridor(40, 20.0, 0.6, 0.8, 0.1),
+    "apartment-sofa": apartment(3, 2, 4, 0.95, SOFA),
+    "apartment-piano": apartment(4, 3, 5, 1.05, PIANO),
 }
 
 if __name__ == "__main__":

@@ -1,30 +1,39 @@
-//! How soon scenes are solved, beside OMPL's PRM: the same surfaces, metric resolution and query.
+//! How soon scenes are solved, beside OMPL's PRM and RRT-Connect: the same surfaces, metric resolution and query.
 //!
 //! ```text
-//! ROADMILL_PEER=PEER cargo bench --bench solve -- [--seeds N] [--seconds S] [--among WAYS]
-//!     [--csv FILE] [--svg FILE] SCENE …
+//! ROADMILL_PEER=PEER cargo bench --bench solve -- [--seeds N] [--first-seed F] [--seconds S] [--among WAYS]
+//!     [--settings FILES] [--peers PLANNERS] [--csv FILE] [--svg FILE] SCENE …
 //! cargo bench --bench solve -- --from FILE --svg FILE
 //! ```
 //!
-//! PEER is `bench/peers/race.cpp`, built as `bench/race.rs` says. Builds every scene at default settings
-//! with seeds 1 to N (default 20), each for at most S CPU seconds (default 60), ours and OMPL's in turn.
-//! `--among nearest-nodes,until-joined,…` builds it as often again with other connections among sets
-//! (`docs/problems.md`; `nodes-and-components` is the default). Prints the medians, those of the times over
-//! all builds: one that is not solved counts with the seconds that it took. The CSV file gets a line for each
-//! build: scene, program, seed, solved or not, nodes, CPU seconds; the SVG file a dot, or a ring where it was
-//! not solved. `--from` draws what stands in a CSV file.
+//! PEER is `bench/peers/race.cpp`, built as `bench/race.rs` says. Builds every scene with N seeds (default 20) from F (default
+//! 1) on, each for at most S CPU seconds (default 60), ours and OMPL's in turn. Ours are built at default settings, or, with
+//! `--among nearest-nodes,until-joined,…`, as often again with these connections among sets (`docs/problems.md`), or, with
+//! `--settings one.toml,two.toml`, with the tables `[img]` and `[[strategies]]` of these files. PLANNERS are `prm`,
+//! `rrt-connect` (both by default) or `none`. A path of OMPL's counts only if its motions also pass at steps 20 times finer
+//! than those that OMPL has looked at, as ours do before they are given out.
+//!
+//! Prints the medians, those of the times over all builds: one that is not solved counts with the seconds that it took. The
+//! last column is the better of OMPL's two medians, divided by this one. The CSV file gets a line for each build: scene, program,
+//! seed, solved or not, nodes, CPU seconds; the SVG file a dot, or a ring where it was not solved. `--from` draws what stands in a
+//! CSV file.
 
 mod support;
 
 use roadmill::connect::{AmongKind, ComponentPairs, NearestNodes, NodesAndComponents, UntilJoined};
 use roadmill::img::Setup;
 use roadmill::local::Planner;
+use roadmill::model::Scratch;
+use roadmill::model::bodies::validity::MotionChecking;
+use roadmill::problem::{Problem, StrategySpec};
+use serde::Deserialize;
 use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
+use support::edges::with_edges;
 use support::peer::{run, scene_text, surfaces};
 use support::plot::{COLOURS, Plot, Scale, plain};
-use support::{arguments_with, median, solve};
+use support::{arguments_with, median, method, solve};
 
 /// Builds of one scene by one program.
 #[derive(Default)]
@@ -65,8 +74,70 @@ impl Builds {
     }
 }
 
+/// How many times finer than OMPL the steps are at which a path of OMPL's is looked at again.
+const FINER: u32 = 20;
+
+/// A way in which our scenes are built.
+struct Way {
+    name: String,
+    change: Box<dyn Fn(Problem) -> Problem>,
+}
+
+impl Way {
+    fn default() -> Way {
+        Way { name: "default".to_owned(), change: Box::new(|problem| problem) }
+    }
+
+    /// With a connection among sets.
+    fn among(name: &str) -> Way {
+        let among = among(name);
+        let change = move |problem: Problem| {
+            let builder = problem.to_builder().change_strategies(|s| s.among(among.clone()));
+            builder.build().unwrap_or_else(|error| panic!("{error}"))
+        };
+        Way { name: name.to_owned(), change: Box::new(change) }
+    }
+
+    /// With the tables of a file.
+    fn settings(path: &str) -> Way {
+        let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let settings: Settings = method(&text);
+        let change = move |problem: Problem| {
+            let builder = problem.to_builder().strategies(settings.strategies.clone());
+            let builder = match &settings.img.schedule {
+                Some(labels) => builder.schedule(labels.clone()),
+                None => builder.default_schedule(),
+            };
+            let builder = match settings.img.sets_per_round {
+                Some(sets) => builder.sets_per_round(sets),
+                None => builder,
+            };
+            builder.build().unwrap_or_else(|error| panic!("{error}"))
+        };
+        let name = Path::new(path).file_stem().unwrap_or_default().to_string_lossy();
+        Way { name: name.into_owned(), change: Box::new(change) }
+    }
+}
+
+/// What a file of `--settings` says.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Settings {
+    #[serde(default)]
+    img: Img,
+    strategies: Vec<StrategySpec>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Img {
+    sets_per_round: Option<u64>,
+    schedule: Option<Vec<String>>,
+}
+
 fn main() {
-    let (arguments, words) = arguments_with(20.0, 60.0, &["--among", "--csv", "--svg", "--from"]);
+    let options = ["--among", "--csv", "--svg", "--from", "--settings", "--peers", "--first-seed"];
+    let (arguments, words) = arguments_with(20.0, 60.0, &options);
     let write = |file: &Option<String>, text: String| {
         if let Some(file) = file {
             std::fs::write(file, text).expect("the file can be written");
@@ -76,52 +147,98 @@ fn main() {
         let text = std::fs::read_to_string(file).expect("the file can be read");
         return write(&words[2], picture(&of_csv(&text)));
     }
-    let Ok(peer) = std::env::var("ROADMILL_PEER") else {
+    let planners = words[5].as_deref().unwrap_or("prm,rrt-connect");
+    let planners: Vec<&str> = planners.split(',').filter(|name| *name != "none").collect();
+    let peer = std::env::var("ROADMILL_PEER").unwrap_or_default();
+    if peer.is_empty() && !planners.is_empty() {
         println!("solve: skipped, ROADMILL_PEER does not name the built bench/peers/race.cpp");
         return;
-    };
-    let ways = words[0].as_deref().unwrap_or("nodes-and-components");
-    let ways: Vec<_> = ways.split(',').map(|name| (name, among(name))).collect();
-    println!("| scene | program | solved | nodes | CPU s | OMPL's median : this |");
+    }
+    let listed = |word: usize| words[word].iter().flat_map(|names| names.split(','));
+    let mut ways: Vec<Way> = listed(0).map(Way::among).collect();
+    ways.extend(listed(4).map(Way::settings));
+    if ways.is_empty() {
+        ways.push(Way::default());
+    }
+    let first: u64 = words[6].as_deref().map_or(1, |word| word.parse().expect("a seed"));
+    println!("| scene | program | solved | nodes | CPU s | OMPL's better median : this |");
     println!("|{}", " --- |".repeat(6));
     let mut all = Vec::new();
     for scene in &arguments.scenes {
-        let problem = surfaces(Path::new(scene));
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let file = |name: &str| folder.path().join(name).display().to_string();
-        std::fs::write(file("scene"), scene_text(&problem)).expect("the scene can be written");
-        let ends = problem.query().expect("a scene with a query");
-        let values: Vec<_> = ends.start.iter().chain(&ends.goal).map(f64::to_string).collect();
-        std::fs::write(file("query"), values.join(" ")).expect("the query can be written");
-
-        let builds = |program: &str| Builds {
-            scene: problem.name().to_owned(),
-            program: program.to_owned(),
+        let track = Track::new(Path::new(scene), &peer);
+        let builds = |program: String| Builds {
+            scene: track.problem.name().to_owned(),
+            program,
             ..Builds::default()
         };
-        let mut theirs = builds("OMPL");
-        let mut ours: Vec<_> = ways.iter().map(|(name, _)| builds(name)).collect();
-        for seed in 1..=arguments.seeds {
-            for (builds, (_, among)) in ours.iter_mut().zip(&ways) {
-                let builder = problem.to_builder().seed(seed);
-                let problem = builder.change_strategies(|s| s.among(among.clone())).build();
-                let problem = problem.unwrap_or_else(|error| panic!("{error}"));
+        let mut ours: Vec<_> = ways.iter().map(|way| builds(way.name.clone())).collect();
+        let mut theirs: Vec<_> =
+            planners.iter().map(|name| builds(format!("OMPL {name}"))).collect();
+        for seed in first..first + arguments.seeds {
+            for (builds, way) in ours.iter_mut().zip(&ways) {
+                let problem = (way.change)(track.problem.clone().with_seed(seed));
                 let built = solve(&Arc::new(Setup::new(problem)), arguments.seconds);
-                let (solved, nodes) = (built.satisfied, built.nodes as f64);
-                builds.add(solved, nodes, built.seconds);
+                builds.add(built.satisfied, built.nodes as f64, built.seconds);
             }
-            let [seed_word, limit] = [seed.to_string(), arguments.seconds.to_string()];
-            let [scene, query] = ["scene", "query"].map(file);
-            let found = run(&peer, &["solve", &scene, &query, &seed_word, &limit]);
-            theirs.add(found[2] == 1.0, found[1], found[0]);
+            for (builds, planner) in theirs.iter_mut().zip(&planners) {
+                let (solved, nodes, seconds) = track.peer_solves(planner, seed, arguments.seconds);
+                builds.add(solved, nodes, seconds);
+            }
         }
-        let of = median(&mut theirs.seconds.clone());
-        ours.push(theirs);
-        ours.iter().for_each(|builds| println!("{}", builds.row(of)));
+        let medians = theirs.iter().map(|builds| median(&mut builds.seconds.clone()));
+        let best = medians.fold(f64::INFINITY, f64::min);
+        ours.extend(theirs);
+        ours.iter().for_each(|builds| println!("{}", builds.row(best)));
         all.extend(ours);
     }
     write(&words[1], csv_of(&all));
     write(&words[2], picture(&all));
+}
+
+/// A scene that both sides solve.
+struct Track<'a> {
+    peer: &'a str,
+    problem: Problem,
+    folder: tempfile::TempDir,
+}
+
+impl Track<'_> {
+    fn new<'a>(path: &Path, peer: &'a str) -> Track<'a> {
+        let problem = surfaces(path);
+        let track = Track { peer, problem, folder: tempfile::tempdir().expect("a folder") };
+        let ends = track.problem.query().expect("a scene with a query");
+        let values: Vec<_> = ends.start.iter().chain(&ends.goal).map(f64::to_string).collect();
+        std::fs::write(track.file("query"), values.join(" ")).expect("the query can be written");
+        let scene = scene_text(&track.problem);
+        std::fs::write(track.file("scene"), scene).expect("the scene can be written");
+        track
+    }
+
+    fn file(&self, name: &str) -> String {
+        self.folder.path().join(name).display().to_string()
+    }
+
+    /// Whether OMPL's planner finds a path that passes the finer check, its nodes, and the CPU seconds that it took.
+    fn peer_solves(&self, planner: &str, seed: u64, limit: f64) -> (bool, f64, f64) {
+        let [scene, query, path] = ["scene", "query", "path"].map(|name| self.file(name));
+        let [seed, limit] = [seed.to_string(), limit.to_string()];
+        let words = ["solve", &scene, &query, &seed, &limit, planner, &path];
+        let found = run(self.peer, &words);
+        let solved = found[2] == 1.0 && self.passes(&path);
+        (solved, found[1], found[0])
+    }
+
+    /// Whether all motions of the path in a file are valid.
+    fn passes(&self, path: &str) -> bool {
+        let text = std::fs::read_to_string(path).expect("the path can be read");
+        let configuration = |line: &str| -> Vec<f64> {
+            line.split_whitespace().map(|word| word.parse().expect("a number")).collect()
+        };
+        let path: Vec<Vec<f64>> = text.lines().map(configuration).collect();
+        let cx = with_edges(&self.problem, MotionChecking::Sampled).context();
+        let scratch = &mut Scratch::new();
+        path.windows(2).all(|ends| cx.model().motion(&ends[0], &ends[1], FINER, scratch).is_some())
+    }
 }
 
 fn csv_of(all: &[Builds]) -> String {
@@ -193,7 +310,8 @@ fn picture(all: &[Builds]) -> String {
     }
     let legend = all[..step].iter().zip(COLOURS).map(|(builds, colour)| {
         let name = match &*builds.program {
-            "OMPL" => "OMPL PRM".to_owned(),
+            "OMPL prm" => "OMPL's PRM".to_owned(),
+            "OMPL rrt-connect" => "OMPL's RRT-Connect".to_owned(),
             ours => format!("roadmill, {ours}"),
         };
         (name, colour)

@@ -3,8 +3,10 @@
 //   race edges SCENE PAIRS VERDICTS   decides the pairs with FCL, in as many steps as the file says;
 //                                     writes a verdict (1 free, 0 blocked) a line
 //   race grow SCENE NODES K SEED      OMPL's PRM::growRoadmap to NODES nodes with K neighbours
-//   race solve SCENE QUERY SEED LIMIT OMPL's PRM::solve from the first to the second configuration of the
-//                                     file, within LIMIT CPU seconds
+//   race solve SCENE QUERY SEED LIMIT PLANNER PATH
+//                                     OMPL's planner, `prm` or `rrt-connect`, from the first to the second
+//                                     configuration of the file QUERY, within LIMIT CPU seconds; writes the
+//                                     path, a configuration a line
 //   race count SCENE PAIRS            prints how many steps OMPL cuts each pair into by itself
 //   race distance SCENE CONFIGS       prints FCL's distance of the surfaces at each configuration, 0 where
 //                                     they meet
@@ -18,11 +20,14 @@
 
 #include <fcl/fcl.h>
 #include <ompl/base/DiscreteMotionValidator.h>
+#include <ompl/base/PlannerData.h>
 #include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
+#include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
@@ -203,7 +208,7 @@ static double process_seconds() {
   return time.tv_sec + 1e-9 * time.tv_nsec;
 }
 
-static int race_solve(const Scene& scene, const std::shared_ptr<SE3>& space, const char* query, double limit) {
+static int race_solve(const Scene& scene, const std::shared_ptr<SE3>& space, const char* query, double limit, const std::string& name, const char* path) {
   auto si = std::make_shared<ob::SpaceInformation>(space);
   si->setStateValidityChecker(std::make_shared<Checker>(si, scene));
   si->setMotionValidator(std::make_shared<Validator>(si, scene));
@@ -217,13 +222,29 @@ static int race_solve(const Scene& scene, const std::shared_ptr<SE3>& space, con
   set(goal.get(), q + 7);
   auto problem = std::make_shared<ob::ProblemDefinition>(si);
   problem->setStartAndGoalStates(start, goal);
-  ompl::geometric::PRM prm(si);
-  prm.setProblemDefinition(problem);
-  prm.setup();
+  std::shared_ptr<ob::Planner> planner;
+  if (name == "prm") planner = std::make_shared<ompl::geometric::PRM>(si);
+  if (name == "rrt-connect") planner = std::make_shared<ompl::geometric::RRTConnect>(si);
+  if (!planner) fail("prm or rrt-connect expected");
+  planner->setProblemDefinition(problem);
+  planner->setup();
   const double begun = process_seconds();
-  const auto status = prm.solve(ob::PlannerTerminationCondition([&] { return process_seconds() - begun >= limit; }));
+  const auto status = planner->solve(ob::PlannerTerminationCondition([&] { return process_seconds() - begun >= limit; }));
   const double seconds = process_seconds() - begun;
-  std::printf("%.6f %lu %d\n", seconds, prm.milestoneCount(), status == ob::PlannerStatus::EXACT_SOLUTION);
+  const bool solved = status == ob::PlannerStatus::EXACT_SOLUTION;
+  std::ofstream out(path);
+  out.precision(17);
+  if (solved) {
+    const auto& states = problem->getSolutionPath()->as<ompl::geometric::PathGeometric>()->getStates();
+    for (const auto* any : states) {
+      const auto* state = any->as<SE3::StateType>();
+      const auto& q = state->rotation();
+      out << state->getX() << ' ' << state->getY() << ' ' << state->getZ() << ' ' << q.w << ' ' << q.x << ' ' << q.y << ' ' << q.z << '\n';
+    }
+  }
+  ob::PlannerData data(si);
+  planner->getPlannerData(data);
+  std::printf("%.6f %u %d\n", seconds, data.numVertices(), solved);
   return 0;
 }
 
@@ -248,9 +269,9 @@ int main(int count, char** words) {
     ompl::RNG::setSeed(std::strtoul(words[5], nullptr, 10));
     return race_grow(scene, space, std::atoi(words[3]), std::atoi(words[4]));
   }
-  if (mode == "solve" && count == 6) {
+  if (mode == "solve" && count == 8) {
     ompl::RNG::setSeed(std::strtoul(words[4], nullptr, 10));
-    return race_solve(scene, space, words[3], std::strtod(words[5], nullptr));
+    return race_solve(scene, space, words[3], std::strtod(words[5], nullptr), words[6], words[7]);
   }
   fail(expected);
 }

@@ -24,13 +24,28 @@ pub fn changed(problem: &Problem, change: impl FnOnce(BodiesSpec) -> BodiesSpec)
     builder.build().unwrap_or_else(|error| panic!("{}: {error}", problem.name()))
 }
 
-/// Makes mere surfaces of all meshes.
+/// Makes mere surfaces of all meshes and boxes.
 pub fn empty(problem: &Problem) -> Problem {
     let surface = |body: BodySpec| match body.shape() {
         ShapeSpec::Triangles { .. } => body.solid(false),
+        ShapeSpec::Box { size } => {
+            let shape = box_of_triangles(*size);
+            body.shaped(shape).solid(false)
+        }
         _ => body,
     };
     changed(problem, |bodies| bodies.change_each_body(surface))
+}
+
+/// The surface of a box, two triangles to a side.
+fn box_of_triangles(size: [f64; 3]) -> ShapeSpec {
+    // Corner i lies at the high end of axis x, y and z where bit 0, 1 and 2 of i is set.
+    let side = |i: usize, axis: usize| size[axis] * if i >> axis & 1 == 1 { 0.5 } else { -0.5 };
+    let vertices = (0..8).map(|i| [0, 1, 2].map(|axis| side(i, axis))).collect();
+    let sides =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+    ShapeSpec::triangles(vertices, sides.into_iter().flat_map(halves).collect())
 }
 
 /// Whether the peer knows robots and obstacles of this kind: meshes, of which one moves freely.

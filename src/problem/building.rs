@@ -2,12 +2,10 @@
 
 use super::file::{File, PolicyTable, ScheduleTable};
 use super::{Limits, StrategySpec};
-use crate::connect::WithinKind;
 use crate::evaluate::{self, EvaluatorKind};
-use crate::generator::{GeneratorKind, Sample};
+use crate::generator::Sample;
 use crate::methods::{BRACKETS_MAX, too_deep};
 use crate::numbers::StrategyIndex;
-use crate::sampler::SamplerKind;
 use crate::schedule::Adaptive;
 use crate::source::ProblemError;
 use crate::source::Source;
@@ -27,8 +25,8 @@ pub(super) struct Sets {
 }
 
 pub(super) fn sets_of(source: &Source, file: &File) -> Result<Sets, ProblemError> {
-    let default = [StrategySpec::uniform()];
-    let specs = if file.strategies.is_empty() { &default[..] } else { &file.strategies };
+    let (default, default_schedule) = default_strategies(file.query.is_some());
+    let specs = if file.strategies.is_empty() { &default } else { &file.strategies };
     let mut strategies: Vec<Strategy> = Vec::new();
     for (index, spec) in specs.iter().enumerate() {
         let fail = |keys: &[&str], message: String| {
@@ -80,6 +78,7 @@ pub(super) fn sets_of(source: &Source, file: &File) -> Result<Sets, ProblemError
 
     let place = [Key("img"), Key("schedule")];
     let schedule = match &file.img.schedule {
+        None if file.strategies.is_empty() => default_schedule,
         None | Some(ScheduleTable::Policy(_)) => {
             (0..strategies.len() as u32).map(StrategyIndex).collect()
         }
@@ -126,19 +125,33 @@ pub(super) fn adaptive_of(source: &Source, file: &File) -> Result<Option<Adaptiv
     }
 }
 
+/// The strategies of a problem that names none, and which of them makes the sets of each round.
+///
+/// Uniform sampling, and, if there is a query, in every fifth set trees from both its ends. Each of the two solves queries that
+/// the other is long about, and both together many sooner than either (`docs/performance.md`, "Time to solve").
+fn default_strategies(has_query: bool) -> (Vec<StrategySpec>, Vec<StrategyIndex>) {
+    let (uniform, growing) = (StrategyIndex(0), StrategyIndex(1));
+    match has_query {
+        false => (vec![StrategySpec::uniform()], vec![uniform]),
+        true => (
+            vec![StrategySpec::uniform(), StrategySpec::from_both_ends()],
+            vec![uniform, uniform, uniform, uniform, growing],
+        ),
+    }
+}
+
 /// The sets of a problem that says nothing of them.
-pub(super) fn default_sets() -> Sets {
-    let spec = StrategySpec::uniform();
-    let sample = Sample { sampler: SamplerKind::default(), within: WithinKind::default() };
-    let strategy = Strategy {
+pub(super) fn default_sets(has_query: bool) -> Sets {
+    let (specs, schedule) = default_strategies(has_query);
+    let strategy = |spec: StrategySpec| Strategy {
+        generator: spec.maker().expect("default strategies have a sampler or a generator"),
         label: spec.label,
         nodes: spec.nodes as u32,
-        generator: GeneratorKind::Sample(sample),
         among: spec.among,
     };
     Sets {
-        strategies: vec![strategy],
-        schedule: vec![StrategyIndex(0)],
+        strategies: specs.into_iter().map(strategy).collect(),
+        schedule,
         sets_per_round: DEFAULT_SETS_PER_ROUND as u32,
     }
 }

@@ -6,6 +6,7 @@ use crate::context::Ends;
 use crate::evaluate::{EvaluatorKind, Query};
 use crate::internal::plain::plain;
 use crate::model::ForeignProblem;
+use crate::seed::Seed;
 use crate::source::ProblemError;
 use std::path::Path;
 
@@ -13,7 +14,7 @@ use std::path::Path;
 pub(super) fn problem_of(path: &Path, imported: ForeignProblem) -> Result<Problem, ProblemError> {
     let ForeignProblem { name, model, query, notes, sources } = imported;
     let notes = notes.iter().map(|note| plain(note).into_owned()).collect();
-    let Sets { strategies, schedule, sets_per_round } = building::default_sets();
+    let Sets { strategies, schedule, sets_per_round } = building::default_sets(query.is_some());
     let limits = Limits::left_open(&model.description().space());
     let mut problem = Problem {
         name,
@@ -38,6 +39,11 @@ pub(super) fn problem_of(path: &Path, imported: ForeignProblem) -> Result<Proble
         }
         problem.query = Some(Ends { start, goal });
         problem.evaluators = vec![EvaluatorKind::Query(Query::default())];
+        let cx = problem.context();
+        for strategy in &mut problem.strategies {
+            let calibrating = Seed::of_calibration(DEFAULT_SEED, &strategy.label);
+            strategy.generator.method_mut().calibrate(&cx, &calibrating);
+        }
     }
     Ok(problem)
 }

@@ -1,5 +1,5 @@
-use crate::connect::{AmongKind, WithinKind};
-use crate::generator::{GeneratorKind, Sample};
+use crate::connect::{AmongKind, UntilJoined, WithinKind};
+use crate::generator::{GeneratorKind, RrtConnect, Sample};
 use crate::sampler::SamplerKind;
 use crate::strategy::Strategy;
 use serde::Deserialize;
@@ -75,9 +75,16 @@ impl StrategySpec {
         StrategySpec { among, ..self }
     }
 
-    /// The strategy of a problem that names none.
+    /// The strategy of a problem that names none: uniform sampling.
     pub(super) fn uniform() -> StrategySpec {
         StrategySpec::sampled("uniform", SamplerKind::default())
+    }
+
+    /// The second strategy of a problem with a query that names none: trees from both ends. What they grow hangs at the ends
+    /// already, so that it is joined to other components only.
+    pub(super) fn from_both_ends() -> StrategySpec {
+        StrategySpec::generated("rrt-connect", GeneratorKind::RrtConnect(RrtConnect::default()))
+            .among(AmongKind::UntilJoined(UntilJoined::default()))
     }
 
     /// What makes the sets: as `generator` says, or a sampler and a connection within sets, which stand in the

@@ -45,6 +45,11 @@ impl BodySpec {
         &self.shape
     }
 
+    /// Another shape in the same place.
+    pub fn shaped(self, shape: ShapeSpec) -> BodySpec {
+        BodySpec { shape, ..self }
+    }
+
     /// Puts the shape's origin at a position `x y z`, lengths.
     pub fn at(self, position: [f64; 3]) -> BodySpec {
         BodySpec { position, ..self }
