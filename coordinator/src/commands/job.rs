@@ -105,7 +105,7 @@ impl<'a> Job<'a> {
                     Failure::system(format!("{}: cannot be made: {error}", folder.display()))
                 })?;
             }
-            write_problem(&problem, comment, &file, *force)?;
+            write_problem(&problem, comment, &file, (*force, growth.json))?;
         }
         announce();
         let begun = Instant::now();
