@@ -1,6 +1,6 @@
 use super::bounded::bounded;
 use super::orders::{OwnFormation, native_of};
-use super::place::check_place;
+use super::place::check_page;
 use super::search::Asked;
 use crate::cli::{ReportArguments, SearchArguments};
 use crate::exit::{Code, Failure};
@@ -19,7 +19,7 @@ use std::time::Instant;
 ///
 /// A signal ends it without a page. A limit of time ends the search for paths; the page then says so.
 pub fn report(arguments: &ReportArguments) -> Result<Code, Failure> {
-    check_place("--out", &arguments.out)?;
+    check_page("--out", &arguments.out)?;
     let run = Run::at(&arguments.run).read()?;
     // Until here a signal ends the process at once, as nothing is written yet.
     let signals = Signals::listen().map_err(Failure::system)?;
