@@ -13,7 +13,8 @@ seed and pair of parts; the shares of pathways on which the first forms before t
   each last     over the cheapest routes through each motion into the native conformation, every such motion having one vote, at most
                 `--last` of them, evenly taken in the order of their nodes
 
-and how many of the last motions there are, and over how many the cheapest routes lead.
+and how many of the last motions there are, over how many the cheapest routes lead, what these climb in all, and how far the energy falls from
+their beginnings to their end: medians, kT.
 """
 
 import argparse
@@ -32,6 +33,7 @@ REACH = 7.0  # Å between two Cα in contact
 APART = 4  # places along the chain at least
 PAIRING_LEAST = 3  # contacts of a pairing
 FRAMES_APART = numpy.radians(0.5)  # root of the mean squared turn between two frames of a motion
+KT = 2.479  # kJ/mol at 298 K
 FORMED = 0.6  # of its contacts, from which on a part is formed
 
 
@@ -124,6 +126,7 @@ class Roadmap:
     def __init__(self, file, structure, elements, unstructured):
         arrays = numpy.load(file)
         self.nodes, edges = arrays["nodes"], arrays["edges"].astype(int)
+        self.energies = arrays["values"][:, 0]
         self.chain = Chain(structure, arrays["dof_names"], self.nodes[0])
         alphas = self.chain.atoms[1::3]
         distances = numpy.linalg.norm(alphas[:, None] - alphas, axis=2)
@@ -152,7 +155,7 @@ class Roadmap:
         return numpy.concatenate(some)
 
     def tree(self, roots, rank, without=frozenset()):
-        """The cheapest routes to the nearest of `roots`: per node the next one, nodes in the order in which they are reached."""
+        """The cheapest routes to the nearest of `roots`: per node the next one, nodes in the order in which they are reached, and costs."""
         cost, following, reached = dict(roots), {}, []
         open_, done = [(value, node) for node, value in roots.items()], set()
         heapq.heapify(open_)
@@ -166,7 +169,7 @@ class Roadmap:
                 if before not in done and before not in without and value + more < cost.get(before, numpy.inf):
                     cost[before], following[before] = value + more, node
                     heapq.heappush(open_, (cost[before], before))
-        return following, reached
+        return following, reached, cost
 
     def look(self, motions):
         """Finds for motions (from, to) how many frames they have, and for each part at which frame from `to` on it is first not formed."""
@@ -210,8 +213,8 @@ class Roadmap:
         return numpy.array([(first > second).mean(), (second > first).mean()])
 
     def whole(self, rank):
-        """The formation over the best routes by a rank, and over how many last motions they lead."""
-        following, reached = self.tree(dict.fromkeys(self.native, 0.0), rank)
+        """The formation over the best routes by a rank, over how many last motions they lead, and what they climb and fall, kT."""
+        following, reached, cost = self.tree(dict.fromkeys(self.native, 0.0), rank)
         start = numpy.zeros(len(self.parts), int), numpy.ones(len(self.parts), bool)
         depths = self.formation(following, reached, dict.fromkeys(self.native, start))
         last = set()
@@ -219,7 +222,10 @@ class Roadmap:
             while node in following and following[node] not in self.native:
                 node = following[node]
             last.add(node)
-        return depths, len(last)
+        begun = [node for node in self.starts if node in following]
+        climbs = numpy.median([cost[node] for node in begun]) if begun else numpy.nan
+        falls = numpy.median(self.energies[begun] - self.energies[0]) / KT if begun else numpy.nan
+        return depths, len(last), climbs, falls
 
     def last_motions(self):
         """The nodes next to the native conformation, each with the native node that it is joined to at the least cost."""
@@ -232,7 +238,7 @@ class Roadmap:
 
     def through(self, before, root):
         """The formation over the cheapest routes that end with the motion from `before` to the native conformation."""
-        following, reached = self.tree({before: 0.0}, "cheapest", self.native)
+        following, reached, _ = self.tree({before: 0.0}, "cheapest", self.native)
         self.look([(before, root)])
         count, first = self.known[before, root]
         return self.formation(following, reached, {before: (first, first == count)})
@@ -251,7 +257,7 @@ def arguments():
 
 def main():
     args = arguments()
-    print("| protein, seed | pair | cheapest | shortest | fewest | each last | last motions | of the cheapest |\n|" + " --- |" * 8)
+    print("| protein, seed | pair | cheapest | shortest | fewest | each last | last motions | of the cheapest | climbs | falls |\n|" + " --- |" * 10)
     for name in args.proteins:
         entry, _, _ = name.partition(":")
         structure = args.work / f"{entry}-structures/source.cif"
@@ -270,11 +276,12 @@ def main():
             last = list(roadmap.last_motions().items())
             taken = last[:: -(-len(last) // args.last)]
             votes = [depths for depths in (roadmap.through(*motion) for motion in taken) if len(depths)]
+            _, count, climbs, falls = ranked["cheapest"]
             for pair in PAIRS.get(entry, []):
-                cells = [roadmap.shares(depths, pair) for depths, _ in ranked.values()]
+                cells = [roadmap.shares(depths, pair) for depths, *_ in ranked.values()]
                 cells.append(numpy.mean([roadmap.shares(depths, pair) for depths in votes], axis=0))
                 cells = " | ".join(f"{first:.2f} {second:.2f}" for first, second in cells)
-                print(f"| {entry}, {seed} | {pair[0]} < {pair[1]} | {cells} | {len(last)} | {ranked['cheapest'][1]} |", flush=True)
+                print(f"| {entry}, {seed} | {pair[0]} < {pair[1]} | {cells} | {len(last)} | {count} | {climbs:.0f} | {falls:.0f} |", flush=True)
 
 
 if __name__ == "__main__":
