@@ -22,11 +22,11 @@ impl Complaint {
 
     /// What is wrong with a setting that must be a length above 0 and not above `most`, if anything is.
     pub fn of_length(key: &'static str, length: f64, most: f64) -> Option<Complaint> {
-        if length > most {
-            let (found, expected) = (format!("{length:e}"), format!("at most {most:e}").into());
-            return Some(Complaint { key, found, expected });
-        }
-        (length.is_nan() || length <= 0.0).then(|| Complaint::new(key, length, "a positive length"))
+        // Written so that NaN is none.
+        let is_sound = length > 0.0 && length <= most;
+        let found = if length > most { format!("{length:e}") } else { length.to_string() };
+        let expected = format!("a length above 0, at most {most:e},").into();
+        (!is_sound).then_some(Complaint { key, found, expected })
     }
 
     /// What is wrong with the setting `attempts` of a method that tries at most so often, if anything is: it must be from 1 to

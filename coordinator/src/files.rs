@@ -2,11 +2,11 @@
 
 use crate::exit::{Code, Failure};
 pub(crate) use roadmill::internal::regular::open_regular;
-use rustix::fs::{CWD, OFlags, RenameFlags, renameat_with};
+use rustix::fs::{CWD, OFlags, RenameFlags, fcntl_getfl, fcntl_setfl, renameat_with};
 use rustix::io::Errno;
 use std::fs::{self, File, Permissions};
 use std::io::{self, ErrorKind, Write};
-use std::os::unix::fs::PermissionsExt;
+use std::os::unix::fs::{OpenOptionsExt, PermissionsExt};
 use std::path::Path;
 use tempfile::{Builder, NamedTempFile};
 
@@ -64,15 +64,15 @@ pub(crate) fn rename_to_free(new: &Path, path: &Path) -> io::Result<()> {
 }
 
 /// Writes a file so that it is there whole or not at all. What is written to a FIFO or a device, as `/dev/stdout`,
-/// goes there.
+/// goes there; a FIFO that nobody reads is not waited for.
 ///
 /// # Errors
-/// Exit code 2: the path cannot be used; 1: there is no room, or the system fails otherwise.
+/// Exit code 2: the path cannot be used, or is a FIFO that nobody reads; 1: there is no room, or the system fails otherwise.
 pub(crate) fn write_whole(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), Failure> {
     let cannot = |error: io::Error| cannot_write(path, &error);
     let takes_all = |file: fs::Metadata| !file.is_file() && !file.is_dir();
     if fs::metadata(path).is_ok_and(takes_all) {
-        let mut file = File::options().write(true).open(path).map_err(cannot)?;
+        let mut file = open_with_reader(path).map_err(cannot)?;
         return match file.write_all(contents.as_ref()) {
             // Whoever reads it has read enough.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
@@ -83,6 +83,24 @@ pub(crate) fn write_whole(path: &Path, contents: impl AsRef<[u8]>) -> Result<(),
     file.write_all(contents.as_ref()).map_err(cannot)?;
     file.persist(path).map_err(|error| cannot(error.error))?;
     Ok(())
+}
+
+/// Opens what is no regular file to write to it: at once, even a FIFO; writing then waits for the reader.
+fn open_with_reader(path: &Path) -> io::Result<File> {
+    let file = match File::options()
+        .write(true)
+        .custom_flags(OFlags::NONBLOCK.bits() as i32)
+        .open(path)
+    {
+        Err(error) if error.raw_os_error() == Some(Errno::NXIO.raw_os_error()) => {
+            let message = "a named pipe that nobody reads, or a socket, found; a regular file expected, or a pipe with a reader";
+            return Err(io::Error::new(ErrorKind::InvalidInput, message));
+        }
+        opened => opened?,
+    };
+    let flags = fcntl_getfl(&file)?;
+    fcntl_setfl(&file, flags - OFlags::NONBLOCK)?;
+    Ok(file)
 }
 
 /// Makes a folder, or takes one that is empty.
@@ -112,6 +130,8 @@ pub(crate) fn make_empty(folder: &Path) -> Result<(), Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rustix::fs::Mode;
+    use std::io::Read;
     use std::os::unix::fs::symlink;
 
     #[test]
@@ -140,6 +160,19 @@ mod tests {
         let refused = write_whole(&folder.path().join("folder"), "x").unwrap_err();
         assert_eq!(refused.code, Code::Usage, "{refused}");
         assert_eq!(write_whole(Path::new("/dev/full"), "x").unwrap_err().code, Code::System);
+        let pipe = folder.path().join("pipe");
+        rustix::fs::mkfifoat(CWD, &pipe, Mode::RUSR | Mode::WUSR).unwrap();
+        let refused = write_whole(&pipe, "x").unwrap_err();
+        assert_eq!(refused.code, Code::Usage, "{refused}");
+        assert!(refused.to_string().contains("nobody reads"), "{refused}");
+        // More than a pipe holds, so that the writer has to wait for the reader.
+        let (text, of_pipe) = ("x".repeat(1 << 20), pipe.clone());
+        let reader = File::options().read(true).write(true).open(&pipe).unwrap();
+        let writer = std::thread::spawn(move || write_whole(&of_pipe, text).is_ok());
+        let mut read = vec![0; 1 << 20];
+        (&reader).read_exact(&mut read).unwrap();
+        assert!(writer.join().unwrap() && read.iter().all(|byte| *byte == b'x'));
+        fs::remove_file(&pipe).unwrap();
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
     }
 }

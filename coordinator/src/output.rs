@@ -59,6 +59,16 @@ pub(crate) fn data(text: &str) -> bool {
     }
 }
 
+/// Prints a line for people: on standard output, escaped, or on standard error where standard output is for objects alone.
+pub(crate) fn told(text: impl Display, is_json: bool) {
+    match is_json {
+        true => note(text),
+        false => {
+            line(text);
+        }
+    }
+}
+
 /// Prints a line on standard error, escaped. Nobody may be there to read it.
 pub(crate) fn note(text: impl Display) {
     let text = format!("{}\n", plain(&text.to_string()));

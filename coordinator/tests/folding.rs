@@ -61,7 +61,52 @@ fn a_hairpin_folds_in_one_command_whoever_works() {
     assert!(done.stdout.contains("at most 10 of 10 native contacts"), "{}", done.stdout);
     // Objects alone are for programs to read.
     let (_, said) = fold("json", &["--threads", "1", "--json"]);
-    assert!(!said.contains("pathways to"), "{said}");
+    let objects = said.lines().map(serde_json::from_str::<serde_json::Value>);
+    assert!(objects.clone().count() > 1 && objects.clone().all(|object| object.is_ok()), "{said}");
+}
+
+#[test]
+fn a_page_about_folding_is_bounded_and_written_to_regular_files_outside_of_other_runs() {
+    let scratch = Scratch::new();
+    fs::copy(PEPTIDE, scratch.path("native.pdb")).expect("it ships");
+    let fold = |out: &str| {
+        let limits = ["--max-sets", "10", "--threads", "1"];
+        scratch.run(&[&["fold", "native.pdb", "--out", out], &limits[..]].concat())
+    };
+    let done = fold("run");
+    assert!([Some(0), Some(3)].contains(&done.status.code()), "{}", done.stderr);
+    let report =
+        |out: &str, more: &[&str]| scratch.run(&[&["report", "run", "--out", out], more].concat());
+    // No time at all: no pathway is followed, and the page says so. With time enough it is the usual page.
+    let done = report("cut.html", &["--max-time", "1e-9"]);
+    done.assert_code(0);
+    assert!(done.stderr.contains("the time was up"), "{}", done.stderr);
+    let page = |name: &str| fs::read_to_string(scratch.path(name)).expect("it is written");
+    let cut = page("cut.html");
+    assert!(cut.contains("</html>") && cut.contains("before all pathways were followed"));
+    report("whole.html", &["--max-time", "1h"]).assert_code(0);
+    assert_eq!(page("whole.html"), page("run.html"));
+    // What only a search between two ends can be told.
+    for option in
+        [["--dissimilar", "2"], ["--by", "cost"], ["--tries", "9"], ["--shorten-tries", "9"]]
+    {
+        let done = report("refused.html", &option);
+        done.assert_code(2);
+        done.assert_stderr(&[&format!("{}: of no use to a run about folding", option[0])]);
+    }
+    // A pipe that nobody reads is not waited for.
+    let pipe = scratch.path("pipe.html");
+    rustix::fs::mkfifoat(rustix::fs::CWD, &pipe, rustix::fs::Mode::RUSR | rustix::fs::Mode::WUSR)
+        .expect("it can be made");
+    let done = report("pipe.html", &[]);
+    done.assert_code(2);
+    done.assert_stderr(&["pipe.html found, a named pipe", "a regular file expected"]);
+    // A run within another would go with that one.
+    let done = fold("run/sub");
+    done.assert_code(2);
+    done.assert_stderr(&["run/sub: in the folder of the run", "outside of any run expected"]);
+    let made = ["run/sub", "run/sub.toml", "run/sub-structures"];
+    assert!(made.iter().all(|made| !scratch.path(made).exists()), "nothing is left of it");
 }
 
 #[test]

@@ -55,6 +55,13 @@ fn two_structures_become_a_problem_a_roadmap_and_paths_whoever_works() {
     assert_eq!(scratch.summary("three").digest, digest);
     assert_eq!(transition("one", &["--threads", "2", "--or-resume"]).0, digest);
     scratch.run(&["verify", "two", "--all", "--threads", "2"]).assert_code(0);
+    // Objects alone are for programs to read; what is said of the ends is no object.
+    let (_, said) = transition("json", &["--threads", "2", "--json", "--max-time", "1"]);
+    let objects = said.lines().map(serde_json::from_str::<serde_json::Value>);
+    assert!(objects.clone().count() > 1 && objects.clone().all(|object| object.is_ok()), "{said}");
+    // Of two structures it is said which is the native one.
+    let done = scratch.run(&["orders", "one", "--unstructured", "1000"]);
+    assert!(done.stdout.contains("the native conformation is the source"), "{}", done.stdout);
 
     let paths = ["paths", "one", "--count", "2", "--format", "pdb,csv", "--out", "paths"];
     let done = scratch.run(&paths);

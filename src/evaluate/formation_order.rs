@@ -1,5 +1,6 @@
 use super::attaching::{attaching, default_neighbors, default_planners};
 use super::{Evaluator, Verdict};
+use crate::cancel::Cancel;
 use crate::context::Context;
 use crate::folding::{Formation, Native, Settings};
 use crate::methods::Complaint;
@@ -107,8 +108,14 @@ impl Evaluator for FormationOrder {
         let earlier = self.earlier(roadmap);
         let extents = [earlier, roadmap.extent()];
         let (settings, how) = (self.settings(), self.how());
-        let [before, now] =
-            Formation::at(cx, roadmap, extents, (&native, &settings, &how), scratch);
+        let [before, now] = Formation::at(
+            cx,
+            roadmap,
+            extents,
+            (&native, &settings, &how),
+            &Cancel::new(),
+            scratch,
+        );
         let enough = before.pathways.min(now.pathways) >= self.pathways;
         let change = if enough { now.change(&before) } else { f64::INFINITY };
         let measures =

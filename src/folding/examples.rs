@@ -2,6 +2,7 @@
 
 use super::pathways::ToNative;
 use super::{Formation, Native};
+use crate::cancel::Cancel;
 use crate::context::Context;
 use crate::model::Scratch;
 use crate::numbers::NodeId;
@@ -13,7 +14,7 @@ use crate::roadmap::Roadmap;
 /// least, all of whose edges pass the finer check of paths that are given out. Orders none of whose pathways does are passed over.
 ///
 /// The pathways begin at different conformations, and end at the native one. `spacing` is as of
-/// [`Frames`](crate::pathways::Frames).
+/// [`Frames`](crate::pathways::Frames). Once `cancel` says so no further pathway is looked at.
 ///
 /// # Errors
 /// A pathway would have too many frames.
@@ -23,12 +24,16 @@ pub fn examples(
     (native, formation): (&Native, &Formation),
     attachment: &Attachment,
     (count, spacing): (usize, f64),
+    cancel: &Cancel,
     scratch: &mut Scratch,
 ) -> Result<Pathways, TooFine> {
     let [tree] = ToNative::at(cx, roadmap, [roadmap.extent()], (native, attachment), scratch);
     let (mut found, mut tried, mut dropped_edges) = (Vec::new(), 0, 0);
     for order in 0..count.min(formation.elements.len()) {
         for (start, _) in formation.starts.iter().filter(|(_, its)| *its == order) {
+            if cancel.is_cancelled() {
+                break;
+            }
             let Some(route) = tree.route(*start) else { continue };
             let config = |node: NodeId| match node {
                 node if node == tree.native => &native.q[..],
@@ -49,6 +54,6 @@ pub fn examples(
         pathways: found,
         tried,
         dropped_edges,
-        is_cut: false,
+        is_cut: cancel.is_cancelled(),
     })
 }

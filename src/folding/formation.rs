@@ -3,6 +3,7 @@
 use super::orders::Orders;
 use super::pathways::ToNative;
 use super::{Native, Order, Precedence};
+use crate::cancel::Cancel;
 use crate::context::Context;
 use crate::local::Planner;
 use crate::model::Scratch;
@@ -82,32 +83,38 @@ struct AtFrame {
 }
 
 impl Formation {
-    /// Looks at all pathways of a roadmap.
+    /// Looks at all pathways of a roadmap; `None` if `cancel` says so before that is done. Some of the pathways would not stand for
+    /// all: those that are looked at one after the other share their last motions.
     pub fn of(
         cx: &Context,
         roadmap: &Roadmap,
         native: &Native,
         settings: &Settings,
         attachment: &Attachment,
+        cancel: &Cancel,
         scratch: &mut Scratch,
-    ) -> Formation {
+    ) -> Option<Formation> {
         let (now, of) = ([roadmap.extent()], (native, settings, attachment));
-        let [formation] = Formation::at(cx, roadmap, now, of, scratch);
-        formation
+        let [formation] = Formation::at(cx, roadmap, now, of, cancel, scratch);
+        (!cancel.is_cancelled()).then_some(formation)
     }
 
-    /// The same of a roadmap as it was at the ends of several rounds.
+    /// The same of a roadmap as it was at the ends of several rounds. Once `cancel` says so no further pathway is looked at.
     pub(crate) fn at<const N: usize>(
         cx: &Context,
         roadmap: &Roadmap,
         extents: [Extent; N],
         (native, settings, attachment): (&Native, &Settings, &Attachment),
+        cancel: &Cancel,
         scratch: &mut Scratch,
     ) -> [Formation; N] {
         let kept_at = |q: &[f64], scratch: &mut Scratch| -> Vec<bool> {
             native.kept(&cx.model.shape(q, scratch).unwrap_or_default()).collect()
         };
         let is_unstructured = |q: &[f64]| {
+            if cancel.is_cancelled() {
+                return false;
+            }
             let kept = kept_at(q, scratch).into_iter().filter(|kept| *kept).count();
             kept <= settings.unstructured as usize
         };
@@ -125,18 +132,19 @@ impl Formation {
                 let frames = frames(cx, &tree, node, config);
                 frames.iter().map(|q| kept_at(q, scratch)).collect()
             };
-            Formation::along(&tree, starts, frames, native, settings)
+            Formation::along(&tree, starts, frames, (native, settings), cancel)
         })
     }
 
     /// Looks at the pathways from `starts`, those among them that have one. `kept` gives, for a node, which contacts are there
-    /// frame by frame from the next node on its way, which is left out, to the node itself.
+    /// frame by frame from the next node on its way, which is left out, to the node itself. Once `cancel` says so no further node is
+    /// looked at.
     pub(super) fn along(
         tree: &ToNative,
         starts: impl Iterator<Item = NodeId>,
         mut kept: impl FnMut(NodeId) -> Vec<Vec<bool>>,
-        native: &Native,
-        settings: &Settings,
+        (native, settings): (&Native, &Settings),
+        cancel: &Cancel,
     ) -> Formation {
         let (parts, contacts) = (native.parts.len(), native.contacts.len());
         let all = Since { depth: 0, share: 1.0 };
@@ -162,7 +170,9 @@ impl Formation {
             open.extend(before.map(|before| (*before, here.clone())));
         };
         open_before(tree.native, &end, &mut open);
-        while let Some((node, mut here)) = open.pop() {
+        while let Some((node, mut here)) = open.pop()
+            && !cancel.is_cancelled()
+        {
             for kept in kept(node) {
                 here = Rc::new(here.before(&kept, native, settings));
             }

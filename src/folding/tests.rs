@@ -1,5 +1,6 @@
 use super::pathways::ToNative;
 use super::*;
+use crate::cancel::Cancel;
 use crate::model::Directed;
 use crate::numbers::NodeId;
 use crate::roadmap::{Edge, EdgeCost};
@@ -39,7 +40,8 @@ fn along(tree: &ToNative, nodes: &[&str], settings: &Settings) -> Formation {
     let count = |node: &NodeId| kept[node.index()].iter().filter(|kept| **kept).count();
     let starts = (0..nodes.len() as u32).map(NodeId);
     let starts = starts.filter(|node| count(node) <= settings.unstructured as usize);
-    Formation::along(tree, starts, |node| vec![kept[node.index()].clone()], &native(), settings)
+    let frames = |node: NodeId| vec![kept[node.index()].clone()];
+    Formation::along(tree, starts, frames, (&native(), settings), &Cancel::new())
 }
 
 #[test]
@@ -111,10 +113,32 @@ fn what_forms_between_two_milestones_has_an_order_too() {
     // One motion from an unstructured conformation to the native one: on its way α2 forms before α1.
     let tree = ToNative::by(vec![edge(0, 1, 1.0)], NodeId(1));
     let frames = ["00111", "00110", "00000"].map(|frame| frame.chars().map(|c| c == '1').collect());
-    let settings = Settings::default();
-    let formation =
-        Formation::along(&tree, [NodeId(0)].into_iter(), |_| frames.to_vec(), &native(), &settings);
+    let (starts, settings) = ([NodeId(0)].into_iter(), Settings::default());
+    let formation = Formation::along(
+        &tree,
+        starts,
+        |_| frames.to_vec(),
+        (&native(), &settings),
+        &Cancel::new(),
+    );
     assert_eq!(formation.elements[0].groups, [[1], [0]]);
     assert_eq!(formation.pairings[0].groups, [[2]]);
     assert_eq!(formation.at, [1.0, 0.4, 0.6]);
+}
+
+#[test]
+fn once_cancelled_no_pathway_is_followed_any_further() {
+    // Three conformations without contacts, each before the next on the way to the native one.
+    let tree = ToNative::by(vec![edge(0, 1, 1.0), edge(1, 2, 1.0), edge(2, 3, 1.0)], NodeId(3));
+    let (native, settings) = (native(), Settings::default());
+    let cancel = Cancel::new();
+    let mut asked = Vec::new();
+    let frames = |node: NodeId| {
+        asked.push(node);
+        cancel.cancel();
+        vec![vec![false; 5]]
+    };
+    let starts = (0..3).map(NodeId);
+    let formation = Formation::along(&tree, starts, frames, (&native, &settings), &cancel);
+    assert_eq!((asked, formation.pathways), (vec![NodeId(2)], 1));
 }

@@ -58,7 +58,7 @@ pub struct Pathway {
 }
 
 /// The pathways that were found, the best first.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Pathways {
     /// The pathways in their ranking.
     pub pathways: Vec<Pathway>,

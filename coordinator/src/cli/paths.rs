@@ -26,12 +26,12 @@ pub struct SearchArguments {
     /// hundredth of the space's diameter]
     #[arg(long, value_name = "DISTANCE", value_parser = distance)]
     pub spacing: Option<f64>,
-    /// How many candidates of dissimilar paths are shortened and compared, at most twice as many in all
-    #[arg(long, value_name = "N", default_value_t = TRIES, value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    pub tries: u32,
-    /// How often a shortcut is tried on each candidate of dissimilar paths
-    #[arg(long, value_name = "N", default_value_t = SHORTEN_TRIES)]
-    pub shorten_tries: u32,
+    /// How many candidates of dissimilar paths are shortened and compared, at most twice as many in all [default: 40]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub tries: Option<u32>,
+    /// How often a shortcut is tried on each candidate of dissimilar paths [default: 200]
+    #[arg(long, value_name = "N")]
+    pub shorten_tries: Option<u32>,
     /// An angle between domains, shown along the paths: the numbers of three ranges of residues, the angle at the second;
     /// may be given several times (NMP=35-55/90-100/115-125). Of a report the first two are the axes of the map
     #[arg(long = "angle", value_name = "NAME=RANGE/RANGE/RANGE", value_parser = angle)]
@@ -47,16 +47,12 @@ impl SearchArguments {
             count: 5,
             by: None,
             spacing: None,
-            tries: TRIES,
-            shorten_tries: SHORTEN_TRIES,
+            tries: None,
+            shorten_tries: None,
             angles,
         }
     }
 }
-
-/// How many candidates of dissimilar paths are shortened, and how often a shortcut is tried on each, if nothing is said.
-const TRIES: u32 = 40;
-const SHORTEN_TRIES: u32 = 200;
 
 /// Of `paths`.
 #[derive(Debug, Args)]
@@ -92,7 +88,8 @@ pub struct ReportArguments {
     /// the space's diameter]
     #[arg(long, value_name = "DISTANCE", value_parser = distance)]
     pub dissimilar: Option<f64>,
-    /// Look for paths no longer than this: seconds, or with a unit (90s, 10m, 2h); the page then has those found by then
+    /// Look for paths, or follow pathways of folding, no longer than this: seconds, or with a unit (90s, 10m, 2h); the page then has
+    /// what was found by then
     #[arg(long, value_name = "TIME", value_parser = seconds)]
     pub max_time: Option<f64>,
 }

@@ -1,11 +1,12 @@
 use super::job::Job;
-use super::orders;
+use super::orders::{OwnFormation, native};
 use super::protein::{name_of, spec_of};
-use super::report::report_on;
+use super::report::report_with;
 use crate::cli::{FoldArguments, ReportArguments, SearchArguments};
 use crate::exit::{Code, Failure};
 use roadmill::problem::folding;
 use std::path::Path;
+use std::time::Instant;
 
 /// Makes the problem of a protein's folding, grows its roadmap, says in which order the parts of the structure form, and
 /// writes a page about it.
@@ -19,16 +20,16 @@ pub fn fold(arguments: &FoldArguments) -> Result<Code, Failure> {
         comment,
         || (),
         |run, page| {
+            let begun = Instant::now();
+            let formation = OwnFormation::of(run, native(run)?, page.signals, page.max_time)?;
             // With --json standard output is for the objects alone.
             if !is_json {
-                orders::say(run)?;
+                formation.print(run);
             }
-            let search = SearchArguments::usual(Vec::new());
-            report_on(
-                run,
-                &ReportArguments::of(page.run, page.out, search, page.max_time),
-                page.signals,
-            )
+            let left = |whole: f64| (whole - begun.elapsed().as_secs_f64()).max(0.0);
+            let (search, max_time) = (SearchArguments::usual(Vec::new()), page.max_time.map(left));
+            let arguments = ReportArguments::of(page.run, page.out, search, max_time);
+            report_with(run, &arguments, page.signals, Some(formation))
         },
     )
 }

@@ -9,6 +9,6 @@ pub fn import(arguments: &ImportArguments) -> Result<Code, Failure> {
     let from = arguments.problem.file.file_name().unwrap_or_default();
     // Quoted, for names may hold line breaks.
     let comment = format!("# Imported from {from:?}.\n");
-    write_problem(&problem, &comment, &arguments.out, arguments.force)?;
+    write_problem(&problem, &comment, &arguments.out, (arguments.force, false))?;
     Ok(Code::Done)
 }

@@ -2,12 +2,13 @@
 
 use super::build::{bounded_problem, grow_in};
 use super::load::load_file;
-use super::place::check_place;
+use super::place::check_page;
 use super::written::{remove_problem, write_problem};
 use crate::cli::JobArguments;
 use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
 use crate::output::note;
+use crate::run::outside_of_runs;
 use crate::signals::Signals;
 use crate::work::{Recorded, Run};
 use roadmill::problem::Problem;
@@ -46,7 +47,7 @@ pub(super) struct Page<'a> {
 
 impl<'a> Job<'a> {
     /// # Errors
-    /// Exit code 2: something can be seen not to be writable, or a page is there that may not be replaced.
+    /// Exit code 2: something can be seen not to be writable, lies in the folder of another run, or is a page that may not be replaced.
     pub fn begin(arguments: &'a JobArguments) -> Result<Job<'a>, Failure> {
         let cpu = CpuClock::start();
         let out: PathBuf = arguments.out.components().collect();
@@ -60,7 +61,8 @@ impl<'a> Job<'a> {
             PathBuf::from(file)
         };
         let (file, page) = (beside(".toml"), beside(".html"));
-        check_place("--out", &page)?;
+        outside_of_runs(&out)?;
+        check_page("--out", &page)?;
         if page.try_exists().unwrap_or(true) && !(arguments.force || arguments.or_resume) {
             let message = format!("{}: it is there already; --force replaces it", page.display());
             return Err(Failure::usage(message));
@@ -105,7 +107,7 @@ impl<'a> Job<'a> {
                     Failure::system(format!("{}: cannot be made: {error}", folder.display()))
                 })?;
             }
-            write_problem(&problem, comment, &file, *force)?;
+            write_problem(&problem, comment, &file, (*force, growth.json))?;
         }
         announce();
         let begun = Instant::now();

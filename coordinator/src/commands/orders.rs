@@ -1,11 +1,14 @@
+use super::bounded::bounded;
 use crate::cli::{FormationArguments, OrdersArguments};
 use crate::exit::{Code, Failure};
 use crate::files::{make_empty, write_whole};
 use crate::output::{line, note};
+use crate::signals::Signals;
 use crate::work::{Recorded, Run};
+use roadmill::Cancel;
 use roadmill::evaluate::{EvaluatorKind, FormationOrder};
 use roadmill::folding::{Formation, Native, Settings};
-use roadmill::model::Scratch;
+use roadmill::model::{ModelKind, Scratch};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -19,7 +22,9 @@ pub fn orders(arguments: &OrdersArguments) -> Result<Code, Failure> {
     if let Some(folder) = &arguments.out {
         make_empty(folder)?;
     }
-    let formation = formation(&run, &native, &settings);
+    // Nothing ends it but a signal, which ends the process.
+    let formation = formation(&run, &native, &settings, &Cancel::new());
+    let formation = formation.expect("nothing ends it before it is done");
     print(&run, &native, &settings, &formation);
     if formation.pathways == 0 {
         let message = "no pathway: no route joins an unstructured conformation to the native one";
@@ -31,9 +36,11 @@ pub fn orders(arguments: &OrdersArguments) -> Result<Code, Failure> {
     Ok(Code::Done)
 }
 
+/// The native structure of the run's model.
+///
 /// # Errors
 /// Exit code 2: the run's model has no helices and no strands.
-fn native(run: &Recorded) -> Result<Native, Failure> {
+pub(super) fn native(run: &Recorded) -> Result<Native, Failure> {
     native_of(run).ok_or_else(|| {
         let message = "this run's model has no native structure with helices or strands; that of a protein expected";
         Failure::usage(message)
@@ -46,17 +53,37 @@ pub(super) fn native_of(run: &Recorded) -> Option<Native> {
     native.filter(|native| !native.parts.is_empty())
 }
 
-/// Prints the orders in a run's roadmap by its own criterion.
-pub(super) fn say(run: &Recorded) -> Result<(), Failure> {
-    let (native, settings) = (native(run)?, settings(run, &FormationArguments::default()));
-    print(run, &native, &settings, &formation(run, &native, &settings));
-    Ok(())
+/// How the parts of a run's native structure form by the run's own criterion.
+pub(super) struct OwnFormation {
+    pub native: Native,
+    pub settings: Settings,
+    /// `None` where a signal or the time ended it before all pathways were followed.
+    pub formation: Option<Formation>,
 }
 
-/// How the parts of the native structure form by the run's own criterion, which comes with it.
-pub(super) fn usual_formation(run: &Recorded, native: &Native) -> (Settings, Formation) {
-    let settings = settings(run, &FormationArguments::default());
-    (settings, formation(run, native, &settings))
+impl OwnFormation {
+    /// Follows all pathways of a run about a native structure, no longer than `max_time`, in seconds, and until a signal comes.
+    ///
+    /// # Errors
+    /// Exit code 1: the system refuses a thread.
+    pub fn of(
+        run: &Recorded,
+        native: Native,
+        signals: &Signals,
+        max_time: Option<f64>,
+    ) -> Result<OwnFormation, Failure> {
+        let settings = settings(run, &FormationArguments::default());
+        let follow = |cancel: &Cancel| formation(run, &native, &settings, cancel);
+        let formation = bounded(signals, max_time, follow)?;
+        Ok(OwnFormation { native, settings, formation })
+    }
+
+    /// Prints the orders; nothing where there are none yet.
+    pub fn print(&self, run: &Recorded) {
+        if let OwnFormation { native, settings, formation: Some(formation) } = self {
+            print(run, native, settings, formation);
+        }
+    }
 }
 
 /// What is asked for, or else what the run's criterion has.
@@ -77,12 +104,25 @@ fn criterion(evaluators: &[EvaluatorKind]) -> Option<Settings> {
     })
 }
 
-fn formation(run: &Recorded, native: &Native, settings: &Settings) -> Formation {
-    let attachment = run.problem().attachment();
-    Formation::of(run.context(), run.roadmap(), native, settings, &attachment, &mut Scratch::new())
+fn formation(
+    run: &Recorded,
+    native: &Native,
+    settings: &Settings,
+    cancel: &Cancel,
+) -> Option<Formation> {
+    let (cx, attachment) = (run.context(), run.problem().attachment());
+    let scratch = &mut Scratch::new();
+    Formation::of(cx, run.roadmap(), native, settings, &attachment, cancel, scratch)
 }
 
 fn print(run: &Recorded, native: &Native, settings: &Settings, formation: &Formation) {
+    let has_target =
+        matches!(run.problem().model(), ModelKind::Protein(protein) if protein.target().is_some());
+    if has_target {
+        line(
+            "the native conformation is the source structure; the contacts of the target play no part",
+        );
+    }
     line(format_args!(
         "{} pathways to the native conformation, through {} nodes, from conformations with at most {} of {} native contacts",
         formation.pathways,

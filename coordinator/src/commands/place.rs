@@ -3,6 +3,7 @@
 use crate::exit::Failure;
 use crate::files::folder_of;
 use crate::run::is_of_run;
+use std::fs;
 use std::path::Path;
 
 /// Refuses, before any work is done for it, a place at which no file can be written, or at which a run has one of its own.
@@ -22,4 +23,19 @@ pub(super) fn check_place(option: &str, path: &Path) -> Result<(), Failure> {
         return Err(Failure::usage(message));
     }
     Ok(())
+}
+
+/// [`check_place`] of a page, which is a regular file: a named pipe that nobody reads would be waited for, once all work is done.
+///
+/// # Errors
+/// As [`check_place`]; exit code 2, too, if something else than a regular file is there.
+pub(super) fn check_page(option: &str, path: &Path) -> Result<(), Failure> {
+    check_place(option, path)?;
+    match fs::metadata(path) {
+        Ok(there) if !there.is_file() => Err(Failure::usage(format!(
+            "{option}: {} found, a named pipe, a device or a socket; the name of a regular file expected",
+            path.display()
+        ))),
+        _ => Ok(()),
+    }
 }

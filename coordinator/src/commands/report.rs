@@ -1,6 +1,6 @@
 use super::bounded::bounded;
-use super::orders::{native_of, usual_formation};
-use super::place::check_place;
+use super::orders::{OwnFormation, native_of};
+use super::place::check_page;
 use super::search::Asked;
 use crate::cli::{ReportArguments, SearchArguments};
 use crate::exit::{Code, Failure};
@@ -8,17 +8,18 @@ use crate::files::write_whole;
 use crate::output::note;
 use crate::signals::Signals;
 use crate::work::{Recorded, Run};
-use roadmill::Ends;
 use roadmill::export::{Folding, Report, report as page};
-use roadmill::folding::{Formation, Native, Settings, examples};
+use roadmill::folding::examples;
 use roadmill::model::Scratch;
 use roadmill::pathways::{Pathways, Rank, SPACING};
+use roadmill::{Cancel, Ends};
+use std::time::Instant;
 
 /// Writes a page about a run, with several dissimilar paths through its roadmap; also where there is no path yet.
 ///
 /// A signal ends it without a page. A limit of time ends the search for paths; the page then says so.
 pub fn report(arguments: &ReportArguments) -> Result<Code, Failure> {
-    check_place("--out", &arguments.out)?;
+    check_page("--out", &arguments.out)?;
     let run = Run::at(&arguments.run).read()?;
     // Until here a signal ends the process at once, as nothing is written yet.
     let signals = Signals::listen().map_err(Failure::system)?;
@@ -31,6 +32,16 @@ pub(super) fn report_on(
     arguments: &ReportArguments,
     signals: &Signals,
 ) -> Result<Code, Failure> {
+    report_with(run, arguments, signals, None)
+}
+
+/// [`report_on`] with the orders of formation, if they are known already.
+pub(super) fn report_with(
+    run: &Recorded,
+    arguments: &ReportArguments,
+    signals: &Signals,
+    known: Option<OwnFormation>,
+) -> Result<Code, Failure> {
     let interrupted = || {
         if !signals.came() {
             return Ok(());
@@ -39,7 +50,7 @@ pub(super) fn report_on(
         let way = format!("`roadmill report {run} --out {out}` writes it");
         Err(Failure::new(Code::Interrupted, format!("a signal came; there is no page: {way}")))
     };
-    let shown = shown(run, arguments, signals)?;
+    let shown = shown(run, arguments, signals, known)?;
     interrupted()?;
     let end = match run.stopped() {
         None => "it has not ended, or was killed; these are its complete rounds",
@@ -55,10 +66,10 @@ pub(super) fn report_on(
             pathways: &shown.pathways,
             asked: &shown.asked,
             angles: &arguments.search.angles,
-            folding: shown.folding.as_ref().map(|(native, settings, formation)| Folding {
-                native,
-                settings,
-                formation,
+            folding: shown.folding.as_ref().map(|folding| Folding {
+                native: &folding.native,
+                settings: &folding.settings,
+                formation: folding.formation.as_ref(),
             }),
             rounds: run.rounds(),
             program: &run.program(),
@@ -88,17 +99,50 @@ struct Shown {
     pathways: Pathways,
     /// How the paths were looked for, in words.
     asked: String,
-    folding: Option<(Native, Settings, Formation)>,
+    folding: Option<OwnFormation>,
 }
 
 /// The paths between the ends that are asked for or that the problem has; of a protein about a native structure, without any
 /// ends, its folding.
-fn shown(run: &Recorded, arguments: &ReportArguments, signals: &Signals) -> Result<Shown, Failure> {
+fn shown(
+    run: &Recorded,
+    arguments: &ReportArguments,
+    signals: &Signals,
+    known: Option<OwnFormation>,
+) -> Result<Shown, Failure> {
     let SearchArguments { start, goal, .. } = &arguments.search;
     let has_ends = run.problem().query().is_some() || start.is_some() || goal.is_some();
-    match native_of(run).filter(|_| !has_ends) {
-        Some(native) => shown_of_folding(run, native, arguments),
-        None => shown_between(run, arguments, signals),
+    let Some(native) = native_of(run).filter(|_| !has_ends) else {
+        return shown_between(run, arguments, signals);
+    };
+    check_of_folding(arguments)?;
+    let begun = Instant::now();
+    let folding = match known {
+        Some(folding) => folding,
+        None => OwnFormation::of(run, native, signals, arguments.max_time)?,
+    };
+    let left = |whole: f64| (whole - begun.elapsed().as_secs_f64()).max(0.0);
+    shown_of_folding(run, folding, arguments, signals, arguments.max_time.map(left))
+}
+
+/// Refuses what only a search for paths between two ends can be told.
+///
+/// # Errors
+/// Exit code 2: names the first of such options that is given.
+fn check_of_folding(arguments: &ReportArguments) -> Result<(), Failure> {
+    let SearchArguments { by, tries, shorten_tries, .. } = &arguments.search;
+    let given = [
+        ("--dissimilar", arguments.dissimilar.is_some()),
+        ("--by", by.is_some()),
+        ("--tries", tries.is_some()),
+        ("--shorten-tries", shorten_tries.is_some()),
+    ];
+    match given.iter().find(|(_, is_given)| *is_given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Failure::usage(format!(
+            "{option}: of no use to a run about folding, whose page has the cheapest pathway of each order of formation; --start and \
+             --goal beside it expected, or a run of a problem with a query"
+        ))),
     }
 }
 
@@ -130,23 +174,38 @@ fn shown_between(
 
 fn shown_of_folding(
     run: &Recorded,
-    native: Native,
+    folding: OwnFormation,
     arguments: &ReportArguments,
+    signals: &Signals,
+    max_time: Option<f64>,
 ) -> Result<Shown, Failure> {
-    let (cx, scratch) = (run.context(), &mut Scratch::new());
-    let (settings, formation) = usual_formation(run, &native);
+    let OwnFormation { native, formation, .. } = &folding;
+    let (cx, attachment) = (run.context(), run.problem().attachment());
     let spacing = arguments.search.spacing.unwrap_or(SPACING);
-    let (count, attachment) = (arguments.search.count as usize, run.problem().attachment());
+    let count = arguments.search.count as usize;
     let asked = (count, spacing);
-    let found = examples(cx, run.roadmap(), (&native, &formation), &attachment, asked, scratch);
-    let pathways = found.map_err(|error| Failure::usage(format!("--spacing: {error}")))?;
-    let in_words = format!(
+    let pathways = match formation {
+        None => Pathways { is_cut: true, ..Pathways::default() },
+        Some(formation) => {
+            let of = (native, formation);
+            let look = |cancel: &Cancel| {
+                let scratch = &mut Scratch::new();
+                examples(cx, run.roadmap(), of, &attachment, asked, cancel, scratch)
+            };
+            let found = bounded(signals, max_time, look)?;
+            found.map_err(|error| Failure::usage(format!("--spacing: {error}")))?
+        }
+    };
+    let mut in_words = format!(
         "One pathway for each of the {count} most frequent orders of the helices and strands, the one that costs least: from an \
          unstructured conformation, which is another for each, to the native one. {} found. Below, the start, or A, is where the first of them \
          begins in the map and in what is said of the ends, and where each of them begins in what is shown along it.",
         pathways.pathways.len()
     );
+    if pathways.is_cut {
+        in_words += " The time was up before all of them were looked at.";
+    }
     let first = pathways.pathways.first().and_then(|first| first.path.configs.iter().next());
     let ends = Ends { start: first.unwrap_or(&native.q).to_vec(), goal: native.q.clone() };
-    Ok(Shown { ends, pathways, asked: in_words, folding: Some((native, settings, formation)) })
+    Ok(Shown { ends, pathways, asked: in_words, folding: Some(folding) })
 }

@@ -10,6 +10,10 @@ use roadmill::pathways::{
 };
 use roadmill::{Cancel, Ends};
 
+/// How many candidates of dissimilar paths are shortened, and how often a shortcut is tried on each, if nothing is said.
+const TRIES: u32 = 40;
+const SHORTEN_TRIES: u32 = 200;
+
 /// What is asked for, with what the model says of it.
 pub(super) struct Asked<'a> {
     pub run: &'a Recorded,
@@ -92,8 +96,8 @@ impl<'a> Asked<'a> {
             rank,
             distance: distance.unwrap_or_else(|| self.usual_distance()),
             spacing,
-            tries: arguments.tries as usize,
-            shortcuts: arguments.shorten_tries,
+            tries: arguments.tries.unwrap_or(TRIES) as usize,
+            shortcuts: arguments.shorten_tries.unwrap_or(SHORTEN_TRIES),
         };
         let found = dissimilar(cx, roadmap, ends, &attachment, &asked, cancel, scratch);
         found.map_err(too_fine)

@@ -2,7 +2,7 @@
 
 use crate::exit::{Code, Failure};
 use crate::files::{cannot_write, folder_of, open_in_run, rename_to_free};
-use crate::output::{Plain, line, note};
+use crate::output::{Plain, note, told};
 use crate::run::{Ledgers, started};
 use crate::signals::Signals;
 use roadmill::model::{ModelKind, SceneOptions};
@@ -14,7 +14,7 @@ use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
 /// Writes a problem as the problem file `out`, led by a comment, with its other files in a folder beside it, and prints its
-/// notes and its digest.
+/// notes and its digest; with `is_json` all of it on standard error, as standard output is for objects alone.
 ///
 /// All is first written into a folder of its own beside the place where it is to be, and read from
 /// there again, so that what comes to stand there is whole and the same problem. The other files then get a place that nothing
@@ -24,7 +24,7 @@ pub(super) fn write_problem(
     problem: &Problem,
     comment: &str,
     out: &Path,
-    force: bool,
+    (force, is_json): (bool, bool),
 ) -> Result<(), Failure> {
     let mut place = Destination::of(out, Companions::of(problem))?;
     place.tidy();
@@ -51,7 +51,7 @@ pub(super) fn write_problem(
     result?;
     let name = Plain(problem.name());
     problem.notes().iter().for_each(|text| note(format_args!("{name}: {text}")));
-    line(format_args!("problem digest   {}", problem.digest()));
+    told(format_args!("problem digest   {}", problem.digest()), is_json);
     Ok(())
 }
 

@@ -4,7 +4,7 @@
 //! change names. So there is a whole run at the path at every moment, whenever a process is killed. What such a
 //! process leaves beside the path, under a name with its process id, the next build there tidies up.
 
-use super::ledger::{LEDGER, LedgerWriter};
+use super::ledger::{LEDGER, LedgerWriter, is_ledger};
 use super::lock::{Holder, RunLock, held, started};
 use crate::exit::Failure;
 use crate::files::{cannot_write, folder_of, rename_to_free};
@@ -38,6 +38,36 @@ pub fn is_of_run(folder: &Path, name: &str) -> bool {
     is_its && folder.join(LEDGER).is_file()
 }
 
+/// Refuses a run folder that is to be made within another run's: it would go with that run, wherever `--force` replaces it.
+///
+/// # Errors
+/// Exit code 2: `path` lies in the folder of a run. What is at `path` itself plays no part.
+pub fn outside_of_runs(path: &Path) -> Result<(), Failure> {
+    match run_around(path) {
+        None => Ok(()),
+        Some(run) => Err(Failure::usage(format!(
+            "{}: in the folder of the run {}, and would go with it; a folder outside of any run expected",
+            path.display(),
+            run.display()
+        ))),
+    }
+}
+
+/// The nearest folder of a run in which `path` lies, be anything there or not.
+fn run_around(path: &Path) -> Option<PathBuf> {
+    // What of its folders is there already, with links followed.
+    let mut folder = folder_of(path);
+    let there = loop {
+        match fs::canonicalize(folder) {
+            Ok(there) => break there,
+            Err(_) if folder == folder_of(folder) => return None,
+            Err(_) => folder = folder_of(folder),
+        }
+    };
+    let is_run = |folder: &&Path| is_ledger(&folder.join(LEDGER));
+    there.ancestors().find(is_run).map(Path::to_owned)
+}
+
 /// A run folder made for a build.
 #[derive(Debug)]
 pub struct RunFolder {
@@ -57,9 +87,10 @@ impl RunFolder {
     /// and takes the place of a run that is there, of nothing else, with [`RunFolder::settle`].
     ///
     /// # Errors
-    /// Exit code 2: the folder exists, is no run, or cannot be made; another process works on the run.
+    /// Exit code 2: the folder exists, is no run, lies in that of another run, or cannot be made; another process works on the run.
     pub fn make(out: Option<&Path>, name: &str, force: bool) -> Result<RunFolder, Failure> {
         let Some(path) = out else { return Self::make_numbered(name) };
+        outside_of_runs(path)?;
         let reserve = reserve(path)?;
         make_parents(path)?;
         tidy(path);
@@ -77,8 +108,9 @@ impl RunFolder {
     /// was killed before it began its ledger.
     ///
     /// # Errors
-    /// Exit code 2: it holds something else, or cannot be made.
+    /// Exit code 2: it holds something else, lies in the folder of another run, or cannot be made.
     pub fn make_or_take(path: &Path) -> Result<RunFolder, Failure> {
+        outside_of_runs(path)?;
         let reserve = reserve(path)?;
         make_parents(path)?;
         match fs::create_dir(path) {
@@ -390,6 +422,30 @@ mod tests {
         others.iter().for_each(|other| run(other, "other"));
         tidy(&path);
         assert_eq!(names().len(), 4);
+    }
+
+    #[test]
+    fn no_run_is_made_within_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("run")).unwrap();
+        fs::write(at("run/ledger"), super::super::ledger::HEADING).unwrap();
+        // A file that has the name of a ledger is none.
+        run(&at("accounts"), "2013/10/18 * Coffee");
+        std::os::unix::fs::symlink(at("run"), at("link")).unwrap();
+        for inside in ["run/sub", "run/a/b", "link/sub", "accounts/../run/sub"] {
+            let refused = outside_of_runs(&at(inside)).unwrap_err().to_string();
+            assert!(refused.contains("in the folder of the run"), "{inside}: {refused}");
+            let made = [
+                RunFolder::make(Some(&at(inside)), "name", false),
+                RunFolder::make_or_take(&at(inside)),
+            ];
+            assert!(made.iter().all(Result::is_err), "{inside}");
+            assert_eq!(fs::read_dir(at("run")).unwrap().count(), 1, "{inside}: nothing is made");
+        }
+        for outside in ["run", "run-2", "accounts/sub", "none/sub"] {
+            outside_of_runs(&at(outside)).unwrap();
+        }
     }
 
     #[test]

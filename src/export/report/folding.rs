@@ -20,8 +20,8 @@ pub struct Folding<'a> {
     pub native: &'a Native,
     /// What counts as formed, and what as unstructured.
     pub settings: &'a Settings,
-    /// How its parts form.
-    pub formation: &'a Formation,
+    /// How its parts form; `None` where the time was up before all pathways were followed.
+    pub formation: Option<&'a Formation>,
 }
 
 /// The section of orders and contact maps; empty where nothing is known of folding.
@@ -31,24 +31,32 @@ pub(super) fn section(report: &Report) -> String {
     };
     let mut html =
         String::from("<section id=\"folding\"><h2>In which order the structure forms</h2>\n");
+    let count = match formation {
+        Some(formation) => format!("{} pathways", formation.pathways),
+        None => "how many there are was not found in time".to_owned(),
+    };
     writeln!(
         html,
         "<p>A pathway leads from every conformation with at most {} of the {} native contacts, if any route joins it to the native one, by the \
-         least cost: {} pathways. A helix, a strand or a pairing of two is formed from where on {} of its native contacts are there and stay until the end; \
+         least cost: {count}. A helix, a strand or a pairing of two is formed from where on {} of its native contacts are there and stay until the end; \
          parts in brackets form at the same frame of a pathway. Contacts: Cα at most 7 Å apart, of residues at least four places apart along the chain.</p>",
         settings.unstructured,
         native.contacts.len(),
-        formation.pathways,
         settings.formed_percent(),
     )
     .expect("memory");
+    let Some(formation) = formation else {
+        html += "<p class=\"warning\">The time was up before all pathways were followed, and some of them would not stand for all: \
+                 <code>roadmill orders</code> follows all, without a limit of time.</p>\n";
+        return html + "</section>\n";
+    };
     if formation.pathways == 0 {
         html += "<p class=\"warning\">No pathway: no route joins an unstructured conformation to the native one.</p>\n";
         return html + "</section>\n";
     }
     html += "<div class=\"charts\">\n";
-    html += &orders(report, "Helices and strands", &formation.elements);
-    html += &orders(report, "Pairings", &formation.pairings);
+    html += &orders(native, formation, "Helices and strands", &formation.elements);
+    html += &orders(native, formation, "Pairings", &formation.pairings);
     html += "</div>\n";
     html += &precedence(native, formation);
     html += &maps(native, formation);
@@ -56,8 +64,7 @@ pub(super) fn section(report: &Report) -> String {
 }
 
 /// The most frequent orders with their shares.
-fn orders(report: &Report, title: &str, orders: &[Order]) -> String {
-    let Some(Folding { native, formation, .. }) = report.folding else { return String::new() };
+fn orders(native: &Native, formation: &Formation, title: &str, orders: &[Order]) -> String {
     if orders.first().is_none_or(|order| order.groups.is_empty()) {
         return String::new();
     }

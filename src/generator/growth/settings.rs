@@ -5,8 +5,10 @@ use crate::model::Scratch;
 use crate::scene::LENGTH_MAX;
 use crate::space::Space;
 use bincode::{Decode, Encode};
-use serde::{Deserialize, Serialize};
+use serde::de::{self, Unexpected, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 use std::f64::consts::E;
+use std::fmt;
 
 /// The step of a problem that names none, as a share of the largest distance in the space: that of OMPL's planners
 /// (I. A. Şucan, M. Moll, L. E. Kavraki, *The Open Motion Planning Library*, 2012; `range` in its documentation).
@@ -56,8 +58,8 @@ pub(in crate::generator) fn needs_query(cx: &Context) -> Result<(), String> {
 }
 
 /// How many neighbours of a new node are tried: in a problem file `"auto"` or a number.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
-#[serde(from = "NeighborWord", into = "NeighborWord")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Encode, Decode)]
+#[serde(into = "NeighborWord")]
 pub enum NeighborCount {
     /// ⌊2e ln n⌋ in a graph of n nodes, and at least one (S. Karaman, E. Frazzoli, *Sampling-based algorithms for optimal
     /// motion planning*, 2011, §3.3.3: *"k_RRG = 2e is a valid choice for all problem instances"*).
@@ -67,24 +69,50 @@ pub enum NeighborCount {
     Fixed(u32),
 }
 
-#[derive(Serialize, Deserialize)]
-#[serde(untagged, expecting = "expected \"auto\" or a number")]
+/// As a problem file has it.
+#[derive(Serialize)]
+#[serde(untagged)]
 enum NeighborWord {
     Number(u32),
     Word(AutoWord),
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Serialize)]
 enum AutoWord {
     #[serde(rename = "auto")]
     Auto,
 }
 
-impl From<NeighborWord> for NeighborCount {
-    fn from(word: NeighborWord) -> NeighborCount {
+impl<'de> Deserialize<'de> for NeighborCount {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<NeighborCount, D::Error> {
+        from.deserialize_any(CountVisitor)
+    }
+}
+
+/// Reads a number of neighbours. An error names the key, which is that of all settings of this type.
+struct CountVisitor;
+
+impl Visitor<'_> for CountVisitor {
+    type Value = NeighborCount;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "neighbors = \"auto\" or a whole number from 0 to {}", u32::MAX)
+    }
+
+    fn visit_u64<E: de::Error>(self, count: u64) -> Result<NeighborCount, E> {
+        let fitting = u32::try_from(count).map(NeighborCount::Fixed);
+        fitting.map_err(|_| E::invalid_value(Unexpected::Unsigned(count), &self))
+    }
+
+    fn visit_i64<E: de::Error>(self, count: i64) -> Result<NeighborCount, E> {
+        let fitting = u32::try_from(count).map(NeighborCount::Fixed);
+        fitting.map_err(|_| E::invalid_value(Unexpected::Signed(count), &self))
+    }
+
+    fn visit_str<E: de::Error>(self, word: &str) -> Result<NeighborCount, E> {
         match word {
-            NeighborWord::Number(count) => NeighborCount::Fixed(count),
-            NeighborWord::Word(AutoWord::Auto) => NeighborCount::Auto,
+            "auto" => Ok(NeighborCount::Auto),
+            other => Err(E::invalid_value(Unexpected::Str(other), &self)),
         }
     }
 }

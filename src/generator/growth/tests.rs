@@ -458,9 +458,21 @@ fn settings_are_refused_with_what_is_expected() {
     };
     for method in ["rrt", "rrg", "mrrg", "tree", "rrt-connect"] {
         let with = |settings: &str| format!("{{ {method} = {{ {settings} }} }}");
-        refused(PLANE, &with("step = 0.0"), "step = 0 found; a positive length expected");
-        refused(PLANE, &with("step = nan"), "step = NaN found; a positive length expected");
-        refused(PLANE, &with("step = 1e31"), "step = 1e31 found; at most 1e30 expected");
+        refused(
+            PLANE,
+            &with("step = 0.0"),
+            "step = 0 found; a length above 0, at most 1e30, expected",
+        );
+        refused(
+            PLANE,
+            &with("step = nan"),
+            "step = NaN found; a length above 0, at most 1e30, expected",
+        );
+        refused(
+            PLANE,
+            &with("step = 1e31"),
+            "step = 1e31 found; a length above 0, at most 1e30, expected",
+        );
         refused(PLANE, &with("attempts = 0"), "attempts = 0 found; 1 to 1000000000 expected");
         refused(PLANE, &with("bounces = 1"), "unknown field `bounces`");
         let (sceneless, _) = PLANE.split_once("[query]").expect("it has a query");
@@ -478,8 +490,18 @@ fn settings_are_refused_with_what_is_expected() {
     }
     let neighbors = "neighbors = 0 found; \"auto\" or at least 1 expected";
     refused(PLANE, "{ rrg = { neighbors = 0 } }", neighbors);
-    refused(PLANE, "{ rrg = { neighbors = \"some\" } }", "expected \"auto\" or a number");
-    refused(PLANE, "{ mrrg = { neighbors = -1 } }", "expected \"auto\" or a number");
+    let expected = "expected neighbors = \"auto\" or a whole number from 0 to 4294967295";
+    for (found, said) in [
+        ("\"some\"", "invalid value: string \"some\", "),
+        ("-1", "invalid value: integer `-1`, "),
+        ("4294967296", "invalid value: integer `4294967296`, "),
+        ("5.0", "invalid type: floating point `5.0`, "),
+    ] {
+        for method in ["rrg", "mrrg"] {
+            let generator = format!("{{ {method} = {{ neighbors = {found} }} }}");
+            refused(PLANE, &generator, &format!("{said}{expected}"));
+        }
+    }
     refused(PLANE, "{ mrrg = { directions = 0 } }", "directions = 0 found; 1 to 1000 expected");
     refused(PLANE, "{ mrrg = { trials = 1001 } }", "trials = 1001 found; 1 to 1000 expected");
     let sampler = "{ tree = { sampler = { gaussian = { deviation = -1.0 } } } }";

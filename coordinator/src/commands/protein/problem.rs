@@ -1,7 +1,7 @@
 use crate::cli::{ChainArguments, EndsArguments, ProteinProblemArguments};
 use crate::commands::written::write_problem;
 use crate::exit::{Code, Failure};
-use crate::output::line;
+use crate::output::told;
 use roadmill::model::protein::refit::Refit;
 use roadmill::model::protein::{FileSpec, Gaps, ProteinSpec};
 use roadmill::problem::{Relaxed, Transition, about_native, transition};
@@ -15,12 +15,12 @@ pub fn problem(arguments: &ProteinProblemArguments) -> Result<Code, Failure> {
     match second {
         Some(second) => {
             let made = problem_of(first, second, ends, out)?;
-            write_problem(&made.problem, comment, out, *force)?;
-            announce(&made);
+            write_problem(&made.problem, comment, out, (*force, false))?;
+            announce(&made, false);
         }
         None => {
             let problem = about_native(&name_of(out), Path::new(""), &spec_of(first, &ends.first));
-            write_problem(&problem.map_err(Failure::usage)?, comment, out, *force)?;
+            write_problem(&problem.map_err(Failure::usage)?, comment, out, (*force, false))?;
         }
     }
     Ok(Code::Done)
@@ -62,14 +62,16 @@ pub(in crate::commands) fn spec_of(first: &Path, what: &ChainArguments) -> Prote
     if what.gaps == crate::cli::Gaps::Rigid { spec.gaps(Gaps::Rigid) } else { spec }
 }
 
-/// Says how near the goal is to the target, and how far the ends were relaxed.
-pub(in crate::commands) fn announce(made: &Transition) {
-    say(&made.refit);
+/// Says how near the goal is to the target, and how far the ends were relaxed; with `is_json` on standard error, as standard output is
+/// for objects alone.
+pub(in crate::commands) fn announce(made: &Transition, is_json: bool) {
+    say(&made.refit, is_json);
     for (end, relaxed) in ["start", "goal"].iter().zip(made.relaxed) {
         let Relaxed { moved, energy: [before, after] } = relaxed;
-        line(format_args!(
+        let text = format!(
             "{end:<17}relaxed by {moved:.3} Å, from {before:.1} to {after:.1} model kJ/mol"
-        ));
+        );
+        told(text, is_json);
     }
 }
 
@@ -79,18 +81,21 @@ fn range(first: ResidueNumber, last: ResidueNumber) -> String {
 }
 
 /// How near the goal is to the target.
-fn say(refit: &Refit) {
-    line(format_args!(
-        "refit            Cα RMSD {:.3} Å, N CA C O {:.3} Å from the target; {:.3} Å with its torsions copied",
-        refit.ca_rmsd, refit.backbone_rmsd, refit.copied_rmsd
-    ));
+fn say(refit: &Refit, is_json: bool) {
     let lost = refit.lost_hydrogen_bonds.len();
-    line(format_args!(
-        "                 {} of {} hydrogen bonds kept; their energy {:.1}, {:.1} in the target itself",
-        refit.hydrogen_bonds - lost,
-        refit.hydrogen_bonds,
-        refit.energy[1],
-        refit.energy[0]
-    ));
-    line(format_args!("                 {} new pairs that break a rule", refit.new_clashes.len()));
+    let lines = [
+        format!(
+            "refit            Cα RMSD {:.3} Å, N CA C O {:.3} Å from the target; {:.3} Å with its torsions copied",
+            refit.ca_rmsd, refit.backbone_rmsd, refit.copied_rmsd
+        ),
+        format!(
+            "                 {} of {} hydrogen bonds kept; their energy {:.1}, {:.1} in the target itself",
+            refit.hydrogen_bonds - lost,
+            refit.hydrogen_bonds,
+            refit.energy[1],
+            refit.energy[0]
+        ),
+        format!("                 {} new pairs that break a rule", refit.new_clashes.len()),
+    ];
+    lines.iter().for_each(|line| told(line, is_json));
 }

@@ -1,12 +1,24 @@
 //! Frames: how records stand one after the other in the file, and how each is chained to the one before.
 
+use crate::files::open_in_run;
 use bincode::Encode;
 use roadmill::internal::wire;
 use roadmill::roadmap::Digest;
+use rustix::fs::OFlags;
 use std::io::{ErrorKind, Read};
+use std::path::Path;
 
 /// Name and, as the last byte, version of the format.
 pub const HEADING: &[u8; 16] = b"roadmill ledger\x02";
+/// Whether the file at `path` is a ledger of any version, by its first bytes; not if it cannot be read.
+pub fn is_ledger(path: &Path) -> bool {
+    let mut heading = [0; HEADING.len()];
+    let file = open_in_run(path, OFlags::RDONLY);
+    let is_read = file.is_ok_and(|mut file| file.read_exact(&mut heading).is_ok());
+    let name = HEADING.len() - 1;
+    is_read && heading[..name] == HEADING[..name]
+}
+
 /// Bytes of a record before its payload: length, check of the length, hash.
 pub const HEAD_BYTES: usize = 8 + 8 + 32;
 /// A payload longer than this is damage: what one message can carry.

@@ -13,7 +13,7 @@ mod stopped;
 mod writer;
 
 pub use durable::{DURABLE, DurableFile};
-pub use frame::Mark;
+pub use frame::{HEADING, Mark, is_ledger};
 pub use parents::Ledgers;
 pub use reader::LedgerReader;
 pub use record::{Chapter, FullSet, Judged, Record, RoundEnd, SecondChapter, Set};
