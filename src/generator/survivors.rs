@@ -1,9 +1,9 @@
 use super::{Generator, Parent, Reads};
 use crate::context::Context;
+use crate::digest::Digest;
 use crate::finder::{Finder, KNearest};
 use crate::local::{self, Planner};
 use crate::methods::Complaint;
-use crate::model::bodies::body_sound;
 use crate::model::{SceneChange, Scratch};
 use crate::numbers::NodeId;
 use crate::query::{Attachment, attach};
@@ -116,9 +116,8 @@ impl Generator for Survivors {
         if let Some(tag) = self.planners.iter().find(|tag| Planner::from_tag(**tag).is_none()) {
             return Some(Complaint::new("planners", tag, "tags of local planners"));
         }
-        let bodies = self.change.added.iter().chain(&self.change.removed);
-        if let Some(why) = bodies.filter_map(|body| body_sound(body).err()).next() {
-            return Some(Complaint::new("change", format!("obstacle{why}"), "sound obstacles"));
+        if let Err(why) = self.change.sound() {
+            return Some(Complaint::new("change", why, "sound obstacles"));
         }
         if let Some(Start { at, neighbors, planners }) = &self.start {
             if at.len() != roadmap.dofs() || !at.iter().all(|value| value.is_finite()) {
@@ -136,6 +135,11 @@ impl Generator for Survivors {
 }
 
 impl Survivors {
+    /// The hash of the parent's ledger.
+    pub fn ledger(&self) -> Option<Digest> {
+        self.parent.ledger
+    }
+
     /// How the scene differs from the parent's.
     pub fn change(&self) -> &SceneChange {
         &self.change
@@ -164,7 +168,9 @@ impl Survivors {
             }));
         }
         for ([low, high], tag) in parent.edges().iter().zip(&*self.planners) {
-            let (Some(low), Some(high)) = (names[low.index()], names[high.index()]) else { continue };
+            let (Some(low), Some(high)) = (names[low.index()], names[high.index()]) else {
+                continue;
+            };
             let Some(planner) = Planner::from_tag(*tag) else { continue };
             let ends = (made.configs.get(low.index()), made.configs.get(high.index()));
             if let Some(cost) = revalidation.keeps_motion(planner, ends, 1, scratch) {
@@ -199,8 +205,7 @@ impl Start {
     fn reached(&self, cx: &Context, made: Increment, scratch: &mut Scratch) -> Increment {
         let mut roadmap = Roadmap::new(&cx.space);
         roadmap.fold_round(&cx.space, [(&made, &[][..])]);
-        let attachment =
-            Attachment { neighbors: self.neighbors, planners: self.planners.clone() };
+        let attachment = Attachment { neighbors: self.neighbors, planners: self.planners.clone() };
         let id = NodeId(made.configs.len() as u32);
         let attached = attach(cx, &roadmap, &self.at, id, &attachment, scratch);
         let attached = attached.into_iter().map(|edge| edge.low);

@@ -47,7 +47,8 @@ pub trait Description {
     /// # Errors
     /// Says why what was valid here says nothing of what is valid there: it is another model, or another robot.
     fn change(&self, _after: &ModelKind) -> Result<SceneChange, String> {
-        Err("the model has no obstacles that come and go; a robot among obstacles expected".to_owned())
+        Err("the model has no obstacles that come and go; a robot among obstacles expected"
+            .to_owned())
     }
 
     /// What `check` says of it before the query: lines of a word of 16 characters and a text.

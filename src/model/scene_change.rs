@@ -1,3 +1,4 @@
+use super::bodies::body_sound;
 use crate::scene::Body;
 use bincode::{Decode, Encode};
 
@@ -37,6 +38,16 @@ impl SceneChange {
     /// Whether the scene is what it was.
     pub fn is_none(&self) -> bool {
         self.added.is_empty() && self.removed.is_empty() && self.beyond_obstacles.is_none()
+    }
+
+    /// Whether the obstacles are ones that a problem file could give: what decoded bytes must show before anything is
+    /// made of them.
+    ///
+    /// # Errors
+    /// What is wrong with the first that is not.
+    pub(crate) fn sound(&self) -> Result<(), String> {
+        let mut bodies = self.added.iter().chain(&self.removed);
+        bodies.try_for_each(|body| body_sound(body).map_err(|why| format!("an obstacle{why}")))
     }
 
     /// How many of the obstacles that came are such that went, at another pose.

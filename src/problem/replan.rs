@@ -75,11 +75,7 @@ impl Problem {
     /// Says what is in the way: the old run is of another robot or kind of model, or has no nodes; nothing is left of its
     /// roadmap, or too much; components with the start are asked for, but the problem has no query; a setting that cannot
     /// be, or a strategy called `survivors` already.
-    pub fn replanned(
-        &self,
-        old: &OldRun,
-        asked: &Replanning,
-    ) -> Result<Replanned, ProblemError> {
+    pub fn replanned(&self, old: &OldRun, asked: &Replanning) -> Result<Replanned, ProblemError> {
         let refuse = |message: String| Err(ProblemError::pathless(message));
         let survivors = match self.survivors_of(old, asked) {
             Ok(survivors) => survivors,
@@ -110,12 +106,8 @@ impl Problem {
             // Nothing comes before them.
             among: AmongKind::default(),
         });
-        let first = EarlierSchedule {
-            rounds: 1,
-            schedule: vec![index],
-            adaptive: None,
-            sets_per_round: 1,
-        };
+        let first =
+            EarlierSchedule { rounds: 1, schedule: vec![index], adaptive: None, sets_per_round: 1 };
         problem.earlier.insert(0, first);
         let place = SourceFile { path: old.place.to_owned(), digest: old.ledger };
         problem.sources.push(place);
@@ -172,13 +164,17 @@ impl Problem {
     pub fn check_survivors(&self, old: &OldRun) -> Result<(), String> {
         let Some(survivors) = self.survivors() else { return Ok(()) };
         if survivors.parent.ledger != Some(old.ledger) {
-            let expected = survivors.parent.ledger.map_or_else(String::new, |hash| hash.to_string());
+            let expected =
+                survivors.parent.ledger.map_or_else(String::new, |hash| hash.to_string());
             return Err(format!("its ledger has the hash {}; {expected} expected", old.ledger));
         }
         let asked = Replanning { components: Some(Components::All), neighbors: 1 };
         match self.survivors_of(old, &asked)?.is_of_same_parent(survivors) {
             true => Ok(()),
-            false => Err("the roadmap that is replanned, or the change of its scene, is not what it was".to_owned()),
+            false => {
+                Err("the roadmap that is replanned, or the change of its scene, is not what it was"
+                    .to_owned())
+            }
         }
     }
 }

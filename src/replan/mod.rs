@@ -1,5 +1,5 @@
 //! Replanning: what of a roadmap is left when the obstacles have changed (S. K. Nath, *Multi-directional rapidly exploring
-//! random graph for motion planning and protein folding*, thesis 2013, §5.2.3).
+//! random graph (mRRG) for motion planning*, Texas A&M University 2013, §5.2.2.1).
 //!
 //! A roadmap of the same robot among the old obstacles is *revalidated*: nodes and edges that the change makes invalid are
 //! removed. Only what has changed is looked at ([`Revalidation`]): an edge was valid among the old obstacles, so among the

@@ -24,8 +24,7 @@ pub fn retried(
         return Vec::new();
     }
     let among_removed = if everywhere { None } else { cx.model.among(&change.removed) };
-    let mut joined: Vec<(u32, u32)> =
-        edges.iter().map(|edge| (edge.low.0, edge.high.0)).collect();
+    let mut joined: Vec<(u32, u32)> = edges.iter().map(|edge| (edge.low.0, edge.high.0)).collect();
     joined.sort_unstable();
     let pairs = KNearest { neighbors }.pairs(cx, configs, scratch).into_iter();
     let new = pairs.filter(|pair| joined.binary_search(pair).is_err());

@@ -1,6 +1,6 @@
 use crate::context::Context;
 use crate::local::{self, Planner};
-use crate::model::{Scratch, SceneChange};
+use crate::model::{SceneChange, Scratch};
 use crate::query::{PATH_REFINEMENT, Path};
 use crate::roadmap::EdgeCost;
 

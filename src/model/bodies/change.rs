@@ -25,8 +25,5 @@ pub(super) fn change(before: &Bodies, after: &ModelKind) -> Result<SceneChange, 
     let different: Vec<&str> =
         others.iter().filter(|(_, same)| !same).map(|(what, _)| *what).collect();
     let beyond_obstacles = (!different.is_empty()).then(|| different.join(", "));
-    Ok(SceneChange {
-        beyond_obstacles,
-        ..SceneChange::between(obstacles, &after.obstacles)
-    })
+    Ok(SceneChange { beyond_obstacles, ..SceneChange::between(obstacles, &after.obstacles) })
 }

@@ -292,8 +292,7 @@ impl Model for BodyValidity {
 
     fn among(&self, bodies: &[Body]) -> Option<Box<dyn Model>> {
         let (space, edges, resolution) = (self.space.clone(), self.edges, self.resolution);
-        let model =
-            BodyValidity::new(space, &self.robot, self.bounds, edges, resolution, bodies);
+        let model = BodyValidity::new(space, &self.robot, self.bounds, edges, resolution, bodies);
         Some(Box::new(BodyValidity { self_pairs: Vec::new(), ..model }))
     }
 
