@@ -10,7 +10,7 @@ use roadmill::local::{self, Planner};
 use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::model::{Model, SceneChange, Scratch};
 use roadmill::numbers::Ordinal;
-use roadmill::pathways::{Dissimilar, Rank, dissimilar};
+use roadmill::pathways::{Dissimilar, Rank, dissimilar_unshortened};
 use roadmill::problem::{Components, OldRun, Problem, Replanned, Replanning};
 use roadmill::replan::{Revalidation, retried};
 use roadmill::roadmap::{Configs, Digest, Edge, Roadmap};
@@ -434,8 +434,8 @@ fn an_old_path_that_is_valid_still_needs_no_growth() {
         shortcuts: 0,
     };
     let attachment = before.attachment();
-    let found =
-        dissimilar(&cx, &old, ends, &attachment, &asked, &Cancel::new(), &mut Scratch::new());
+    let (never, scratch) = (Cancel::new(), &mut Scratch::new());
+    let found = dissimilar_unshortened(&cx, &old, ends, &attachment, &asked, &never, scratch);
     let found = found.expect("coarse enough").pathways;
     assert!(found.len() > 1, "one path alone");
     // A ball on the middle of each path in turn.
@@ -503,7 +503,7 @@ fn what_cannot_be_replanned_says_why() {
     // No problem file can name it.
     let file = "generator = { survivors = {} }";
     let text = std::fs::read_to_string("problems/growth-moved.toml").expect("a file");
-    let text = text.replace("generator = { mrrg = { step = 0.4 } }", file);
+    let text = text.replace("generator = { rrt = { step = 0.4 } }", file);
     let error = Problem::parse("it.toml".as_ref(), &text).expect_err("refused").to_string();
     assert!(error.starts_with("it.toml:") && error.contains("roadmill replan"), "{error}");
 }
@@ -523,4 +523,21 @@ fn survivors_are_checked_against_the_old_run() {
     let seeded = grown(&before.clone().with_seed(77));
     let other = OldRun { roadmap: &seeded, ..run };
     assert!(problem.check_survivors(&other).is_err());
+}
+
+/// The example of `docs/replanning.md`.
+#[test]
+fn a_program_replans_in_memory() {
+    let [before, problem] = growth();
+    let before = roadmill::Build::new(before).run().expect("a build");
+    let old = OldRun {
+        problem: before.problem(),
+        roadmap: before.roadmap(),
+        ledger: Digest::of(b"a build in memory"),
+        place: "",
+    };
+    let replanned = problem.replanned(&old, &Replanning::default()).expect("the same robot");
+    let after = roadmill::Build::new(replanned.problem).run().expect("a build");
+    assert!(after.path().is_some_and(|path| path.length > 0.0));
+    assert!(after.roadmap().sets() > 1);
 }

@@ -41,7 +41,7 @@ fn a_replanned_run_has_the_same_bits_for_any_workers_and_names_its_parent() {
     ] {
         let done = replan(&scratch, out, &[&crew[..], &["--max-sets", "30"]].concat());
         done.assert_code(0);
-        assert!(done.stdout.contains("1 obstacles came, 1 moved, 1 went"), "{}", done.stdout);
+        assert!(done.stdout.contains("1 obstacle came, 1 moved, 1 went"), "{}", done.stdout);
         assert!(scratch.ledger(out) == scratch.ledger("one"), "the ledger of {out} differs");
         scratch.run(&["verify", out, "--all", "--threads", "2"]).assert_code(0);
     }
@@ -189,7 +189,7 @@ fn paths_of_the_old_roadmap_are_tried_before_anything_grows() {
     let json = replan("above.toml", "json", &["--json"]);
     json.assert_code(0);
     assert!(json.stdout.lines().all(|line| line.starts_with('{')), "{}", json.stdout);
-    json.assert_stderr(&["1 obstacles came", "valid still"]);
+    json.assert_stderr(&["1 obstacle came", "valid still"]);
 }
 
 #[test]

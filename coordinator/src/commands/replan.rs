@@ -8,7 +8,7 @@ use crate::signals::Signals;
 use crate::work::{Recorded, Run};
 use roadmill::Cancel;
 use roadmill::model::{SceneChange, Scratch};
-use roadmill::pathways::{Dissimilar, Pathway, Rank, dissimilar};
+use roadmill::pathways::{Dissimilar, Pathway, Rank, dissimilar_unshortened};
 use roadmill::problem::{Components, OldRun, Problem, Replanned, Replanning};
 use roadmill::replan::Revalidation;
 use roadmill::{Context, Ends};
@@ -102,7 +102,8 @@ fn say_change(change: &SceneChange, say: impl Fn(String)) {
     if change.is_none() {
         say("scene    what it was".to_owned());
     } else {
-        say(format!("scene    {came} obstacles came, {moved} moved, {went} went"));
+        let obstacles = if came == 1 { "obstacle" } else { "obstacles" };
+        say(format!("scene    {came} {obstacles} came, {moved} moved, {went} went"));
     }
     if let Some(what) = beyond_obstacles {
         say(format!("scene    {what}: not what it was, so everything is checked again"));
@@ -169,7 +170,8 @@ fn old_paths(
         shortcuts: 0,
     };
     let (roadmap, attachment) = (old.roadmap(), problem.attachment());
-    let found = dissimilar(cx, roadmap, ends, &attachment, &asked, &Cancel::new(), scratch);
+    let found =
+        dissimilar_unshortened(cx, roadmap, ends, &attachment, &asked, &Cancel::new(), scratch);
     Ok(found.map_err(|error| Failure::usage(format!("paths: {error}")))?.pathways)
 }
 
