@@ -116,7 +116,7 @@ struct Draws {
 const SCENES: [Draws; 3] = [
     Draws { robot: PLANAR, low: [1.0, 1.0, 0.0], high: [9.0, 7.0, 0.0] },
     Draws { robot: RIGID, low: [1.0, 1.0, 1.0], high: [7.0, 4.0, 4.0] },
-    Draws { robot: ARM, low: [0.7, -1.5, 0.5], high: [2.2, 1.5, 2.5] },
+    Draws { robot: ARM, low: [0.7, -1.5, 0.5], high: [1.8, 1.5, 2.0] },
 ];
 
 impl Draws {
@@ -235,6 +235,10 @@ fn a_motion_whose_box_meets_nothing_is_free() {
                         && model.is_valid(b, scratch)
                         && model.motion(a, b, 1, scratch).is_some()
                 };
+                // Motions that leave the bounds are none of a roadmap.
+                if !free(empty.model(), scratch) {
+                    continue;
+                }
                 let may_meet = among.may_meet(a, b, scratch);
                 let is_free = free(&*among, scratch);
                 assert!(may_meet || is_free, "seed {seed}: {a:?} to {b:?}");
@@ -267,10 +271,10 @@ fn where_more_than_obstacles_changes_everything_is_checked_again() {
 fn pairs_are_tried_again_where_obstacles_went() {
     for scene in &SCENES {
         let mut found = 0;
-        for seed in 0..4 {
+        for seed in 0..10 {
             let mut obstacles = scene.obstacles(seed, 5);
             let before = scene.problem(&obstacles);
-            let gone = obstacles.remove(seed as usize % 2);
+            let gone = obstacles.remove(seed as usize % 5);
             let after = scene.problem(&obstacles);
             let change = change(&before, &after);
             assert_eq!((change.added.len(), change.removed.len()), (0, 1), "{gone}");
@@ -316,7 +320,8 @@ fn equal_obstacles_stay_however_they_are_listed() {
     assert_eq!(between(&[&a, &b, &c], &[&c, &a, &b]), (0, 0, 0));
     assert_eq!(between(&[&a, &a, &b], &[&b, &a]), (0, 1, 0));
     assert_eq!(between(&[&a, &b], &[&b, &d, &a]), (1, 0, 0));
-    let elsewhere = a.replacen("position = [", "position = [0.1", 1);
+    let elsewhere = a.replace("turn = { axis = [1.0, 2.0, 3.0]", "turn = { axis = [1.0, 2.0, 3.5]");
+    let elsewhere = elsewhere.replace("degrees = 0", "degrees = 10");
     assert_ne!(elsewhere, a);
     assert_eq!(between(&[&a, &b, &c], &[&b, &elsewhere]), (1, 2, 1));
     assert!(change(&of(&[&a]), &of(&[&a])).is_none());
@@ -346,7 +351,7 @@ fn result(build: &Grown) -> (String, Stop, String) {
 }
 
 /// The digest that the roadmap of the changed growth problem has always had.
-const GOLDEN: &str = "";
+const GOLDEN: &str = "0fbaa3c0dcf49c97c450b467664aeef52f5ec7e1846e4a754107000e6370461c";
 
 #[test]
 fn a_replanned_roadmap_has_the_same_bits_whatever_does_the_work() {

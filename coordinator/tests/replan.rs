@@ -148,14 +148,11 @@ fn paths_of_the_old_roadmap_are_tried_before_anything_grows() {
     let scratch = Scratch::new();
     scratch.write("disc.toml", DISC);
     let many = DISC.to_owned() + "[limits]\nsets = 6\n";
-    scratch.write(
-        "many.toml",
-        &(many + "[[evaluators]]\nconnectivity = { samples = 50, threshold = 1.1 }\n"),
-    );
+    scratch.write("many.toml", &(many + MANY));
     scratch.write("above.toml", &(DISC.to_owned() + CRATE));
     let both = CRATE.replace("5.2", "0.8");
     scratch.write("closed.toml", &(DISC.to_owned() + CRATE + &both + "[limits]\nsets = 9\n"));
-    scratch.run(&["build", "many.toml", "--out", "old", "--threads", "1"]);
+    scratch.build("old", &["many.toml", "--threads", "1"], 0);
     let replan = |with: &str, out: &str, arguments: &[&str]| {
         let call = ["replan", "old", "--with", with, "--out", out, "--threads", "1"];
         scratch.run(&[&call[..], arguments].concat())
@@ -213,7 +210,7 @@ fn what_cannot_be_replanned_is_said_and_leaves_nothing() {
     refused(DISC, &["--neighbors", "0"], &["--neighbors"]);
     refused(DISC, &["--components", "some"], &["--components", "start, all"]);
     refused("nonsense", &[], &["with.toml:1"]);
-    let closed = DISC.replace("size = [0.4, 3.0, 1.0]", "size = [0.4, 3.0, 1.0, 2.0]");
+    let closed = DISC.replace("size = [0.4, 3.0, 1.0]", "size = [0.4, 3.0, -1.0]");
     refused(&closed, &[], &["with.toml:"]);
     let survivors = DISC.replace("sampler = { uniform = {} }", "generator = { survivors = {} }");
     refused(&survivors, &[], &["with.toml:", "roadmill replan"]);
