@@ -136,7 +136,9 @@ fn say_paths(
             valid.push(index + 1);
         }
         let word = if is_valid { "valid still" } else { "blocked" };
-        say(format!("path {:<3} length {:.6}, {word}", index + 1, pathway.path.length));
+        // Of a route that was found by penalties the path's own length has these in it.
+        let length = pathway.measured.there.cost;
+        say(format!("path {:<3} length {length:.6}, {word}", index + 1));
     }
     let seconds = begun.elapsed().as_secs_f64();
     say(match (pathways.len(), &valid[..]) {
