@@ -158,7 +158,7 @@ fn paths_of_the_old_roadmap_are_tried_before_anything_grows() {
         let call = ["replan", "old", "--with", with, "--out", out, "--threads", "1"];
         scratch.run(&[&call[..], arguments].concat())
     };
-    let above = replan("above.toml", "above", &[]);
+    let above = replan("above.toml", "above", &["--paths", "12"]);
     above.assert_code(0);
     assert!(above.stdout.contains("blocked"), "{}", above.stdout);
     assert!(above.stdout.contains("nothing has to grow for a way"), "{}", above.stdout);
@@ -175,7 +175,7 @@ fn paths_of_the_old_roadmap_are_tried_before_anything_grows() {
     assert!(untold.stdout.contains(" 0 dropped"), "{}", untold.stdout);
     // When the way opens again pairs are tried where the crates stood.
     let call = ["replan", "closed", "--with", "disc.toml", "--out", "open", "--threads", "1"];
-    let open = scratch.run(&call);
+    let open = scratch.run(&[&call[..], &["--neighbors", "40"]].concat());
     open.assert_code(0);
     assert!(
         open.stdout.contains("2 went") && !open.stdout.contains(" 0 new ones"),

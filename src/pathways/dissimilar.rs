@@ -1,4 +1,5 @@
 use super::frames::expect_coarse;
+use super::k_best::value;
 use super::via_nodes::{Tried, ViaNodes};
 use super::{Frames, Pathway, Pathways, TooFine, pairs};
 use crate::cancel::Cancel;
@@ -224,7 +225,9 @@ fn penalised_routes(
             (!ways.failed.contains(&edge)).then_some(weight + uses * (weight + least))
         };
         let tree = ways.graph.tree(from, false, Rank::Cost, weigh);
-        let Some(route) = tree.route(to) else { break };
+        let Some(mut route) = tree.route(to) else { break };
+        // What it costs, without the penalties that it was found by.
+        route.length = value(ways, from, &route.nodes[1..], &route.edges).cost;
         if ways.passes(&route, scratch) {
             tried.add(&route);
             routes.push(route);

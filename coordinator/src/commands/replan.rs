@@ -136,9 +136,7 @@ fn say_paths(
             valid.push(index + 1);
         }
         let word = if is_valid { "valid still" } else { "blocked" };
-        // Of a route that was found by penalties the path's own length has these in it.
-        let length = pathway.measured.there.cost;
-        say(format!("path {:<3} length {length:.6}, {word}", index + 1));
+        say(format!("path {:<3} length {:.6}, {word}", index + 1, pathway.path.length));
     }
     let seconds = begun.elapsed().as_secs_f64();
     say(match (pathways.len(), &valid[..]) {
