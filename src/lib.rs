@@ -55,6 +55,7 @@ pub mod numbers;
 pub mod pathways;
 pub mod problem;
 pub mod query;
+pub mod replan;
 pub mod roadmap;
 
 pub mod sampler;

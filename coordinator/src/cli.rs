@@ -4,12 +4,14 @@ mod fold;
 mod job;
 mod orders;
 mod paths;
+mod replan;
 mod transition;
 
 pub use fold::FoldArguments;
 pub use job::JobArguments;
 pub use orders::{FormationArguments, OrdersArguments};
 pub use paths::{FrameFormat, PathsArguments, RankBy, ReportArguments, SearchArguments};
+pub use replan::{KeptComponents, ReplanArguments};
 pub use transition::{ChainArguments, EndsArguments, TransitionArguments};
 
 use crate::exit;
@@ -72,6 +74,9 @@ pub enum Command {
     Transition(TransitionArguments),
     /// Find in which order the parts of a protein's native structure form: makes the problem and grows its roadmap
     Fold(FoldArguments),
+    /// Go on with a finished roadmap after obstacles have come, moved or gone
+    #[command(allow_negative_numbers = true)]
+    Replan(ReplanArguments),
     /// Look at structures of proteins
     #[command(subcommand)]
     Protein(ProteinCommand),
@@ -297,6 +302,9 @@ pub struct VerifyArguments {
     /// Recompute these sets, named as `log` names them
     #[arg(long = "set", value_name = "LABEL:ORDINAL", conflicts_with_all = ["sample", "all"])]
     pub sets: Vec<String>,
+    /// Of a run made by `replan`: the run that it replans [default: where it was, from the run's own folder]
+    #[arg(long, value_name = "RUN")]
+    pub parent: Option<PathBuf>,
     #[command(flatten)]
     pub crew: CrewArguments,
 }

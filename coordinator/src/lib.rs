@@ -68,6 +68,7 @@ fn run(command: cli::Command) -> Result<Code, Failure> {
         cli::Command::Export(arguments) => commands::export(&arguments),
         cli::Command::Transition(arguments) => commands::transition(&arguments),
         cli::Command::Fold(arguments) => commands::fold(&arguments),
+        cli::Command::Replan(arguments) => commands::replan(&arguments),
         cli::Command::Protein(command) => commands::protein(&command),
         cli::Command::Worker(arguments) => commands::worker(&arguments),
     }

@@ -31,6 +31,7 @@ mod rrg;
 mod rrt;
 mod rrt_connect;
 mod sample;
+mod survivors;
 mod tree;
 
 methods! {
@@ -45,7 +46,8 @@ methods! {
         Rrg(rrg::Rrg),
         Mrrg(mrrg::Mrrg),
         Tree(tree::Tree),
-        RrtConnect(rrt_connect::RrtConnect), // new ones at the end, since ledgers know methods by number
+        RrtConnect(rrt_connect::RrtConnect),
+        Survivors(survivors::Survivors), // new ones at the end, since ledgers know methods by number
     }
 }
 
@@ -60,6 +62,7 @@ pub use rrg::Rrg;
 pub use rrt::Rrt;
 pub use rrt_connect::RrtConnect;
 pub use sample::Sample;
+pub use survivors::{Start, Survived, Survivors};
 pub use tree::Tree;
 
 use crate::context::Context;

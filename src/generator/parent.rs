@@ -112,12 +112,14 @@ impl Parent {
         let place = std::path::absolute(folder.join(&self.run));
         self.run = place.map_or_else(|_| self.run.clone(), |path| path.to_string_lossy().into());
         self.ledger = Some(run.ledger);
-        self.roadmap = Arc::new(ParentRoadmap {
-            dofs: space.len() as u32,
-            values: run.roadmap.configs().values().collect(),
-            edges: run.roadmap.edges().iter().map(|edge| [edge.low, edge.high]).collect(),
-        });
+        self.roadmap = Arc::new(ParentRoadmap::of(&run.roadmap));
         Ok(())
+    }
+
+    /// A run that was read by whoever makes the problem: where its folder is, the hash of its ledger, and its roadmap.
+    pub(crate) fn of(run: &str, ledger: Digest, roadmap: &Roadmap) -> Parent {
+        let roadmap = Arc::new(ParentRoadmap::of(roadmap));
+        Parent { run: run.to_owned(), ledger: Some(ledger), roadmap }
     }
 
     /// The roadmap, empty until it is [taken in](Parent::take_in).
@@ -150,6 +152,14 @@ impl<Context> Decode<Context> for Parent {
 bincode::impl_borrow_decode!(Parent);
 
 impl ParentRoadmap {
+    fn of(roadmap: &Roadmap) -> ParentRoadmap {
+        ParentRoadmap {
+            dofs: roadmap.configs().dofs() as u32,
+            values: roadmap.configs().values().collect(),
+            edges: roadmap.edges().iter().map(|edge| [edge.low, edge.high]).collect(),
+        }
+    }
+
     /// Number of nodes.
     pub fn len(&self) -> usize {
         self.values.len() / (self.dofs as usize).max(1)

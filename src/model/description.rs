@@ -1,5 +1,5 @@
 use super::bodies::foreign::SceneOptions;
-use super::{Figure, Model, ModelKind, Molecule, NodeValue};
+use super::{Figure, Model, ModelKind, Molecule, NodeValue, SceneChange};
 use crate::digest::SourceFile;
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
@@ -41,6 +41,15 @@ pub trait Description {
     /// The first thing in which another description of the same kind of model differs, for people to read
     /// ("the robot"); `None` where they are equal.
     fn difference(&self, other: &ModelKind) -> Option<&'static str>;
+
+    /// How the scene `after` differs from this one, of a model whose obstacles can come and go.
+    ///
+    /// # Errors
+    /// Says why what was valid here says nothing of what is valid there: it is another model, or another robot.
+    fn change(&self, _after: &ModelKind) -> Result<SceneChange, String> {
+        Err("the model has no obstacles that come and go; a robot among obstacles expected"
+            .to_owned())
+    }
 
     /// What `check` says of it before the query: lines of a word of 16 characters and a text.
     fn describe(&self, out: &mut String);

@@ -27,6 +27,7 @@ mod description;
 mod elasticity;
 mod figure;
 mod molecule;
+mod scene_change;
 mod scratch;
 
 pub mod bodies;
@@ -40,10 +41,12 @@ pub use description::{Description, Documents, ForeignProblem};
 pub use elasticity::{Draw, Elastic};
 pub use figure::{Figure, Placement};
 pub use molecule::{Energies, Molecule};
+pub use scene_change::SceneChange;
 pub use scratch::{Asked, ModelScratch, Scratch};
 
 pub(crate) use description::{Resolve, import};
 
+use crate::scene::Body;
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
 use crate::structure::Point;
@@ -206,6 +209,20 @@ pub trait Model: Any + Send + Sync {
     /// What the motion from `a` to `b` along [`Space::interpolate`], whose ends are valid, costs; `None` if
     /// it is not valid. It is looked at `refinement` times finer than the problem asks for.
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> Option<Cost>;
+
+    /// The model with the obstacles `bodies` instead of its own and without anything else that could be in the way, such
+    /// as the robot itself: what is valid in it, and in the model without these obstacles, is valid in the model with
+    /// them. `None` of a model whose obstacles do not come and go.
+    fn among(&self, _bodies: &[Body]) -> Option<Box<dyn Model>> {
+        None
+    }
+
+    /// Whether an obstacle may be in the way of the motion from `a` to `b`, or of the configuration where these are the
+    /// same; `false` only where none is, whichever way validity is judged. A test by boxes that takes little time; a model
+    /// that has none says `true`. Nothing is counted.
+    fn may_meet(&self, _a: &[f64], _b: &[f64], _scratch: &mut Scratch) -> bool {
+        true
+    }
 
     /// The energy at `q`; `None` where a configuration is valid or not and that is all there is to say.
     fn energy(&self, _q: &[f64], _scratch: &mut Scratch) -> Option<f64> {

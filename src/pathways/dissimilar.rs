@@ -1,4 +1,5 @@
 use super::frames::expect_coarse;
+use super::k_best::value;
 use super::via_nodes::{Tried, ViaNodes};
 use super::{Frames, Pathway, Pathways, TooFine, pairs};
 use crate::cancel::Cancel;
@@ -73,13 +74,53 @@ pub fn dissimilar(
     scratch: &mut Scratch,
 ) -> Result<Pathways, TooFine> {
     let configs = [&ends.start[..], &ends.goal];
+    let ways = Ways::between(cx, roadmap, configs, attachment, scratch);
+    search(ways, configs, asked, Forms::Shortened, cancel, scratch)
+}
+
+/// [`dissimilar`] with pathways as the roadmap has them: each motion is that of one of its edges, or attaches an end to it.
+/// `asked.shortcuts` does not count.
+///
+/// # Errors
+/// As [`dissimilar`].
+pub fn dissimilar_unshortened(
+    cx: &Context,
+    roadmap: &Roadmap,
+    ends: &Ends,
+    attachment: &Attachment,
+    asked: &Dissimilar,
+    cancel: &Cancel,
+    scratch: &mut Scratch,
+) -> Result<Pathways, TooFine> {
+    let configs = [&ends.start[..], &ends.goal];
+    let ways = Ways::between(cx, roadmap, configs, attachment, scratch);
+    search(ways, configs, asked, Forms::AsTheyAre, cancel, scratch)
+}
+
+/// What becomes of a candidate.
+#[derive(Clone, Copy, PartialEq)]
+enum Forms {
+    /// It is shortened in two ways, and as it is, too.
+    Shortened,
+    /// It is as it is.
+    AsTheyAre,
+}
+
+fn search(
+    mut ways: Ways,
+    configs: [&[f64]; 2],
+    asked: &Dissimilar,
+    form: Forms,
+    cancel: &Cancel,
+    scratch: &mut Scratch,
+) -> Result<Pathways, TooFine> {
+    let cx = ways.cx;
     expect_coarse(cx, configs, asked.spacing, scratch)?;
-    let mut ways = Ways::between(cx, roadmap, configs, attachment, scratch);
     let mut tried = Tried::default();
     let routes = over_nodes(&mut ways, &mut tried, asked, cancel, scratch);
     let [from, to] = ways.ends();
     let connected = ways.graph.shortest_where(from, to, |_, _| true).is_some();
-    let mut found = shortened(&ways, &routes, asked, cancel)?;
+    let mut found = shortened(&ways, &routes, (asked, form), cancel)?;
     let mut chosen = choose(cx, &mut found, asked);
     let (mut looked_at, mut far, mut penalised) = (routes.len(), 0, 0);
     while chosen.len() < asked.count && far < asked.tries && !cancel.is_cancelled() {
@@ -88,7 +129,7 @@ pub fn dissimilar(
         let Some(route) = route else { break };
         far += 1;
         looked_at += 1;
-        found.extend(shortened(&ways, &[route], asked, cancel)?);
+        found.extend(shortened(&ways, &[route], (asked, form), cancel)?);
         chosen = choose(cx, &mut found, asked);
     }
     let scale = routes.first().map_or(0.0, |best| best.length / best.edges.len().max(1) as f64);
@@ -104,7 +145,7 @@ pub fn dissimilar(
         }
         penalised += more.len();
         looked_at += more.len();
-        found.extend(shortened(&ways, &more, asked, cancel)?);
+        found.extend(shortened(&ways, &more, (asked, form), cancel)?);
         chosen = choose(cx, &mut found, asked);
     }
     let is_cut = cancel.is_cancelled();
@@ -184,7 +225,9 @@ fn penalised_routes(
             (!ways.failed.contains(&edge)).then_some(weight + uses * (weight + least))
         };
         let tree = ways.graph.tree(from, false, Rank::Cost, weigh);
-        let Some(route) = tree.route(to) else { break };
+        let Some(mut route) = tree.route(to) else { break };
+        // What it costs, without the penalties that it was found by.
+        route.length = value(ways, from, &route.nodes[1..], &route.edges).cost;
         if ways.passes(&route, scratch) {
             tried.add(&route);
             routes.push(route);
@@ -193,11 +236,12 @@ fn penalised_routes(
     routes
 }
 
-/// Routes as paths, shortened, measured, and cut into frames. Once `cancel` says so no other route is taken up; the first always is.
+/// Routes as paths, shortened if that is asked for, measured, and cut into frames. Once `cancel` says so no other route is
+/// taken up; the first always is.
 fn shortened(
     ways: &Ways,
     routes: &[Route],
-    asked: &Dissimilar,
+    (asked, form): (&Dissimilar, Forms),
     cancel: &Cancel,
 ) -> Result<Vec<Pathway>, TooFine> {
     let paths: Vec<_> = routes.iter().map(|route| ways.path(route)).collect();
@@ -209,8 +253,11 @@ fn shortened(
         let within = |reach: f64, scratch: &mut Scratch| {
             shorten_within(cx, path, asked.shortcuts, reach, cancel, scratch)
         };
-        let mut forms = vec![within(1.0, scratch)];
-        if !cancel.is_cancelled() {
+        let mut forms = match form {
+            Forms::AsTheyAre => vec![path.clone()],
+            Forms::Shortened => vec![within(1.0, scratch)],
+        };
+        if form == Forms::Shortened && !cancel.is_cancelled() {
             forms.extend([within(LOCAL, scratch), path.clone()]);
         }
         let mut measured = |path| Pathway::of(cx, path, asked.spacing, scratch);

@@ -35,7 +35,7 @@ mod measured;
 mod via_nodes;
 
 pub use crate::roadmap::Rank;
-pub use dissimilar::{DISTANCE, Dissimilar, dissimilar};
+pub use dissimilar::{DISTANCE, Dissimilar, dissimilar, dissimilar_unshortened};
 pub use frame_table::{DomainAngle, FormedContact, FrameTable};
 pub use frames::{Frames, SPACING, TooFine};
 pub use frechet::{Decided, discrete_frechet, hausdorff};

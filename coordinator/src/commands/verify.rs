@@ -17,7 +17,11 @@ pub fn verify(arguments: &VerifyArguments) -> Result<Code, Failure> {
         (false, [], None) => Selection::default(),
     };
     let run = Run::at(&arguments.run);
-    let verified = run.verify(selection).workers(&workers).signals(&signals).check()?;
+    let mut verification = run.verify(selection).workers(&workers).signals(&signals);
+    if let Some(parent) = &arguments.parent {
+        verification = verification.parent(parent);
+    }
+    let verified = verification.check()?;
     line(format_args!(
         "{} of {} sets and {} judgements recomputed: all as recorded",
         verified.sets, verified.sets_recorded, verified.judgements

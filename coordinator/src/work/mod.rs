@@ -29,6 +29,7 @@ mod growth;
 mod interrupt;
 mod limits;
 mod recorded;
+mod replanned;
 mod stops;
 mod verification;
 mod watch;

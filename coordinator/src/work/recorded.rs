@@ -39,6 +39,11 @@ impl Recorded {
         self.ledger.roadmap.digest()
     }
 
+    /// The hash of the ledger up to the last complete round.
+    pub fn ledger(&self) -> Digest {
+        self.ledger.hash
+    }
+
     /// The path of the problem's own query, if the last judgement found one.
     pub fn path(&self) -> Option<&Path> {
         self.ledger.path.as_ref()

@@ -1,5 +1,6 @@
 use super::difference;
 use super::interrupt::Interrupt;
+use super::replanned::check_parent;
 use super::stops::Standing;
 use super::workers::{Kind, Workers, start};
 use crate::exit::{Code, Failure};
@@ -48,6 +49,7 @@ impl Default for Selection {
 pub struct Verification {
     folder: PathBuf,
     selection: Selection,
+    parent: Option<PathBuf>,
     workers: Workers,
     interrupt: Interrupt,
 }
@@ -71,12 +73,18 @@ pub struct Verified {
 impl Verification {
     pub(super) fn new(folder: &Path, selection: Selection) -> Verification {
         let (workers, interrupt) = (Workers::default(), Interrupt::default());
-        Verification { folder: folder.to_owned(), selection, workers, interrupt }
+        Verification { folder: folder.to_owned(), selection, parent: None, workers, interrupt }
     }
 
     /// Who recomputes; a thread for every processor if nothing is said.
     pub fn workers(self, workers: &Workers) -> Verification {
         Verification { workers: workers.clone(), ..self }
+    }
+
+    /// Of a run that replans another: where that other run's folder is, if it is no longer where it was, from this run's
+    /// own folder.
+    pub fn parent(self, folder: impl Into<PathBuf>) -> Verification {
+        Verification { parent: Some(folder.into()), ..self }
     }
 
     /// Ends when `cancel` says so, with a failure.
@@ -94,14 +102,17 @@ impl Verification {
     /// Recomputes and compares.
     ///
     /// # Errors
-    /// Exit code 7: something is not as it is recorded, which the message names; 2: there is no run, or a set that is
-    /// not in it was asked for; 4: the run is damaged; 1: the system refuses; 5: the workers are lost; 6: it was
+    /// Exit code 7: something is not as it is recorded, which the message names; 2: there is no run, a run that it replans
+    /// is not found, or a set that is not in it was asked for; 4: the run is damaged; 1: the system refuses; 5: the workers are lost; 6: it was
     /// ended before.
     pub fn check(self) -> Result<Verified, Failure> {
-        let Verification { folder, selection, workers, interrupt } = self;
+        let Verification { folder, selection, parent, workers, interrupt } = self;
         workers.check()?;
         let scan = Scan::read(&folder)?;
         let problem = scan.problem()?;
+        if problem.survivors().is_some() {
+            check_parent(&folder, &scan.problem_of(0)?, parent.as_deref())?;
+        }
         let choice = Choice::new(&selection, &scan, &problem)?;
         let setup = Arc::new(Setup::new(problem));
         let check = Check {

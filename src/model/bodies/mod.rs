@@ -4,6 +4,7 @@
 //! problem file describes them, `docs/validity.md` how motions are judged.
 
 mod again;
+mod change;
 mod describe;
 mod figure;
 pub mod foreign;
@@ -17,13 +18,15 @@ mod spec;
 pub mod validity;
 mod write;
 
+pub(crate) use sound::body_sound;
+
 pub use import::import;
 pub use spec::{
     BodiesSpec, BodySpec, FrameSpec, JointSpec, LinkSpec, RobotSpec, ShapeSpec, SpaceSpec,
 };
 pub use validity::BodyValidity;
 
-use super::{Description, Documents, Figure, Model, ModelKind, Resolve};
+use super::{Description, Documents, Figure, Model, ModelKind, Resolve, SceneChange};
 use crate::scene::Body;
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
@@ -137,6 +140,10 @@ impl Description for Bodies {
             ("the rotation length", *rotation_length == other.rotation_length),
         ];
         parts.into_iter().find(|(_, same)| !same).map(|(what, _)| what)
+    }
+
+    fn change(&self, after: &ModelKind) -> Result<SceneChange, String> {
+        change::change(self, after)
     }
 
     fn describe(&self, out: &mut String) {

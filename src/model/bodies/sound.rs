@@ -125,7 +125,7 @@ fn link_sound(link: &Link, index: usize) -> Result<(), String> {
 }
 
 /// As of [`link_sound`].
-fn body_sound(body: &Body) -> Result<(), String> {
+pub(crate) fn body_sound(body: &Body) -> Result<(), String> {
     pose_sound(&body.pose).map_err(|why| format!(": {why}"))?;
     let lengths: &[f64] = match &body.shape {
         Shape::Point => &[],

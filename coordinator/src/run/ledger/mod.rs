@@ -26,7 +26,7 @@ use crate::exit::Failure;
 use roadmill::evaluate::Verdict;
 use roadmill::export::{RoundOutcome, RoundValue};
 use roadmill::problem::Problem;
-use roadmill::roadmap::Roadmap;
+use roadmill::roadmap::{Digest, Roadmap};
 use std::fs::File;
 use std::path::Path;
 
@@ -36,6 +36,8 @@ pub const LEDGER: &str = "ledger";
 /// A ledger read back.
 #[derive(Debug)]
 pub struct Ledger {
+    /// The hash of the ledger up to the last complete round.
+    pub hash: Digest,
     /// The problem, all chapters taken together.
     pub problem: Problem,
     /// The roadmap of the complete rounds.
@@ -97,7 +99,8 @@ impl Ledger {
         let answers = scan.last_verdicts.iter().filter_map(Verdict::answer);
         let path = answers.filter_map(|answer| answer.path.clone()).next();
         let program = (scan.chapter().program.clone(), scan.chapter().bits_version);
-        Ok(Ledger { problem, roadmap, path, stopped: scan.stopped, rounds, program })
+        let hash = scan.end.chain;
+        Ok(Ledger { hash, problem, roadmap, path, stopped: scan.stopped, rounds, program })
     }
 }
 

@@ -1,4 +1,4 @@
-use super::{Ledger, Scan};
+use super::Ledger;
 use roadmill::generator::{ParentRun, Runs};
 use std::path::Path;
 
@@ -8,10 +8,8 @@ pub struct Ledgers;
 
 impl Runs for Ledgers {
     fn read(&self, folder: &Path) -> Result<ParentRun, String> {
-        let scan = Scan::read(folder).map_err(|failure| failure.message)?;
-        let hash = scan.end.chain;
-        let Ledger { problem, roadmap, .. } =
-            Ledger::of(scan).map_err(|failure| failure.message)?;
+        let Ledger { hash, problem, roadmap, .. } =
+            Ledger::read(folder).map_err(|failure| failure.message)?;
         Ok(ParentRun { ledger: hash, space: problem.space(), roadmap })
     }
 }

@@ -103,7 +103,8 @@ pub fn problem_complaint(chapter: &Chapter, problem: &Problem) -> Option<String>
         return Some(format!("the {what} of its chapter is not that of the problem in it"));
     }
     let rounds = problem.earlier().iter().try_fold(0u64, |sum, e| sum.checked_add(e.rounds));
-    if rounds.is_none_or(|rounds| rounds > chapter.first_round.0) {
+    let opening = problem.opening_rounds();
+    if rounds.is_none_or(|rounds| rounds > chapter.first_round.0.max(opening)) {
         return Some("earlier schedules for more rounds than come before its chapter".to_owned());
     }
     if !problem.schedule_is_sound()

@@ -67,7 +67,7 @@ pub struct BodyValidity {
     pub(super) links: Vec<Moving>,
     pub(super) obstacles: Option<Group>,
     /// The obstacles' boxes.
-    boxes: Vec<Aabb>,
+    pub(super) boxes: Vec<Aabb>,
     /// Pairs of links that must not touch each other.
     pub(super) self_pairs: Vec<SelfPair>,
     /// Whether any body is solid while only its surface is in a tree.
@@ -288,6 +288,16 @@ impl Model for BodyValidity {
 
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> Option<Cost> {
         self.judge(a, b, refinement, scratch.for_motion()).then_some(Cost::Metric)
+    }
+
+    fn among(&self, bodies: &[Body]) -> Option<Box<dyn Model>> {
+        let (space, edges, resolution) = (self.space.clone(), self.edges, self.resolution);
+        let model = BodyValidity::new(space, &self.robot, self.bounds, edges, resolution, bodies);
+        Some(Box::new(BodyValidity { self_pairs: Vec::new(), ..model }))
+    }
+
+    fn may_meet(&self, a: &[f64], b: &[f64], scratch: &mut Scratch) -> bool {
+        self.swept_box_meets(a, b, scratch.of_model())
     }
 
     fn invalidity(&self) -> &'static str {

@@ -17,6 +17,7 @@ mod piece;
 mod scratch;
 mod shells;
 mod swept;
+mod swept_box;
 mod tree;
 mod triangles;
 mod work;

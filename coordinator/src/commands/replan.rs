@@ -1,0 +1,189 @@
+use super::build::{bounded_problem, grow_in};
+use super::load::load_file;
+use crate::cli::{KeptComponents, ReplanArguments};
+use crate::cpu::CpuClock;
+use crate::exit::{Code, Failure};
+use crate::output::{line, note};
+use crate::signals::Signals;
+use crate::work::{Recorded, Run};
+use roadmill::Cancel;
+use roadmill::model::{SceneChange, Scratch};
+use roadmill::pathways::{Dissimilar, Pathway, Rank, dissimilar_unshortened};
+use roadmill::problem::{Components, OldRun, Problem, Replanned, Replanning};
+use roadmill::replan::Revalidation;
+use roadmill::{Context, Ends};
+use std::path::{Component, Path, PathBuf, absolute};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Candidates of dissimilar paths that are compared, at most twice as many in all: as many as `paths` compares.
+const TRIES: usize = 40;
+
+/// Where a run goes that is given no folder.
+const RUNS: &str = "runs";
+
+/// Goes on with the roadmap of a run after obstacles have come, moved or gone: says which of its paths are valid still and
+/// what is left of it, and grows it on.
+pub fn replan(arguments: &ReplanArguments) -> Result<Code, Failure> {
+    let cpu = CpuClock::start();
+    let ReplanArguments { run, with, seed, out, force, or_resume, growth, .. } = arguments;
+    let problem = load_file(with)?;
+    let problem = problem.clone().with_seed(seed.unwrap_or(problem.seed()));
+    // What cannot be used of the command line is said before anything is looked at.
+    let (problem, workers) = bounded_problem(problem, growth)?;
+    let old = Run::at(run).read()?;
+    match old.stopped() {
+        None => note("the build has not ended; its complete rounds are gone on with"),
+        Some(stopped) => note(format_args!("the build ended: {}", stopped.reason)),
+    }
+    let place = place_from(out.as_deref(), run)?;
+    let old_run = OldRun {
+        problem: old.problem(),
+        roadmap: old.roadmap(),
+        ledger: old.ledger(),
+        place: &place.to_string_lossy(),
+    };
+    let refuse = |why: String| Failure::usage(format!("{}: {why}", with.display()));
+    let change = old.problem().model().description().change(problem.model()).map_err(refuse)?;
+    let say = |text: String| match growth.json {
+        // Standard output is for the objects alone.
+        true => note(text),
+        false => {
+            line(text);
+        }
+    };
+    say_change(&change, say);
+    say_paths(&old, &problem, &change, arguments.paths, say)?;
+    let begun = Instant::now();
+    let asked = Replanning {
+        components: arguments.components.map(|components| match components {
+            KeptComponents::Start => Components::WithStart,
+            KeptComponents::All => Components::All,
+        }),
+        neighbors: arguments.neighbors,
+    };
+    let replanned = problem.replanned(&old_run, &asked);
+    let replanned = replanned.map_err(|error| refuse(error.to_string()))?;
+    let seconds = begun.elapsed().as_secs_f64();
+    say_survivors(&old, &replanned, seconds, say);
+    let signals = Arc::new(Signals::listen().map_err(Failure::system)?);
+    let growing = Run::begin(replanned.problem).workers(&workers).signals(&signals);
+    grow_in(growing, (out.as_deref(), *force, *or_resume), growth, cpu)
+}
+
+/// The run `old` as a path from the folder of the run that is made: what does not change when both are moved together.
+fn place_from(out: Option<&Path>, old: &Path) -> Result<PathBuf, Failure> {
+    let plain = |path: &Path| {
+        let path = absolute(path).map_err(|error| Failure::usage(error.to_string()))?;
+        // What links lead to is not asked: both are named as they are on the command line.
+        let mut parts: Vec<Component> = Vec::new();
+        for part in path.components() {
+            match part {
+                Component::ParentDir => {
+                    parts.pop();
+                }
+                part => parts.push(part),
+            }
+        }
+        Ok(parts.iter().collect::<PathBuf>())
+    };
+    // A run without a name for its folder gets one beside others; which, does not matter here.
+    let from = plain(out.unwrap_or(&Path::new(RUNS).join("it")))?;
+    let to = plain(old)?;
+    let common = from.components().zip(to.components()).take_while(|(a, b)| a == b).count();
+    let up = from.components().skip(common).map(|_| Component::ParentDir);
+    Ok(up.chain(to.components().skip(common)).collect())
+}
+
+fn say_change(change: &SceneChange, say: impl Fn(String)) {
+    let SceneChange { added, removed, beyond_obstacles } = change;
+    let moved = change.moved();
+    let (came, went) = (added.len() - moved, removed.len() - moved);
+    if change.is_none() {
+        say("scene    what it was".to_owned());
+    } else {
+        let obstacles = if came == 1 { "obstacle" } else { "obstacles" };
+        say(format!("scene    {came} {obstacles} came, {moved} moved, {went} went"));
+    }
+    if let Some(what) = beyond_obstacles {
+        say(format!("scene    {what}: not what it was, so everything is checked again"));
+    }
+}
+
+/// Says which of the dissimilar paths of the old roadmap are valid still.
+fn say_paths(
+    old: &Recorded,
+    problem: &Problem,
+    change: &SceneChange,
+    count: u32,
+    say: impl Fn(String),
+) -> Result<(), Failure> {
+    let Some(ends) = problem.query().filter(|_| count > 0) else { return Ok(()) };
+    for (end, q) in [("start", &ends.start), ("goal", &ends.goal)] {
+        if let Err(why) = old.context().accept(&mut q.clone()) {
+            say(format!("paths    none in the old scene: {end}: {why}"));
+            return Ok(());
+        }
+    }
+    let (begun, scratch) = (Instant::now(), &mut Scratch::new());
+    let pathways = old_paths(old, problem, ends, count, scratch)?;
+    let cx = problem.context();
+    let mut revalidation = Revalidation::new(&cx, change);
+    let mut valid = Vec::new();
+    for (index, pathway) in pathways.iter().enumerate() {
+        let is_valid = revalidation.keeps_path(&pathway.path, scratch);
+        if is_valid {
+            valid.push(index + 1);
+        }
+        let word = if is_valid { "valid still" } else { "blocked" };
+        say(format!("path {:<3} length {:.6}, {word}", index + 1, pathway.path.length));
+    }
+    let seconds = begun.elapsed().as_secs_f64();
+    say(match (pathways.len(), &valid[..]) {
+        (0, _) => format!("paths    none in the old roadmap ({seconds:.3} s)"),
+        (count, []) => format!("paths    none of {count} is valid still ({seconds:.3} s)"),
+        (count, [best, ..]) => format!(
+            "paths    {} of {count} valid still, the shortest of them path {best}: nothing has to grow for a way ({seconds:.3} s)",
+            valid.len()
+        ),
+    });
+    Ok(())
+}
+
+/// The dissimilar paths of the old roadmap, as they go through it: not shortened, so that each of their edges is one of the
+/// roadmap's, or attaches an end to it, and what is valid of them is among what is left.
+fn old_paths(
+    old: &Recorded,
+    problem: &Problem,
+    ends: &Ends,
+    count: u32,
+    scratch: &mut Scratch,
+) -> Result<Vec<Pathway>, Failure> {
+    let cx: &Context = old.context();
+    let diameter = cx.space().diameter();
+    let asked = Dissimilar {
+        count: count as usize,
+        rank: Rank::Cost,
+        distance: diameter / 20.0,
+        spacing: diameter / 100.0,
+        tries: TRIES.max(count as usize),
+        shortcuts: 0,
+    };
+    let (roadmap, attachment) = (old.roadmap(), problem.attachment());
+    let found =
+        dissimilar_unshortened(cx, roadmap, ends, &attachment, &asked, &Cancel::new(), scratch);
+    Ok(found.map_err(|error| Failure::usage(format!("paths: {error}")))?.pathways)
+}
+
+fn say_survivors(old: &Recorded, replanned: &Replanned, seconds: f64, say: impl Fn(String)) {
+    let Replanned { survived, .. } = replanned;
+    let (nodes, edges) = (old.roadmap().configs().len(), old.roadmap().edges().len());
+    say(format!(
+        "nodes    {} of {nodes} valid still, {} dropped with components without the start",
+        survived.valid_nodes, survived.dropped_nodes
+    ));
+    say(format!(
+        "edges    {} of {edges} valid still, {} new ones where obstacles went; {} nodes and edges looked at closely ({seconds:.3} s)",
+        survived.valid_edges, survived.new_edges, survived.checked
+    ));
+}
