@@ -1,12 +1,8 @@
 use crate::context::Context;
-use crate::math;
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::scene::LENGTH_MAX;
 use crate::space::Space;
-use bincode::{Decode, Encode};
-use serde::{Deserialize, Serialize};
-use std::f64::consts::E;
 
 /// The step of a problem that names none, as a share of the largest distance in the space: that of OMPL's planners
 /// (I. A. Şucan, M. Moll, L. E. Kavraki, *The Open Motion Planning Library*, 2012; `range` in its documentation).
@@ -55,59 +51,6 @@ pub(in crate::generator) fn needs_query(cx: &Context) -> Result<(), String> {
     }
 }
 
-/// How many neighbours of a new node are tried: in a problem file `"auto"` or a number.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
-#[serde(from = "NeighborWord", into = "NeighborWord")]
-pub enum NeighborCount {
-    /// ⌊2e ln n⌋ in a graph of n nodes, and at least one (S. Karaman, E. Frazzoli, *Sampling-based algorithms for optimal
-    /// motion planning*, 2011, §3.3.3: *"k_RRG = 2e is a valid choice for all problem instances"*).
-    #[default]
-    Auto,
-    /// As many as said.
-    Fixed(u32),
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(untagged, expecting = "expected \"auto\" or a number")]
-enum NeighborWord {
-    Number(u32),
-    Word(AutoWord),
-}
-
-#[derive(Serialize, Deserialize)]
-enum AutoWord {
-    #[serde(rename = "auto")]
-    Auto,
-}
-
-impl From<NeighborWord> for NeighborCount {
-    fn from(word: NeighborWord) -> NeighborCount {
-        match word {
-            NeighborWord::Number(count) => NeighborCount::Fixed(count),
-            NeighborWord::Word(AutoWord::Auto) => NeighborCount::Auto,
-        }
-    }
-}
-
-impl From<NeighborCount> for NeighborWord {
-    fn from(count: NeighborCount) -> NeighborWord {
-        match count {
-            NeighborCount::Fixed(count) => NeighborWord::Number(count),
-            NeighborCount::Auto => NeighborWord::Word(AutoWord::Auto),
-        }
-    }
-}
-
-impl NeighborCount {
-    /// How many, in a graph of so many nodes.
-    pub fn of(self, nodes: usize) -> usize {
-        match self {
-            NeighborCount::Auto => ((2.0 * E * math::ln(nodes as f64)) as usize).max(1),
-            NeighborCount::Fixed(count) => count as usize,
-        }
-    }
-}
-
 /// What is wrong with the settings that several methods have.
 pub(in crate::generator) struct Complaints;
 
@@ -119,17 +62,5 @@ impl Complaints {
     pub fn of_goal_bias(goal_bias: f64) -> Option<Complaint> {
         let is_sound = (0.0..1.0).contains(&goal_bias);
         (!is_sound).then(|| Complaint::new("goal_bias", goal_bias, "at least 0, less than 1"))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// In the thesis' graphs of up to 200 nodes *"k ranges between 1 and 28"* (Nath 2013, §5.2.3.1).
-    #[test]
-    fn as_many_neighbours_as_in_the_thesis() {
-        assert_eq!([1, 2, 3, 200].map(|nodes| NeighborCount::Auto.of(nodes)), [1, 3, 5, 28]);
-        assert_eq!(NeighborCount::Fixed(7).of(200), 7);
     }
 }

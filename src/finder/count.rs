@@ -1,0 +1,77 @@
+use crate::math;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::E;
+
+/// How many neighbours: in a problem file `"auto"` or a number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
+#[serde(from = "NeighborWord", into = "NeighborWord")]
+pub enum NeighborCount {
+    /// ⌊2e ln n⌋ in a graph of n nodes, and at least one (S. Karaman, E. Frazzoli, *Sampling-based algorithms for optimal
+    /// motion planning*, 2011, §3.3.3: *"k_RRG = 2e is a valid choice for all problem instances"*).
+    #[default]
+    Auto,
+    /// As many as said.
+    Fixed(u32),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected \"auto\" or a number")]
+enum NeighborWord {
+    Number(u32),
+    Word(AutoWord),
+}
+
+#[derive(Serialize, Deserialize)]
+enum AutoWord {
+    #[serde(rename = "auto")]
+    Auto,
+}
+
+impl From<NeighborWord> for NeighborCount {
+    fn from(word: NeighborWord) -> NeighborCount {
+        match word {
+            NeighborWord::Number(count) => NeighborCount::Fixed(count),
+            NeighborWord::Word(AutoWord::Auto) => NeighborCount::Auto,
+        }
+    }
+}
+
+impl From<NeighborCount> for NeighborWord {
+    fn from(count: NeighborCount) -> NeighborWord {
+        match count {
+            NeighborCount::Fixed(count) => NeighborWord::Number(count),
+            NeighborCount::Auto => NeighborWord::Word(AutoWord::Auto),
+        }
+    }
+}
+
+impl From<u32> for NeighborCount {
+    fn from(count: u32) -> NeighborCount {
+        NeighborCount::Fixed(count)
+    }
+}
+
+impl NeighborCount {
+    /// How many, in a graph of so many nodes.
+    pub fn of(self, nodes: usize) -> usize {
+        match self {
+            NeighborCount::Auto => ((2.0 * E * math::ln(nodes as f64)) as usize).max(1),
+            NeighborCount::Fixed(count) => count as usize,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In the thesis' graphs of up to 200 nodes *"k ranges between 1 and 28"* (Nath 2013, §5.2.3.1).
+    #[test]
+    fn as_many_neighbours_as_in_the_thesis() {
+        assert_eq!([1, 2, 3, 200].map(|nodes| NeighborCount::Auto.of(nodes)), [1, 3, 5, 28]);
+        assert_eq!(NeighborCount::Fixed(7).of(200), 7);
+        // A graph without nodes has no logarithm.
+        assert_eq!(NeighborCount::Auto.of(0), 1);
+    }
+}
