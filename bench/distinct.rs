@@ -38,6 +38,9 @@ fn main() {
         let left_out = rows.iter().filter(|row| row.is_none()).count();
         let rows: Vec<[f64; 6]> = rows.into_iter().flatten().collect();
         let cell = |column: usize, digits: usize| {
+            if rows.is_empty() {
+                return "-".to_owned();
+            }
             let count = rows.len() as f64;
             let mean = rows.iter().map(|row| row[column]).sum::<f64>() / count;
             let square = |row: &[f64; 6]| (row[column] - mean) * (row[column] - mean);

@@ -4,6 +4,7 @@
 //! edge by edge, with an RRT, which has no neighbours, to tell what neighbours cost.
 
 use super::scenes::Scene;
+use super::support::cpu_seconds;
 use roadmill::img::{Job, Outcome, Replica, Setup};
 use roadmill::model::{Cost, Model, Scratch, Validity};
 use roadmill::numbers::{SetName, SetNumber};
@@ -11,7 +12,6 @@ use roadmill::space::Space;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 const LIMITS: [(&str, &str); 5] = [
     ("h = 1", "{ hop_limit = 1, finder = { brute-force = { neighbors = \"auto\" } } }"),
@@ -27,12 +27,12 @@ struct Counts {
     /// Motions to neighbours, not those of extensions.
     attempts: u64,
     successes: u64,
-    /// Time from the end of a successful extension to the first motion to a neighbour.
-    to_neighbor: Duration,
-    /// Where no neighbour was tried, time to the next extension, which has its own search; and how often.
-    to_extension: (Duration, u64),
-    /// Time that motions to neighbours took.
-    motions: Duration,
+    /// CPU seconds from the end of a successful extension to the first motion to a neighbour.
+    to_neighbor: f64,
+    /// Where no neighbour was tried, CPU seconds to the next extension, which has its own search; and how often.
+    to_extension: (f64, u64),
+    /// CPU seconds that motions to neighbours took.
+    motions: f64,
 }
 
 /// What was asked last.
@@ -41,7 +41,7 @@ enum Last {
     #[default]
     Nothing,
     Validity,
-    Extended(Instant),
+    Extended(f64),
 }
 
 thread_local! {
@@ -59,7 +59,7 @@ impl Model for Watched {
     fn validity(&self, q: &[f64], scratch: &mut Scratch) -> Validity {
         SEEN.with_borrow_mut(|(counts, last)| {
             if let Last::Extended(since) = last {
-                counts.to_extension.0 += since.elapsed();
+                counts.to_extension.0 += cpu_seconds() - *since;
                 counts.to_extension.1 += 1;
             }
             *last = Last::Validity;
@@ -70,19 +70,19 @@ impl Model for Watched {
         let extends = SEEN.with_borrow_mut(|(counts, last)| {
             let extends = *last == Last::Validity;
             if let Last::Extended(since) = last {
-                counts.to_neighbor += since.elapsed();
+                counts.to_neighbor += cpu_seconds() - *since;
             }
             counts.attempts += u64::from(!extends);
             *last = Last::Nothing;
             extends
         });
-        let begun = Instant::now();
+        let begun = cpu_seconds();
         let cost = self.0.motion(a, b, refinement, scratch);
         SEEN.with_borrow_mut(|(counts, last)| match extends {
-            true if cost.is_some() => *last = Last::Extended(Instant::now()),
+            true if cost.is_some() => *last = Last::Extended(cpu_seconds()),
             true => {}
             false => {
-                counts.motions += begun.elapsed();
+                counts.motions += cpu_seconds() - begun;
                 counts.successes += u64::from(cost.is_some());
             }
         });
@@ -115,9 +115,9 @@ fn grow(scene: Scene, seed: u64, generator: &str, nodes: u64, in_set: u64) -> Gr
         let SetName { strategy, ordinal } = setup.plan().name_of(number).expect("one strategy");
         let job = Job::Generate { number, strategy, ordinal };
         let task = replica.task(&setup, job).expect("sets can be generated");
-        let begun = super::support::cpu_seconds();
+        let begun = cpu_seconds();
         let Outcome::Increment(made) = task.run(&setup, &mut scratch) else { panic!("a set") };
-        seconds += super::support::cpu_seconds() - begun;
+        seconds += cpu_seconds() - begun;
         drop(task);
         let made = made.unwrap_or_else(|gave_up| panic!("{}: {gave_up:?}", scene.name()));
         replica.publish(&setup, Arc::new(made));
@@ -145,14 +145,14 @@ impl Column {
     }
 }
 
-pub fn run(nodes: u64, seeds: u64) {
+pub fn run(nodes: u64, seeds: u64, wanted: &str) {
     let in_set = 200.max(nodes / 20);
     println!("{nodes} nodes in sets of {in_set}, seeds 1 to {seeds}, mean ± standard deviation\n");
     println!(
         "| scene | neighbours | finding them, ms | motions to them, ms | attempts | success % | edges | same edges % |"
     );
     println!("|---|---|---|---|---|---|---|---|");
-    for scene in Scene::ALL {
+    for scene in Scene::ALL.into_iter().filter(|scene| scene.name().contains(wanted)) {
         let mut columns: Vec<[Column; 6]> = LIMITS.iter().map(|_| Default::default()).collect();
         let mut whole = Column::default();
         for seed in 1..=seeds {
@@ -160,7 +160,7 @@ pub fn run(nodes: u64, seeds: u64) {
             let tree = format!("{{ rrt = {{ step = {step}, goal_bias = 0 }} }}");
             let tree = grow(scene, seed, &tree, nodes, in_set);
             let (time, often) = tree.counts.to_extension;
-            let extension = time.as_secs_f64() / often as f64;
+            let extension = time / often as f64;
             let graphs = LIMITS.map(|(_, neighbors)| {
                 let settings = format!("step = {step}, goal_bias = 0, neighbors = {neighbors}");
                 grow(scene, seed, &format!("{{ rrg = {{ {settings} }} }}"), nodes, in_set)
@@ -172,11 +172,11 @@ pub fn run(nodes: u64, seeds: u64) {
                 let counts = &graph.counts;
                 let (time, often) = counts.to_extension;
                 let finding = counts.to_neighbor + time;
-                let finding = finding.as_secs_f64() - often as f64 * extension;
+                let finding = finding - often as f64 * extension;
                 let same = graph.edges.intersection(&graphs[3].edges).count() as f64;
                 let values = [
                     finding * 1e3,
-                    counts.motions.as_secs_f64() * 1e3,
+                    counts.motions * 1e3,
                     counts.attempts as f64,
                     100.0 * counts.successes as f64 / counts.attempts.max(1) as f64,
                     graph.edges.len() as f64,

@@ -39,13 +39,14 @@ pub fn run(most: u64) {
 
 fn body(motion: &str, min: &str, max: &str) -> String {
     format!(
-        "[space]\nmotion = \"{motion}\"\nmin = {min}\nmax = {max}\n\
+        "[space]\nmotion = \"{motion}\"\nmin = {min}\nmax = {max}\nbounds = \"body\"\n\
          [robot]\nbodies = [{{ shape = {{ box = {{ size = [2, 1, 1] }} }} }}]\n"
     )
 }
 
 fn chain(links: usize) -> String {
-    format!("[space]\nmotion = \"fixed\"\n[robot]\n{}", linkage(links))
+    let bounds = "min = [-9, -9, -9]\nmax = [9, 9, 9]\nbounds = \"body\"";
+    format!("[space]\nmotion = \"fixed\"\n{bounds}\n[robot]\n{}", linkage(links))
 }
 
 fn drawn(cx: &Context, count: usize, stream: &mut Stream) -> Configs {

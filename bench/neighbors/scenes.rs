@@ -89,10 +89,12 @@ impl Scene {
             (true, Robot::Linkage) => ", 0",
             (false, _) => turned,
         };
+        // The linkage reaches along x from its base, into the square at either end.
+        let turn_at_goal = if turn == ", 0" { ", -3.1" } else { turn };
         let joints = if self.robot == Robot::Linkage { ", 0, 0, 0" } else { "" };
         let _ = writeln!(
             text,
-            "[query]\nstart = [{place}{turn}{joints}]\ngoal = [{end}{turn}{joints}]"
+            "[query]\nstart = [{place}{turn}{joints}]\ngoal = [{end}{turn_at_goal}{joints}]"
         );
         match self.environment {
             Environment::Clutter => clutter(seed, &mut text),
@@ -104,7 +106,7 @@ impl Scene {
     /// The problem with one strategy, whose sets have so many nodes.
     pub fn problem(self, seed: u64, generator: &str, nodes: u64) -> Problem {
         let text = format!(
-            "{}[[strategies]]\nlabel = \"graph\"\nnodes = {nodes}\ngenerator = {generator}\n",
+            "{}[img]\nsets_per_round = 1\n[[strategies]]\nlabel = \"graph\"\nnodes = {nodes}\ngenerator = {generator}\n",
             self.text(seed)
         );
         Problem::parse(Path::new("neighbors.toml"), &text).unwrap_or_else(|error| panic!("{error}"))

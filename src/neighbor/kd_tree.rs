@@ -104,8 +104,8 @@ impl Axes {
                 }
                 Axis::Rotation => {
                     let (mut same, mut opposite) = (0.0, 0.0);
-                    for at in at..at + 4 {
-                        let [a, b] = [point[at], -point[at]].map(|value| outside(value, at));
+                    for (at, value) in point.iter().enumerate().skip(at).take(4) {
+                        let [a, b] = [*value, -value].map(|value| outside(value, at));
                         same += a * a;
                         opposite += b * b;
                     }
