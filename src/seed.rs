@@ -19,8 +19,10 @@ pub enum Purpose {
     Sampling = 0,
     /// Deciding which proposals are kept.
     Accepting = 1,
-    /// Choosing what to connect.
+    /// Choosing what to connect within the set, or to what it grows from.
     Connecting = 2,
+    /// Choosing what of a set to connect with what came before it.
+    Joining = 3,
 }
 
 /// The seed of one node set, of one evaluator, or of what is found before either.
@@ -128,13 +130,16 @@ impl Stream {
 mod tests {
     use super::*;
 
+    const PURPOSES: [Purpose; 4] =
+        [Purpose::Sampling, Purpose::Accepting, Purpose::Connecting, Purpose::Joining];
+
     #[test]
     fn sets_labels_ordinals_and_purposes_have_their_own_numbers() {
         let mut seen = std::collections::BTreeSet::new();
         for base_seed in [0, 1] {
             for label in ["uniform", "bridge"] {
                 for ordinal in [0, 1].map(Ordinal) {
-                    for purpose in [Purpose::Sampling, Purpose::Accepting, Purpose::Connecting] {
+                    for purpose in PURPOSES {
                         let mut stream = Seed::of_set(base_seed, label, ordinal).stream(purpose);
                         assert!(seen.insert(stream.unit().to_bits()));
                     }

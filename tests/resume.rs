@@ -15,7 +15,7 @@ use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
 
-const PROBLEMS: [&str; 10] = [
+const PROBLEMS: [&str; 11] = [
     "judged",
     "settled",
     "meshes",
@@ -26,6 +26,7 @@ const PROBLEMS: [&str; 10] = [
     "expansion",
     "growth",
     "directions",
+    "neighbors",
 ];
 
 fn load(name: &str) -> Problem {

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// The digests that each problem of `problems/` has always had. Whoever changes one bumps
 /// `BITS_VERSION`.
-const GOLDEN: [(&str, &str); 15] = [
+const GOLDEN: [(&str, &str); 16] = [
     ("adaptive", "7b9cc629fc41f79345ed2c2a5b9ea14cde7d5ca9d0a4fa4dc2af4b783ffb542c"),
     ("settled", "e237813a24ad6d78c4dcb301cff52da2071c63d2af6896d9d6e0d33f7ddd62fd"),
     ("judged", "148ea74428efe955e2f3f29c826322052c2015012556b1f3989553efbb0e742a"),
@@ -28,6 +28,7 @@ const GOLDEN: [(&str, &str); 15] = [
     ("expansion", "72809594059e57da522cda4e60ca548864319eb7267c1f6a77d7dce7c39722b6"),
     ("growth", "25cb129d26f41ad060ec97348a00723565168b538ea540f6c46e0e08ca1a30f7"),
     ("directions", "c4e945f41b7930a5c2e23e3686a22e746d460589559d61f6a102db3eb81baed8"),
+    ("neighbors", "f33f9233d203b0a54b5b025e87d11b2db4cbcf1b48bb97dc8417f1e04fb9dceb"),
 ];
 
 fn problem(name: &str) -> Problem {

@@ -276,7 +276,7 @@ fn the_same_ledger_for_evaluators_and_a_schedule_that_adapts() {
 
 #[test]
 fn the_same_ledger_for_energies_and_sets_that_grow() {
-    ["landscape", "expansion", "growth", "directions"]
+    ["landscape", "expansion", "growth", "directions", "neighbors"]
         .iter()
         .for_each(|name| any_crew_builds_what_threads_build(name));
 }

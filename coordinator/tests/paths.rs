@@ -110,6 +110,47 @@ fn what_cannot_be_asked_is_refused_and_no_path_is_no_success() {
     assert!(number(&paths[0], "cost [length]") >= 1.5);
 }
 
+/// A point in a room with a pillar in its middle.
+const PILLAR: &str = "[space]\nmotion = \"translation-2d\"\nmin = [0, 0]\nmax = [4, 4]\n\
+    bounds = \"reference\"\n[robot]\nbodies = [{ shape = { point = {} } }]\n\
+    [[obstacles]]\nshape = { box = { size = [1, 1, 1] } }\nposition = [2, 2, 0]\n\
+    [query]\nstart = [0.5, 2]\ngoal = [3.5, 2.1]\n[img]\nsets_per_round = 1\n\
+    [[strategies]]\nlabel = \"u\"\nnodes = 150\nsampler = { uniform = {} }\n\
+    [[evaluators]]\nall = [{ query = {} }, { not = { query = {} } }]\n[limits]\nsets = 1\n";
+
+#[test]
+fn the_ways_around_a_pillar_are_told_apart() {
+    let scratch = Scratch::new();
+    scratch.write("pillar.toml", PILLAR);
+    scratch.build("run", &["pillar.toml"], 3);
+    let done = scratch.run(&["paths", "run", "--distinct", "--count", "4", "--out", "ways"]);
+    done.assert_code(0);
+    let paths = table(&scratch.path("ways").join("paths.csv"));
+    // Below it, above it, and then once around it and on.
+    let classes: Vec<&str> = paths.iter().map(|row| &row["class"][..]).collect();
+    assert_eq!(
+        classes[..2].iter().collect::<std::collections::BTreeSet<_>>(),
+        ["-", "1"].iter().collect()
+    );
+    assert_eq!(
+        classes[2..].iter().collect::<std::collections::BTreeSet<_>>(),
+        ["-1", "1 1"].iter().collect()
+    );
+    let lengths: Vec<f64> = paths.iter().map(|row| number(row, "cost [length]")).collect();
+    assert!(lengths.is_sorted() && lengths[1] < 4.0 && lengths[2] > 5.0, "{lengths:?}");
+    for class in classes {
+        assert!(done.stdout.lines().any(|line| line.trim_start().ends_with(&format!("  {class}"))));
+    }
+    // The search has an order of its own, and needs obstacles.
+    let done = scratch.run(&["paths", "run", "--distinct", "--dissimilar"]);
+    done.assert_code(2);
+    scratch.write("hill.toml", HILL);
+    scratch.build("hill", &["hill.toml"], 0);
+    let done = scratch.run(&["paths", "hill", "--distinct"]);
+    done.assert_code(2);
+    done.assert_stderr(&["--distinct: this model knows of no obstacles, bodies expected"]);
+}
+
 /// A Python that has mdtraj, unless there is none and none is required.
 fn has_python() -> bool {
     let there = Command::new("python3").args(["-c", "import mdtraj"]).output();

@@ -3,12 +3,13 @@
 use super::JoinInput;
 use super::joined::Joined;
 use crate::context::Context;
-use crate::finder::{Finder, KNearest};
+use crate::finder::{Finder, KNearest, Milestones};
 use crate::local::{self, Planner};
 use crate::model::Scratch;
 use crate::neighbor::{Best, Neighbor, Subset};
 use crate::numbers::NodeId;
 use crate::roadmap::{Component, Components, Configs, Edge};
+use crate::seed::{Purpose, Seed, Stream};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
@@ -33,6 +34,8 @@ pub(super) struct CandidatePairs<'a> {
     pub new: NodeBlock<'a>,
     /// Of an increment that grew from the roadmap: its pairs of a new and an old node that have an edge already.
     linked: BTreeSet<NodePair>,
+    /// The seed of the set that the increment is.
+    seed: Seed,
 }
 
 /// A pair to be tried; ids are those after the round.
@@ -77,7 +80,7 @@ impl<'a> CandidatePairs<'a> {
             .root_edges_from(new.first.0)
             .map(|link| NodePair { new: link.high, old: link.low });
         let linked = linked.collect();
-        Some(CandidatePairs { old, new, linked })
+        Some(CandidatePairs { old, new, linked, seed: input.seed })
     }
 
     /// Which components are joined before any pair is tried: those that root edges of a growing set join.
@@ -96,28 +99,36 @@ impl<'a> CandidatePairs<'a> {
         neighbors: u32,
         scratch: &mut Scratch,
     ) -> Vec<CandidatePair> {
-        self.found(cx, &KNearest { neighbors }, scratch)
+        // It leaves nothing to chance.
+        let chance = &mut self.seed.stream(Purpose::Joining);
+        self.found(cx, &KNearest { neighbors: neighbors.into() }, chance, scratch)
     }
 
-    /// Each new node in order with the old ones that a finder gives for it, nearest first, ties by id.
+    /// Each new node in order with the old ones that a finder gives for it, nearest first, ties by id. What is left to chance
+    /// `chance` decides.
     pub fn found(
         &self,
         cx: &Context,
         finder: &dyn Finder,
+        chance: &mut Stream,
         scratch: &mut Scratch,
     ) -> Vec<CandidatePair> {
+        let total = self.old.iter().map(|part| part.configs.len()).sum();
+        let most = finder.most(total).unwrap_or(usize::MAX);
         let mut candidates = Vec::new();
         for (index, q) in self.new.configs.iter().enumerate() {
             let mut near = Vec::new();
             for part in &self.old {
-                let found = finder.near(cx, part.configs, part.components, q, scratch);
-                for mut neighbor in found {
+                let all = Milestones::all(part.configs, part.components);
+                let part_of = Milestones { total, ..all };
+                for mut neighbor in finder.near(cx, &part_of, q, scratch) {
                     neighbor.id += part.first.0;
                     near.push(neighbor);
                 }
             }
             near.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
-            near.truncate(finder.most().unwrap_or(usize::MAX));
+            near.truncate(most);
+            finder.choose(&mut near, total, chance);
             let new = self.new.first + index as u32;
             candidates.extend(near.iter().map(|neighbor| CandidatePair {
                 distance: neighbor.distance,

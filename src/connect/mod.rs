@@ -146,6 +146,8 @@ pub struct JoinInput {
     pub roadmap: Arc<Roadmap>,
     /// The round's increments; the last is the one to be joined.
     pub increments: Vec<Arc<Built>>,
+    /// The seed of the set that is to be joined.
+    pub seed: Seed,
 }
 
 /// Tries pairs of a set's milestones in their order, each from its first, the lower id, to its second; the edges of

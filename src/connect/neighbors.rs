@@ -6,7 +6,7 @@ use crate::local::{self, Planner};
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::roadmap::{Configs, Edge};
-use crate::seed::Seed;
+use crate::seed::{Purpose, Seed};
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -40,11 +40,12 @@ impl Within for Neighbors {
     fn connect(
         &self,
         cx: &Context,
-        _seed: &Seed,
+        seed: &Seed,
         configs: &Configs,
         scratch: &mut Scratch,
     ) -> Vec<Edge> {
-        let pairs = self.finder.method().pairs(cx, configs, scratch);
+        let chance = &mut seed.stream(Purpose::Connecting);
+        let pairs = self.finder.method().pairs(cx, configs, chance, scratch);
         connect_pairs(cx, &self.planners, configs, &pairs, scratch)
     }
 
@@ -60,7 +61,8 @@ impl Within for Neighbors {
 impl Among for Neighbors {
     fn connect(&self, cx: &Context, input: &JoinInput, scratch: &mut Scratch) -> Vec<Edge> {
         let Some(candidates) = CandidatePairs::new(input) else { return Vec::new() };
-        let pairs = candidates.found(cx, self.finder.method(), scratch).into_iter();
+        let chance = &mut input.seed.stream(Purpose::Joining);
+        let pairs = candidates.found(cx, self.finder.method(), chance, scratch).into_iter();
         pairs.filter_map(|pair| candidates.connect(cx, &self.planners, pair, scratch)).collect()
     }
 

@@ -8,6 +8,10 @@ use std::path::Path;
 
 const NEIGHBORS: u32 = 4;
 
+fn seed() -> Seed {
+    Seed::of_set(1, "joined", Ordinal(4))
+}
+
 /// The third set of a round, to be joined to the two before it and a roadmap of four.
 fn input() -> (Setup, JoinInput) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/problems/judged.toml");
@@ -22,7 +26,7 @@ fn input() -> (Setup, JoinInput) {
         let increment = strategy.generate(&setup.cx, ordinal, None, &mut Scratch::new()).unwrap();
         increments.push(Arc::new(Built::new(&setup.cx, Arc::new(increment))));
     }
-    (setup, JoinInput { roadmap, increments })
+    (setup, JoinInput { roadmap, increments, seed: seed() })
 }
 
 fn joined(setup: &Setup, input: &JoinInput, way: &dyn Among) -> (Vec<Edge>, Asked) {
@@ -105,7 +109,7 @@ fn nothing_is_joined_to_nothing() {
     ];
     for way in ways {
         assert_eq!(joined(&setup, &input, way), (Vec::new(), Asked::default()));
-        let empty = JoinInput { roadmap: input.roadmap.clone(), increments: Vec::new() };
+        let empty = JoinInput { increments: Vec::new(), ..input.clone() };
         assert_eq!(joined(&setup, &empty, way).0, []);
     }
 }
@@ -181,7 +185,8 @@ fn after(setup: &Setup, roadmap: Set, round: &[Set]) -> JoinInput {
     let mut old = Roadmap::new(space);
     old.fold_round(space, [(&increment(roadmap), &[][..])]);
     let built = |set: &Set| Arc::new(Built::new(setup.context(), Arc::new(increment(*set))));
-    JoinInput { roadmap: Arc::new(old), increments: round.iter().map(built).collect() }
+    let increments = round.iter().map(built).collect();
+    JoinInput { roadmap: Arc::new(old), increments, seed: seed() }
 }
 
 fn ends(edges: &[Edge]) -> Vec<(u32, u32)> {

@@ -1,9 +1,10 @@
-use super::Finder;
+use super::{Finder, Milestones};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::neighbor::{Best, Neighbor};
-use crate::roadmap::{Components, Configs};
+use crate::roadmap::Configs;
+use crate::seed::Stream;
 use crate::structure::measure::CentredPoints;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
@@ -44,18 +45,18 @@ impl Finder for CaRmsd {
     fn near(
         &self,
         cx: &Context,
-        configs: &Configs,
-        components: &Components,
+        milestones: &Milestones,
         q: &[f64],
         scratch: &mut Scratch,
     ) -> Vec<Neighbor> {
+        let Milestones { configs, components, .. } = *milestones;
         // What `suits` refuses in a problem file can still come in the bytes of a ledger.
         let Some(shape) = shape_at(cx, q, scratch) else { return Vec::new() };
         let mut shape_of = |node: u32| shape_at(cx, configs.get(node as usize), scratch);
         let shapes = components.shapes(&mut shape_of);
         let radius = shape.radius_of_gyration();
         let mut best = Best::new(self.neighbors as usize);
-        for id in 0..components.nodes() {
+        for id in milestones.ids() {
             if least(radius, shapes.radius(id)) > best.bound() {
                 continue;
             }
@@ -73,7 +74,30 @@ impl Finder for CaRmsd {
         best.into_items()
     }
 
-    fn pairs(&self, cx: &Context, configs: &Configs, scratch: &mut Scratch) -> Vec<(u32, u32)> {
+    fn near_of_few(
+        &self,
+        cx: &Context,
+        few: &Configs,
+        _total: usize,
+        q: &[f64],
+        scratch: &mut Scratch,
+    ) -> Vec<Neighbor> {
+        let Some(shape) = shape_at(cx, q, scratch) else { return Vec::new() };
+        let mut best = Best::new(self.neighbors as usize);
+        for (id, other) in few.iter().enumerate() {
+            let Some(other) = shape_at(cx, other, scratch) else { continue };
+            best.offer(Neighbor { distance: shape.rmsd(&other), id: id as u32 });
+        }
+        best.into_items()
+    }
+
+    fn pairs(
+        &self,
+        cx: &Context,
+        configs: &Configs,
+        _chance: &mut Stream,
+        scratch: &mut Scratch,
+    ) -> Vec<(u32, u32)> {
         let shapes: Option<Vec<CentredPoints>> =
             configs.iter().map(|q| shape_at(cx, q, scratch)).collect();
         let Some(shapes) = shapes else { return Vec::new() };
@@ -97,7 +121,7 @@ impl Finder for CaRmsd {
         pairs.collect::<BTreeSet<_>>().into_iter().collect()
     }
 
-    fn most(&self) -> Option<usize> {
+    fn most(&self, _total: usize) -> Option<usize> {
         Some(self.neighbors as usize)
     }
 

@@ -1,10 +1,11 @@
-use super::Finder;
+use super::{Finder, Milestones};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
-use crate::neighbor::{Neighbor, radius_graph};
-use crate::roadmap::{Components, Configs};
+use crate::neighbor::{self, Neighbor};
+use crate::roadmap::Configs;
 use crate::scene::LENGTH_MAX;
+use crate::seed::Stream;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
@@ -32,26 +33,51 @@ impl Finder for Radius {
     fn near(
         &self,
         cx: &Context,
-        configs: &Configs,
-        components: &Components,
+        milestones: &Milestones,
         q: &[f64],
         _scratch: &mut Scratch,
     ) -> Vec<Neighbor> {
-        components.in_radius(&cx.space, configs, q, self.radius, self.most())
+        let Milestones { configs, components, component, but, total } = *milestones;
+        // Those that are no neighbours would take the places of others.
+        let most = if component.is_some() || but.is_some() { None } else { self.most(total) };
+        let mut near = components.in_radius(&cx.space, configs, q, self.radius, most);
+        near.retain(|neighbor| milestones.has(neighbor.id));
+        near.truncate(self.most(total).unwrap_or(usize::MAX));
+        near
     }
 
-    fn pairs(&self, cx: &Context, configs: &Configs, _scratch: &mut Scratch) -> Vec<(u32, u32)> {
+    fn near_of_few(
+        &self,
+        cx: &Context,
+        few: &Configs,
+        total: usize,
+        q: &[f64],
+        _scratch: &mut Scratch,
+    ) -> Vec<Neighbor> {
+        let ids = 0..few.len() as u32;
+        neighbor::in_radius(&cx.space, few, ids, q, self.radius, self.most(total))
+    }
+
+    fn pairs(
+        &self,
+        cx: &Context,
+        configs: &Configs,
+        _chance: &mut Stream,
+        _scratch: &mut Scratch,
+    ) -> Vec<(u32, u32)> {
         let space = &cx.space;
-        let Some(most) = self.most() else { return radius_graph(space, configs, self.radius) };
+        let Some(most) = self.most(configs.len()) else {
+            return neighbor::radius_graph(space, configs, self.radius);
+        };
         // Both relations are symmetric in the distance: a pair is kept where either milestone has it among its
         // nearest.
-        let mut pairs = crate::neighbor::k_nearest_graph(space, configs, most);
+        let mut pairs = neighbor::k_nearest_graph(space, configs, most);
         let config = |id: u32| configs.get(id as usize);
         pairs.retain(|(a, b)| space.distance(config(*a), config(*b)) <= self.radius);
         pairs
     }
 
-    fn most(&self) -> Option<usize> {
+    fn most(&self, _total: usize) -> Option<usize> {
         self.most.map(|most| most as usize)
     }
 

@@ -1,9 +1,10 @@
 //! The laws that every neighbour finder keeps: what it gives is in order, and is what it would be by looking at all.
 
 use super::*;
-use crate::numbers::Ordinal;
+use crate::neighbor::Ranked;
+use crate::numbers::{NodeId, Ordinal};
 use crate::problem::{Problem, ProblemError};
-use crate::roadmap::{Increment, Roadmap};
+use crate::roadmap::{Edge, Increment, Roadmap};
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::{BaseJoint, rigid_space};
 use crate::structure::{Point, measure};
@@ -15,11 +16,20 @@ use std::path::Path;
 /// Every finder once.
 fn finders(neighbors: u32) -> Vec<FinderKind> {
     let radius = 0.1 * f64::from(neighbors);
+    let count = neighbors.into();
     vec![
-        FinderKind::KNearest(KNearest { neighbors }),
+        FinderKind::KNearest(KNearest { neighbors: count }),
+        FinderKind::KNearest(KNearest { neighbors: NeighborCount::Auto }),
         FinderKind::Radius(Radius { radius, most: None }),
         FinderKind::Radius(Radius { radius, most: Some(neighbors) }),
         FinderKind::CaRmsd(CaRmsd { neighbors }),
+        FinderKind::BruteForce(BruteForce { neighbors: count }),
+        FinderKind::MetricTree(MetricTree { neighbors: count }),
+        FinderKind::MetricTree(MetricTree { neighbors: NeighborCount::Auto }),
+        // What may be no farther than the nearest is the nearest.
+        FinderKind::Approximate(Approximate { neighbors: count, epsilon: 0.0 }),
+        // Of as many as are drawn all are drawn.
+        FinderKind::Randomised(Randomised { neighbors: count, nearest: Some(neighbors) }),
     ]
 }
 
@@ -71,19 +81,22 @@ fn gives_what_looking_at_all_gives(
 ) -> TestCaseResult {
     let (finder, count, scratch) = (kind.method(), configs.len(), &mut Scratch::new());
     let components = Components::of(&cx.space, configs, &[]);
+    let all = Milestones::all(configs, &components);
     let mut pairs = BTreeSet::new();
     for (id, q) in configs.iter().enumerate() {
-        let near = finder.near(cx, configs, &components, q, scratch);
+        let near = finder.near(cx, &all, q, scratch);
+        // Few are looked at one by one, with the same result.
+        prop_assert_eq!(&finder.near_of_few(cx, configs, count, q, scratch), &near);
         scratch.poison(f64::NAN.to_bits());
         let mut sorted = near.clone();
         sorted.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
         prop_assert_eq!(&near, &sorted);
-        prop_assert!(near.len() <= finder.most().unwrap_or(count));
+        prop_assert!(near.len() <= finder.most(count).unwrap_or(count));
         for other in &near {
             prop_assert_eq!(other.distance.to_bits(), distance(id, other.id as usize).to_bits());
         }
         // Nobody that is left out is nearer than the farthest that is given.
-        if let (Some(last), Some(most)) = (near.last(), finder.most()) {
+        if let (Some(last), Some(most)) = (near.last(), finder.most(count)) {
             let nearer = (0..count as u32).filter(|other| {
                 (distance(id, *other as usize), *other) <= (last.distance, last.id)
             });
@@ -97,17 +110,18 @@ fn gives_what_looking_at_all_gives(
         }
     }
     // With a limit, the search from a milestone's own place gives itself and one neighbour fewer.
-    let found = finder.pairs(cx, configs, scratch);
+    let found = finder.pairs(cx, configs, &mut stream(0), scratch);
     prop_assert!(found.windows(2).all(|two| two[0] < two[1]));
     prop_assert!(found.iter().all(|(low, high)| low < high));
     prop_assert!(pairs.iter().all(|pair| found.binary_search(pair).is_ok()));
-    if finder.most().is_none() {
+    if finder.most(count).is_none() {
         prop_assert_eq!(found.len(), pairs.len());
     }
     Ok(())
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
     #[test]
     fn finders_give_what_looking_at_all_milestones_gives(
         ordinal in any::<u64>(), count in 1usize..300, neighbors in 1u32..20,
@@ -154,13 +168,165 @@ proptest! {
                         let nearest = others.into_iter().take(neighbors as usize);
                         pairs.extend(nearest.map(|other| (id.min(other) as u32, id.max(other) as u32)));
                     }
-                    let found = kind.method().pairs(&cx, &configs, &mut Scratch::new());
+                    let found = kind.method().pairs(&cx, &configs, &mut stream.clone(), &mut Scratch::new());
                     prop_assert_eq!(found, pairs.into_iter().collect::<Vec<_>>());
                 }
                 _ => gives_what_looking_at_all_gives(&kind, &cx, &configs, by_space)?,
             }
         }
     }
+}
+
+/// Milestones in the plane, some of them at the same place, with components of every size.
+fn scattered(cx: &Context, count: usize, stream: &mut Stream) -> (Configs, Components) {
+    let (mut configs, mut q) = (Configs::new(cx.space.len()), vec![0.0; cx.space.len()]);
+    for id in 0..count {
+        if id % 7 != 6 {
+            cx.space.sample_uniform(stream, &mut q);
+        }
+        configs.push(&q);
+    }
+    let edge = |id: u32| Edge::metric(NodeId(id / 3), NodeId(id), 0, 1.0);
+    let edges: Vec<Edge> = (1..count as u32).filter(|id| id % 8 > 0).map(edge).collect();
+    let components = Components::of(&cx.space, &configs, &edges);
+    (configs, components)
+}
+
+/// Of one component, and without one milestone, a finder gives what it gives of these milestones alone.
+#[test]
+fn parts_of_a_graph_are_searched_as_if_there_were_no_more() {
+    let (cx, mut stream, scratch) = (plane(), stream(3), &mut Scratch::new());
+    let (configs, components) = scattered(&cx, 700, &mut stream);
+    let largest = components.iter().max_by_key(|component| component.members.len()).unwrap();
+    assert!(largest.members.len() > 200 && components.count() > 50);
+    let mut members = largest.members.clone();
+    members.sort_unstable();
+    for kind in finders(8).iter().filter(|kind| kind.method().suits(&cx).is_ok()) {
+        let finder = kind.method();
+        for but in [None, Some(members[5])] {
+            let component = Some(largest);
+            let all = Milestones::all(&configs, &components);
+            let milestones = Milestones { component, but, ..all };
+            let ids: Vec<u32> = members.iter().copied().filter(|id| Some(*id) != but).collect();
+            let mut few = Configs::new(cx.space.len());
+            ids.iter().for_each(|id| few.push(configs.get(*id as usize)));
+            for q in [configs.get(members[5] as usize), configs.get(600)] {
+                let near = finder.near(&cx, &milestones, q, scratch);
+                let expected = finder.near_of_few(&cx, &few, all.total, q, scratch).into_iter();
+                let own = |near: Neighbor| Neighbor { id: ids[near.id as usize], ..near };
+                assert_eq!(near, expected.map(own).collect::<Vec<_>>(), "{kind:?}");
+                assert!(!near.is_empty(), "{kind:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn of_the_nearest_some_are_drawn_and_every_one_as_often() {
+    let (cx, mut stream, scratch) = (plane(), stream(4), &mut Scratch::new());
+    let (configs, components) = scattered(&cx, 300, &mut stream);
+    let all = Milestones::all(&configs, &components);
+    let drawn = Randomised { neighbors: 4.into(), nearest: Some(10) };
+    let nearest = KNearest { neighbors: 10.into() };
+    let (mut often, draws) = ([0; 10], 5000);
+    for _ in 0..draws {
+        let q = configs.get(17);
+        let of = nearest.near(&cx, &all, q, scratch);
+        let mut near = drawn.near(&cx, &all, q, scratch);
+        assert_eq!(near, of);
+        drawn.choose(&mut near, all.total, &mut stream);
+        assert!(near.len() == 4 && near.is_sorted_by(|a, b| a.rank(b).is_lt()));
+        for one in near {
+            often[of.iter().position(|other| *other == one).expect("one of the nearest")] += 1;
+        }
+    }
+    // Each count has mean 2000 and deviation √(5000 · 0.4 · 0.6) = 35.
+    assert!(often.iter().all(|count| (1800..2200).contains(count)), "{often:?}");
+    // The same numbers give the same pairs, other numbers others.
+    let pairs = |ordinal| {
+        let mut chance = self::stream(ordinal);
+        drawn.pairs(&cx, &configs, &mut chance, &mut Scratch::new())
+    };
+    assert_eq!(pairs(1), pairs(1));
+    assert_ne!(pairs(1), pairs(2));
+    // Every milestone draws four of its ten nearest others; the more of the two draw the pair, the fewer there are.
+    assert!((600..=1200).contains(&pairs(1).len()), "{}", pairs(1).len());
+}
+
+/// The number of neighbours that follows from how many milestones there are comes from all of them, also where a finder looks at
+/// parts of them one after another.
+#[test]
+fn numbers_of_neighbours_follow_from_all_milestones() {
+    let (cx, mut stream, scratch) = (plane(), stream(5), &mut Scratch::new());
+    let (configs, components) = scattered(&cx, 200, &mut stream);
+    let neighbors = NeighborCount::Auto;
+    for finder in [
+        &KNearest { neighbors } as &dyn Finder,
+        &BruteForce { neighbors },
+        &MetricTree { neighbors },
+        &Approximate { neighbors, epsilon: 0.5 },
+    ] {
+        let all = Milestones::all(&configs, &components);
+        assert_eq!(finder.near(&cx, &all, configs.get(0), scratch).len(), 28);
+        let more = Milestones { total: 2000, ..all };
+        assert_eq!(finder.near(&cx, &more, configs.get(0), scratch).len(), 41);
+    }
+    assert_eq!(Randomised { neighbors, nearest: None }.most(200), Some(56));
+}
+
+#[test]
+fn settings_are_refused_with_what_is_expected() {
+    let strategy = "[space]\nmotion = \"translation-2d\"\nmin = [0, 0]\nmax = [8, 6]\n\
+        bounds = \"body\"\n[robot]\nbodies = [{ shape = { sphere = { radius = 0.1 } } }]\n\
+        [[strategies]]\nlabel = \"a\"\nsampler = { uniform = {} }\n";
+    for (finder, message) in [
+        ("brute-force = { neighbors = 0 }", "neighbors = 0 found; \"auto\" or at least 1 expected"),
+        ("metric-tree = { neighbors = \"all\" }", "expected \"auto\" or a number"),
+        (
+            "approximate = { epsilon = -0.1 }",
+            "epsilon = -0.1 found; at least 0, at most 1000 expected",
+        ),
+        (
+            "approximate = { epsilon = nan }",
+            "epsilon = NaN found; at least 0, at most 1000 expected",
+        ),
+        ("approximate = { error = 1 }", "unknown field `error`"),
+        (
+            "randomised = { nearest = 5 }",
+            "nearest = 5 found; at least as many as neighbors expected",
+        ),
+        ("randomised = { neighbors = \"auto\", nearest = 0 }", "nearest = 0 found"),
+        ("hop-limit = { hops = 2 }", "unknown variant `hop-limit`"),
+    ] {
+        for key in ["within", "among"] {
+            let text =
+                format!("{strategy}{key} = {{ neighbors = {{ finder = {{ {finder} }} }} }}\n");
+            let error = parse(&text).expect_err(finder).to_string();
+            assert!(error.contains(message), "{error}");
+            assert!(error.contains("p.toml:11:"), "{error}");
+        }
+    }
+    for finder in [
+        "k-nearest = { neighbors = \"auto\" }",
+        "brute-force = {}",
+        "approximate = { epsilon = 0 }",
+        "metric-tree = { neighbors = 3 }",
+        "randomised = { neighbors = \"auto\" }",
+        "randomised = { neighbors = 3, nearest = 3 }",
+    ] {
+        let text = format!("{strategy}within = {{ neighbors = {{ finder = {{ {finder} }} }} }}\n");
+        let problem = parse(&text).unwrap_or_else(|error| panic!("{error}"));
+        let (layout, bytes) = problem.to_bytes();
+        assert_eq!(Problem::from_bytes(layout, &bytes).expect("its own bytes"), problem);
+    }
+}
+
+/// What ledgers have always had for numbers stays what it was.
+#[test]
+fn numbers_have_the_bytes_that_they_always_had() {
+    let bytes = |neighbors| crate::wire::encode(&FinderKind::KNearest(KNearest { neighbors }));
+    assert_eq!(bytes(10.into()), [0, 0, 0, 0, 10, 0, 0, 0]);
+    assert_eq!(bytes(NeighborCount::Auto), [0; 8]);
 }
 
 /// Shapes that were kept when a roadmap was smaller are those that would be computed now.
@@ -177,7 +343,7 @@ fn a_roadmap_that_grows_is_searched_as_one_that_is_given_whole() {
         let whole = Components::of(&cx.space, roadmap.configs(), &[]);
         for q in increment.configs.iter() {
             let near = |components: &Components, configs: &Configs, scratch: &mut Scratch| {
-                finder.near(&cx, configs, components, q, scratch)
+                finder.near(&cx, &Milestones::all(configs, components), q, scratch)
             };
             let found = near(roadmap.components(), roadmap.configs(), scratch);
             assert_eq!(found, near(&whole, roadmap.configs(), scratch));
@@ -219,6 +385,8 @@ fn models_without_alpha_carbons_have_no_neighbours_by_them() {
     configs.push(&[1.0; 3]);
     let components = Components::of(&cx.space, &configs, &[]);
     let (finder, scratch) = (CaRmsd::default(), &mut Scratch::new());
-    assert_eq!(finder.near(&cx, &configs, &components, &[0.0; 3], scratch), []);
-    assert_eq!(finder.pairs(&cx, &configs, scratch), []);
+    let all = Milestones::all(&configs, &components);
+    assert_eq!(finder.near(&cx, &all, &[0.0; 3], scratch), []);
+    assert_eq!(finder.near_of_few(&cx, &configs, 2, &[0.0; 3], scratch), []);
+    assert_eq!(finder.pairs(&cx, &configs, &mut stream(0), scratch), []);
 }

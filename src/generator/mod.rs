@@ -51,9 +51,10 @@ methods! {
     }
 }
 
+pub use crate::finder::NeighborCount;
 pub use elastic_growth::{ElasticGrowth, GrowthAim};
 pub use expansion_step::ExpansionStep;
-pub use growth::NeighborCount;
+pub use growth::{FoundNeighbors, GraphNeighbors};
 pub use interpolation::Interpolation;
 pub use mrrg::Mrrg;
 pub use parent::{NoRuns, Parent, ParentRoadmap, ParentRun, Runs};

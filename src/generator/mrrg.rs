@@ -1,6 +1,6 @@
 use super::growth::{
-    Complaints, Exploration, GrowingSet, NeighborCount, calibrated, default_attempts,
-    default_goal_bias, grow_from_root, needs_root, step_of,
+    Complaints, Exploration, GraphNeighbors, GrowingSet, NeighborSearch, calibrated,
+    default_attempts, default_goal_bias, grow_from_root, needs_root, step_of,
 };
 use super::{ATTEMPTS_MAX, Generator, Reads};
 use crate::context::Context;
@@ -49,9 +49,9 @@ pub struct Mrrg {
     /// The probability that an extension goes toward the query's goal, as long as no node lies there.
     #[serde(default = "default_goal_bias")]
     pub goal_bias: f64,
-    /// How many nearest nodes of each new one are tried; none in a tree.
+    /// Which nodes each new one is tried with; 0 of them in a tree.
     #[serde(default)]
-    pub neighbors: NeighborCount,
+    pub neighbors: GraphNeighbors,
     /// In how many directions a node is extended (the thesis: m, of which 3 was best for robots and 7 for proteins).
     #[serde(default = "default_directions")]
     pub directions: u32,
@@ -79,7 +79,7 @@ impl Default for Mrrg {
         Mrrg {
             step: None,
             goal_bias: default_goal_bias(),
-            neighbors: NeighborCount::default(),
+            neighbors: GraphNeighbors::default(),
             directions: default_directions(),
             trials: default_trials(),
             attempts: default_attempts(),
@@ -106,9 +106,8 @@ impl Generator for Mrrg {
         }
         let limits = (step_of(self.step, &cx.space), self.attempts);
         let set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
-        let is_tree = self.neighbors == NeighborCount::Fixed(0);
         let Mrrg { directions, trials, .. } = *self;
-        let neighbors = (!is_tree).then_some(self.neighbors);
+        let neighbors = NeighborSearch::of(&self.neighbors);
         grow_from_root(set, seed, self.goal_bias, &Exploration { neighbors, directions, trials })
     }
 
@@ -127,12 +126,14 @@ impl Generator for Mrrg {
         };
         Complaints::of_step(self.step)
             .or_else(|| Complaints::of_goal_bias(self.goal_bias))
+            .or_else(|| self.neighbors.complaint().filter(|_| !self.neighbors.is_none()))
             .or_else(|| of_directions("directions", self.directions))
             .or_else(|| of_directions("trials", self.trials))
             .or_else(|| Complaint::of_attempts(self.attempts, ATTEMPTS_MAX))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {
-        needs_root(cx)
+        needs_root(cx)?;
+        self.neighbors.suits(cx)
     }
 }

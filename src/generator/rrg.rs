@@ -1,6 +1,6 @@
 use super::growth::{
-    Complaints, Exploration, GrowingSet, NeighborCount, calibrated, default_attempts,
-    default_goal_bias, grow_from_root, needs_root, step_of,
+    Complaints, Exploration, GraphNeighbors, GrowingSet, NeighborSearch, calibrated,
+    default_attempts, default_goal_bias, grow_from_root, needs_root, step_of,
 };
 use super::{ATTEMPTS_MAX, Generator, Reads};
 use crate::context::Context;
@@ -18,7 +18,8 @@ use serde::{Deserialize, Serialize};
 /// It grows as [`Rrt`](super::Rrt) does, and every new node is tried with its nearest neighbours in the graph, too: the
 /// `neighbors` nodes of the graph, as it was before, that are nearest to it, nearest first, ties by id. All whose motions are valid
 /// become edges. The number can be `auto`: ⌊2e ln n⌋ in a graph of n nodes, which is enough for the shortest
-/// paths in the graph to come near to the shortest there are.
+/// paths in the graph to come near to the shortest there are. Another neighbour finder can be named, and a hop limit
+/// ([`FoundNeighbors`](super::FoundNeighbors)).
 ///
 /// The graph is the connected component of the roadmap at the start of the round that contains the start, and what the set has
 /// added to it. Nodes of other components are left to the connection among sets.
@@ -32,9 +33,9 @@ pub struct Rrg {
     /// The probability that an extension goes toward the query's goal, as long as no node lies there.
     #[serde(default = "default_goal_bias")]
     pub goal_bias: f64,
-    /// How many nearest nodes of each new one are tried.
+    /// Which nodes each new one is tried with.
     #[serde(default)]
-    pub neighbors: NeighborCount,
+    pub neighbors: GraphNeighbors,
     /// The most extensions tried for one milestone.
     #[serde(default = "default_attempts")]
     pub attempts: u64,
@@ -45,7 +46,7 @@ impl Default for Rrg {
         Rrg {
             step: None,
             goal_bias: default_goal_bias(),
-            neighbors: NeighborCount::default(),
+            neighbors: GraphNeighbors::default(),
             attempts: default_attempts(),
         }
     }
@@ -70,7 +71,8 @@ impl Generator for Rrg {
         }
         let limits = (step_of(self.step, &cx.space), self.attempts);
         let set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
-        let graph = Exploration { neighbors: Some(self.neighbors), directions: 1, trials: 1 };
+        let neighbors = NeighborSearch::of(&self.neighbors);
+        let graph = Exploration { neighbors, directions: 1, trials: 1 };
         grow_from_root(set, seed, self.goal_bias, &graph)
     }
 
@@ -83,14 +85,14 @@ impl Generator for Rrg {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        let is_none = self.neighbors == NeighborCount::Fixed(0);
         Complaints::of_step(self.step)
             .or_else(|| Complaints::of_goal_bias(self.goal_bias))
-            .or_else(|| is_none.then(|| Complaint::new("neighbors", "0", "\"auto\" or at least 1")))
+            .or_else(|| self.neighbors.complaint())
             .or_else(|| Complaint::of_attempts(self.attempts, ATTEMPTS_MAX))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {
-        needs_root(cx)
+        needs_root(cx)?;
+        self.neighbors.suits(cx)
     }
 }

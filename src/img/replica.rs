@@ -2,6 +2,7 @@ use super::{Job, Setup, Task};
 use crate::connect::{Built, JoinInput};
 use crate::numbers::SetNumber;
 use crate::roadmap::{Edge, Increment, Roadmap, SetToFold};
+use crate::seed::Seed;
 use crate::shelf::Shelf;
 use std::sync::Arc;
 
@@ -118,10 +119,12 @@ impl Replica {
                 let frozen = setup.grows(strategy).then(|| self.roadmap.clone());
                 Task::Generate { strategy, ordinal, frozen }
             }
-            Job::Join { number, strategy, .. } => {
+            Job::Join { number, strategy, ordinal } => {
                 let offset = number.since(self.front.first) as usize;
                 let increments = self.increments[..=offset].to_vec();
-                let input = JoinInput { roadmap: self.roadmap.clone(), increments };
+                let label = setup.problem.strategies[strategy.index()].label();
+                let seed = Seed::of_set(setup.cx.base_seed, label, ordinal);
+                let input = JoinInput { roadmap: self.roadmap.clone(), increments, seed };
                 Task::Join { strategy, input }
             }
             Job::Evaluate { evaluator, .. } => {

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Every kind of motion, and a linkage: a free base with sliding, limited and turning joints.
-fn spaces() -> Vec<Space> {
+pub(super) fn spaces() -> Vec<Space> {
     let mut spaces = [
         BaseJoint::Fixed,
         BaseJoint::Translation2d,
@@ -46,7 +46,7 @@ fn product(kinds: &[FactorKind], weight_of: impl Fn(usize) -> f64) -> Space {
 
 /// What makes neighbours hard: ties on a grid, the same again and again, all but the same,
 /// rotations that are opposite as quaternions, the seam of angles.
-fn draw(space: &Space, stream: &mut Stream, known: &Configs) -> Vec<f64> {
+pub(super) fn draw(space: &Space, stream: &mut Stream, known: &Configs) -> Vec<f64> {
     let mut q = vec![0.0; space.len()];
     space.sample_uniform(stream, &mut q);
     let kind = (stream.unit() * 6.0) as u32;
@@ -84,7 +84,7 @@ fn draw(space: &Space, stream: &mut Stream, known: &Configs) -> Vec<f64> {
     }
 }
 
-fn configs(space: &Space, stream: &mut Stream, count: usize) -> Configs {
+pub(super) fn configs(space: &Space, stream: &mut Stream, count: usize) -> Configs {
     let mut configs = Configs::new(space.len());
     for _ in 0..count {
         let q = draw(space, stream, &configs);

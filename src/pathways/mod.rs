@@ -2,7 +2,8 @@
 //!
 //! A query has one answer. A transition of a molecule may go by several pathways, of which the one with the lowest barrier,
 //! or the least cost, is only the first. [`k_best`] gives the best ones whatever they are, which often differ by a node or
-//! two; [`dissimilar`] gives ones that are at least a distance apart along their whole length.
+//! two; [`dissimilar`] gives ones that are at least a distance apart along their whole length, [`distinct`] ones that pass
+//! obstacles differently.
 //!
 //! Lengths and distances are Å of Cα RMSD after superposition in models that have Cα
 //! ([`Model::shape`](crate::model::Model::shape)), otherwise in the space's metric. Costs and energies are in the model's
@@ -26,16 +27,20 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod classes;
 mod dissimilar;
+mod distinct;
 mod frame_table;
 mod frames;
 mod frechet;
 mod k_best;
 mod measured;
+pub mod topology;
 mod via_nodes;
 
 pub use crate::roadmap::Rank;
 pub use dissimilar::{DISTANCE, Dissimilar, dissimilar, dissimilar_unshortened};
+pub use distinct::{Distinct, DistinctPathways, distinct};
 pub use frame_table::{DomainAngle, FormedContact, FrameTable};
 pub use frames::{Frames, SPACING, TooFine};
 pub use frechet::{Decided, discrete_frechet, hausdorff};

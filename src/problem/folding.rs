@@ -5,7 +5,7 @@ use super::{Problem, ProblemError, StrategySpec};
 use crate::connect::{AmongKind, Neighbors};
 use crate::evaluate::{EvaluatorKind, FormationOrder};
 use crate::folding::Native;
-use crate::generator::{GeneratorKind, Mrrg, NeighborCount};
+use crate::generator::{GeneratorKind, GraphNeighbors, Mrrg};
 use crate::model::protein::ProteinSpec;
 use crate::model::{Description, Model, Scratch};
 use crate::seed::{Purpose, Seed};
@@ -103,7 +103,7 @@ fn grown(step: f64) -> StrategySpec {
     let growth = Mrrg {
         step: Some(step),
         directions: DIRECTIONS,
-        neighbors: NeighborCount::Fixed(NEIGHBORS),
+        neighbors: GraphNeighbors::Fixed(NEIGHBORS),
         attempts: ATTEMPTS,
         ..Mrrg::default()
     };

@@ -6,7 +6,7 @@
 
 use super::component::Component;
 use super::shapes::Shapes;
-use crate::neighbor::Index;
+use crate::neighbor::{Index, KdTree, MetricTree, SearchTrees};
 use crate::shelf::Shelf;
 use crate::space::Space;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -30,6 +30,10 @@ pub(super) struct Indices {
     pub(super) centres: RwLock<Option<Centres>>,
     /// The shapes of the nodes that were there when shapes were last searched.
     pub(super) shapes: RwLock<Shapes>,
+    /// Trees for approximate searches of nodes.
+    pub(super) kd_trees: RwLock<SearchTrees<KdTree>>,
+    /// Trees for searches of nodes that know the metric only.
+    pub(super) metric_trees: RwLock<SearchTrees<MetricTree>>,
 }
 
 impl Clone for Indices {
@@ -40,6 +44,8 @@ impl Clone for Indices {
             searches: AtomicU32::new(self.searches.load(Ordering::Relaxed)),
             centres: RwLock::new(read(&self.centres).clone()),
             shapes: RwLock::new(read(&self.shapes).clone()),
+            kd_trees: RwLock::new(read(&self.kd_trees).clone()),
+            metric_trees: RwLock::new(read(&self.metric_trees).clone()),
         }
     }
 }

@@ -14,6 +14,7 @@ mod search;
 mod searches;
 mod shapes;
 mod tally;
+mod tree_searches;
 mod trees;
 
 pub use crate::digest::Digest;

@@ -141,7 +141,7 @@ impl Graph {
     }
 
     /// The edges that lead away from a node, each with the node at its other end, in the order of the edges.
-    pub(super) fn arcs_from(&self, node: NodeId) -> impl Iterator<Item = (NodeId, u32)> {
+    pub(crate) fn arcs_from(&self, node: NodeId) -> impl Iterator<Item = (NodeId, u32)> {
         let range = self.start[node.index()] as usize..self.start[node.index() + 1] as usize;
         self.arcs[range].iter().map(|arc| (arc.to, arc.edge))
     }

@@ -26,10 +26,11 @@ pub struct SearchArguments {
     /// hundredth of the space's diameter]
     #[arg(long, value_name = "DISTANCE", value_parser = distance)]
     pub spacing: Option<f64>,
-    /// How many candidates of dissimilar paths are shortened and compared, at most twice as many in all [default: 40]
+    /// How many candidates of dissimilar paths are shortened and compared, at most twice as many in all; of distinct paths in
+    /// space, how many are classified [default: 40]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub tries: Option<u32>,
-    /// How often a shortcut is tried on each candidate of dissimilar paths [default: 200]
+    /// How often a shortcut is tried on each candidate of dissimilar and distinct paths [default: 200]
     #[arg(long, value_name = "N")]
     pub shorten_tries: Option<u32>,
     /// An angle between domains, shown along the paths: the numbers of three ranges of residues, the angle at the second;
@@ -65,6 +66,10 @@ pub struct PathsArguments {
     /// however alike; without a distance: 1.5 Å, or a twentieth of the space's diameter]
     #[arg(long, value_name = "DISTANCE", num_args = 0..=1, value_parser = distance)]
     pub dissimilar: Option<Option<f64>>,
+    /// Paths that pass the obstacles differently, the shortest of each class: in the plane the shortest there are in the roadmap, in
+    /// space those that come up among --tries candidates
+    #[arg(long, conflicts_with_all = ["dissimilar", "by"])]
+    pub distinct: bool,
     /// A folder for files of the paths, new or empty
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,

@@ -25,7 +25,10 @@ pub fn paths(arguments: &PathsArguments) -> Result<Code, Failure> {
         make_empty(folder)?;
     }
     let begun = Instant::now();
-    let found = asked.find(arguments.dissimilar, &Cancel::new())?;
+    let (found, classes) = match arguments.distinct {
+        true => asked.find_distinct(&Cancel::new())?,
+        false => (asked.find(arguments.dissimilar, &Cancel::new())?, Vec::new()),
+    };
     let seconds = begun.elapsed().as_secs_f64();
     if found.dropped_edges > 0 {
         note(format_args!(
@@ -42,9 +45,9 @@ pub fn paths(arguments: &PathsArguments) -> Result<Code, Failure> {
         };
         return Err(Failure::new(Code::NoSuccess, format!("no path: {why} ({seconds:.3} s)")));
     }
-    print(&asked, &found);
+    print(&asked, &found, &classes);
     if let Some(folder) = &arguments.out {
-        write(&asked, &found, arguments, folder)?;
+        write(&asked, &found, &classes, arguments, folder)?;
     }
     let count = found.pathways.len();
     note(format_args!(
@@ -69,8 +72,8 @@ fn check_formats(asked: &Asked, formats: &[FrameFormat]) -> Result<(), Failure> 
     }
 }
 
-/// Prints a line per path, and one per pair of paths.
-fn print(asked: &Asked, found: &Pathways) {
+/// Prints a line per path, one per class if paths have classes, and one per pair of paths.
+fn print(asked: &Asked, found: &Pathways, classes: &[String]) {
     let Asked { energy, cost, length, .. } = asked;
     if found.pathways[0].measured.peak.is_some() {
         line(format_args!(
@@ -98,6 +101,12 @@ fn print(asked: &Asked, found: &Pathways) {
             frames.len(),
         ));
     }
+    if !classes.is_empty() {
+        line("path  class: obstacles passed");
+    }
+    for (index, class) in classes.iter().enumerate() {
+        line(format_args!("{:>4}  {class}", index + 1));
+    }
     if !found.pairs.is_empty() {
         line("pairs    frechet  frames that decide   hausdorff  frames that decide");
     }
@@ -118,10 +127,11 @@ fn print(asked: &Asked, found: &Pathways) {
 fn write(
     asked: &Asked,
     found: &Pathways,
+    classes: &[String],
     arguments: &PathsArguments,
     folder: &Path,
 ) -> Result<(), Failure> {
-    write_whole(&folder.join("paths.csv"), table(asked, found))?;
+    write_whole(&folder.join("paths.csv"), table(asked, found, classes))?;
     write_whole(&folder.join("matrix.csv"), matrix(asked, found))?;
     let space = asked.run.context().space();
     let is_asked =
@@ -157,12 +167,13 @@ fn write(
     Ok(())
 }
 
-/// `paths.csv`.
-fn table(asked: &Asked, found: &Pathways) -> String {
+/// `paths.csv`. Where paths have classes these are the last column.
+fn table(asked: &Asked, found: &Pathways, classes: &[String]) -> String {
     let Asked { energy, cost, length, .. } = asked;
+    let heading = if classes.is_empty() { "" } else { ",class" };
     let mut csv = format!(
         "path,barrier [{energy}],cost [{cost}],barrier_back [{energy}],cost_back [{cost}],peak [{energy}],\
-         length [{length}],configurations,frames,nearest,frechet [{length}]\n"
+         length [{length}],configurations,frames,nearest,frechet [{length}]{heading}\n"
     );
     for (index, pathway) in found.pathways.iter().enumerate() {
         let Pathway { path, measured, frames } = pathway;
@@ -170,7 +181,7 @@ fn table(asked: &Asked, found: &Pathways) -> String {
         let nearest = nearest(found, index);
         writeln!(
             csv,
-            "{},{},{},{},{},{},{},{},{},{},{}",
+            "{},{},{},{},{},{},{},{},{},{},{}{}",
             index + 1,
             number(measured.there.barrier),
             measured.there.cost,
@@ -182,6 +193,7 @@ fn table(asked: &Asked, found: &Pathways) -> String {
             frames.len(),
             nearest.map_or(String::new(), |(other, _)| (other + 1).to_string()),
             number(nearest.map(|(_, pair)| pair.frechet.value)),
+            classes.get(index).map_or(String::new(), |class| format!(",{class}")),
         )
         .expect("writing to memory cannot fail");
     }

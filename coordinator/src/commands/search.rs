@@ -3,10 +3,12 @@
 use super::query::ends;
 use crate::cli::{RankBy, SearchArguments};
 use crate::exit::Failure;
+use crate::output::note;
 use crate::work::Recorded;
 use roadmill::model::{Molecule, Scratch};
+use roadmill::pathways::topology::Topology;
 use roadmill::pathways::{
-    DISTANCE, Dissimilar, KBest, Pathways, Rank, SPACING, dissimilar, k_best,
+    DISTANCE, Dissimilar, Distinct, KBest, Pathways, Rank, SPACING, dissimilar, distinct, k_best,
 };
 use roadmill::{Cancel, Ends};
 
@@ -101,5 +103,36 @@ impl<'a> Asked<'a> {
         };
         let found = dissimilar(cx, roadmap, ends, &attachment, &asked, cancel, scratch);
         found.map_err(too_fine)
+    }
+
+    /// The shortest path of each class of paths that pass the obstacles alike, and the classes as people read them.
+    ///
+    /// # Errors
+    /// Exit code 2: the model has no obstacles, or a path would have too many frames.
+    pub fn find_distinct(&self, cancel: &Cancel) -> Result<(Pathways, Vec<String>), Failure> {
+        let Asked { run, arguments, ref ends, spacing, .. } = *self;
+        let (cx, roadmap, scratch) = (run.context(), run.roadmap(), &mut Scratch::new());
+        let description = run.problem().model().description();
+        let Some(topology) = Topology::of(cx, description, scratch) else {
+            let message = "--distinct: this model knows of no obstacles, bodies expected";
+            return Err(Failure::usage(message));
+        };
+        let left_out = topology.punctures().map_or(0, |punctures| punctures.left_out());
+        if left_out > 0 {
+            note(format_args!(
+                "{left_out} obstacles, or pieces of them, do not count: the robot's reference point can be where they are"
+            ));
+        }
+        let asked = Distinct {
+            count: arguments.count as usize,
+            spacing,
+            tries: arguments.tries.unwrap_or(TRIES) as usize,
+            shortcuts: arguments.shorten_tries.unwrap_or(SHORTEN_TRIES),
+        };
+        let attachment = run.problem().attachment();
+        let found = distinct(cx, roadmap, ends, &attachment, &topology, &asked, cancel, scratch);
+        let found = found.map_err(|error| Failure::usage(format!("--spacing: {error}")))?;
+        let classes = found.classes.iter().map(|class| topology.text(class)).collect();
+        Ok((found.pathways, classes))
     }
 }

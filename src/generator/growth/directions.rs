@@ -1,6 +1,6 @@
 use super::set::{GrowingSet, Place};
 use crate::numbers::NodeId;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Which nodes are adjacent in the graph that a set grows: the roadmap at the start of the round, and the set.
 pub(super) struct Adjacency {
@@ -66,6 +66,23 @@ impl Adjacency {
             &self.old[begin..*end]
         });
         old.iter().chain(self.new.get(&number).into_iter().flatten()).copied()
+    }
+
+    /// The places at most so many edges away from a place, itself among them, in ascending order: a breadth-first search
+    /// (S. K. Nath 2013, §4.2).
+    pub fn within(&self, number: u32, hops: u32) -> Vec<u32> {
+        let (mut found, mut last) = (BTreeSet::from([number]), vec![number]);
+        for _ in 0..hops {
+            let mut next = Vec::new();
+            for place in last {
+                next.extend(self.next_to(place).filter(|other| found.insert(*other)));
+            }
+            if next.is_empty() {
+                break;
+            }
+            last = next;
+        }
+        found.into_iter().collect()
     }
 
     /// A configuration in a direction from the place `from` that is dispersed from those already taken: of `trials`

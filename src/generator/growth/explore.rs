@@ -1,7 +1,8 @@
 use super::directions::Adjacency;
+use super::graph_neighbors::NeighborSearch;
 use super::set::GrowingSet;
-use super::settings::{NeighborCount, root};
-use super::tree::{GrowingTree, Near};
+use super::settings::root;
+use super::tree::GrowingTree;
 use crate::roadmap::Increment;
 use crate::sampler::GaveUp;
 use crate::seed::Seed;
@@ -9,8 +10,8 @@ use crate::seed::Seed;
 /// How a tree or graph grows toward random configurations (S. K. Nath 2013, Algorithm 2; see
 /// [`Mrrg`](crate::generator::Mrrg)). RRT and RRG are its cases of one direction (Lemma 1).
 pub(in crate::generator) struct Exploration {
-    /// How many nearest nodes each new one is tried with; `None` in a tree.
-    pub neighbors: Option<NeighborCount>,
+    /// Which nodes each new one is tried with; `None` in a tree.
+    pub neighbors: Option<NeighborSearch>,
     /// In how many directions a node is extended.
     pub directions: u32,
     /// How many configurations are drawn for each direction after the first.
@@ -57,8 +58,9 @@ pub(in crate::generator) fn explore(
     exploration: &Exploration,
 ) -> Result<(), GaveUp> {
     let mut aim = aim.filter(|aim| aim.bias > 0.0 && !tree.has(set, aim.goal));
-    let is_dispersed = exploration.directions > 1 && !set.is_full();
-    let mut adjacency = is_dispersed.then(|| Adjacency::of(set));
+    let hop_limit = exploration.neighbors.as_ref().and_then(|neighbors| neighbors.hop_limit);
+    let reads_edges = exploration.directions > 1 || hop_limit.is_some();
+    let mut adjacency = (reads_edges && !set.is_full()).then(|| Adjacency::of(set));
     while !set.is_full() {
         set.attempt()?;
         let toward_goal = aim.filter(|aim| set.decide(aim.bias));
@@ -69,7 +71,7 @@ pub(in crate::generator) fn explore(
         for direction in 1..=exploration.directions {
             match set.extend(near, &toward).milestone() {
                 Some(new) => {
-                    exploration.take_in(set, tree, near.number, new);
+                    exploration.take_in(set, tree, adjacency.as_ref(), near.number, new);
                     aim = aim.filter(|aim| set.config(new) != aim.goal);
                     if let Some(adjacency) = &mut adjacency {
                         adjacency.grown(set, near.number, new);
@@ -93,12 +95,18 @@ pub(in crate::generator) fn explore(
 
 impl Exploration {
     /// Takes the milestone `new`, which was grown from the place `from`, into the tree, and tries the motions to its
-    /// nearest neighbours in the graph as it was before.
-    fn take_in(&self, set: &mut GrowingSet, tree: &mut GrowingTree, from: u32, new: u32) {
-        if let Some(neighbors) = self.neighbors {
-            let count = neighbors.of(tree.nodes(set));
+    /// neighbours in the graph as it was before. `adjacency` is that of this graph, if it is known.
+    fn take_in(
+        &self,
+        set: &mut GrowingSet,
+        tree: &mut GrowingTree,
+        adjacency: Option<&Adjacency>,
+        from: u32,
+        new: u32,
+    ) {
+        if let Some(neighbors) = &self.neighbors {
             let q = set.config(new).to_vec();
-            for Near { number, .. } in tree.nearest_nodes(set, &q, count) {
+            for number in neighbors.near(set, tree, adjacency, from, &q) {
                 // Where it was grown from it has its edge.
                 if number != from {
                     set.join(number, new);

@@ -1,18 +1,20 @@
 //! What the generators have in common that grow trees and graphs by steps toward configurations.
 //!
 //! [`set`] is the node set that grows, [`tree`] what it grows from, [`explore`] the growth toward random configurations,
-//! [`directions`] which directions are dispersed, [`settings`] what several of the methods can be told. The methods
+//! [`directions`] which directions are dispersed, [`graph_neighbors`] which nodes a new one is tried with, [`settings`] what several of the methods can be told. The methods
 //! themselves stand in files of their own: `rrt.rs`, `rrg.rs`, `mrrg.rs`, `tree.rs` and `rrt_connect.rs`.
 
 mod directions;
 mod explore;
+mod graph_neighbors;
 mod set;
 mod settings;
 mod tree;
 
 pub(super) use explore::{Exploration, explore, grow_from_root};
+pub(super) use graph_neighbors::NeighborSearch;
+pub use graph_neighbors::{FoundNeighbors, GraphNeighbors};
 pub(super) use set::{Extension, GrowingSet};
-pub use settings::NeighborCount;
 pub(super) use settings::{
     Complaints, calibrated, default_attempts, default_goal_bias, needs_query, needs_root, step_of,
 };

@@ -31,6 +31,8 @@ pub(in crate::generator) struct GrowingSet<'a> {
     roots: Vec<&'a [f64]>,
     proposing: Stream,
     deciding: Stream,
+    /// For what neighbour finders leave to chance.
+    pub(super) connecting: Stream,
     attempts: u64,
     /// Attempts since the last milestone.
     tried: u64,
@@ -90,6 +92,7 @@ impl<'a> GrowingSet<'a> {
             roots: Vec::new(),
             proposing: seed.stream(Purpose::Sampling),
             deciding: seed.stream(Purpose::Accepting),
+            connecting: seed.stream(Purpose::Connecting),
             attempts,
             tried: 0,
         }
@@ -155,6 +158,11 @@ impl<'a> GrowingSet<'a> {
             Some((root, None)) => Place::Root(root as usize),
             Some((_, Some(new))) => Place::New(NodeId(new)),
         }
+    }
+
+    /// Whether a place is a node, of the roadmap or of the set.
+    pub fn is_node(&self, number: u32) -> bool {
+        !matches!(self.place(number), Place::Root(_))
     }
 
     /// The configuration of a place.

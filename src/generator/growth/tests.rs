@@ -1,7 +1,10 @@
 //! Trees and graphs against plain reimplementations, and what each method says of itself.
 
 use crate::context::Context;
-use crate::generator::{Generator, GeneratorKind, Mrrg, NeighborCount, Rrg, Rrt, RrtConnect};
+use crate::generator::{
+    FoundNeighbors, Generator, GeneratorKind, GraphNeighbors, Mrrg, NeighborCount, Rrg, Rrt,
+    RrtConnect,
+};
 use crate::img::{Setup, build};
 use crate::math;
 use crate::model::Scratch;
@@ -89,6 +92,7 @@ struct Plain<'a> {
     goal_bias: f64,
     /// Of RRG and mRRG.
     neighbors: Option<NeighborCount>,
+    hop_limit: Option<usize>,
     directions: u32,
     trials: u32,
 }
@@ -98,7 +102,19 @@ impl Plain<'_> {
         let nodes = vec![cx.query().expect("a query").start.clone()];
         let (edges, scratch) = (BTreeSet::new(), Scratch::new());
         let (neighbors, directions, trials) = (None, 1, 1);
-        Plain { cx, scratch, nodes, edges, step, goal_bias, neighbors, directions, trials }
+        let hop_limit = None;
+        Plain {
+            cx,
+            scratch,
+            nodes,
+            edges,
+            step,
+            goal_bias,
+            neighbors,
+            hop_limit,
+            directions,
+            trials,
+        }
     }
 
     fn by_distance(&self, q: &[f64]) -> Vec<usize> {
@@ -137,6 +153,10 @@ impl Plain<'_> {
                 NeighborCount::Auto => ((2.0 * E * math::ln(new as f64)).floor() as usize).max(1),
             };
             others = self.by_distance(&q);
+            if let Some(hops) = self.hop_limit {
+                let within = self.within(near, hops);
+                others.retain(|node| within.contains(node));
+            }
             others.truncate(count);
         }
         self.nodes.push(q.clone());
@@ -148,6 +168,18 @@ impl Plain<'_> {
             }
         }
         true
+    }
+
+    /// SUBGRAPH_WITHIN_HOP_LIMIT of Algorithm 6, by the edges one after another.
+    fn within(&self, node: usize, hops: usize) -> BTreeSet<usize> {
+        let mut within = BTreeSet::from([node]);
+        for _ in 0..hops {
+            let reached = self.edges.iter().flat_map(|(a, b)| [(*a, *b), (*b, *a)]);
+            let next: Vec<_> =
+                reached.filter(|(a, _)| within.contains(a)).map(|(_, b)| b).collect();
+            within.extend(next);
+        }
+        within
     }
 
     /// An independent angle: by the arc cosine, of coordinates times weights, in a space without rotations.
@@ -273,6 +305,74 @@ fn mrrg_is_the_graph_of_the_thesis() {
     });
 }
 
+#[test]
+fn neighbours_within_a_hop_limit_are_those_of_the_thesis() {
+    let settings = |hops: usize| {
+        format!(
+            "step = 0.8, goal_bias = 0, neighbors = {{ hop_limit = {hops}, \
+             finder = {{ brute-force = {{ neighbors = \"auto\" }} }} }}"
+        )
+    };
+    for (scene, hops) in [(PLANE, 1), (PLANE, 3), (SPACE, 2)] {
+        let generator = format!("{{ rrg = {{ {} }} }}", settings(hops));
+        is_that_of_the_thesis(scene, &generator, |plain| {
+            plain.neighbors = Some(NeighborCount::Auto);
+            plain.hop_limit = Some(hops);
+        });
+    }
+    let generator = format!("{{ mrrg = {{ {}, directions = 4, trials = 5 }} }}", settings(2));
+    is_that_of_the_thesis(PLANE, &generator, |plain| {
+        plain.neighbors = Some(NeighborCount::Auto);
+        plain.hop_limit = Some(2);
+        (plain.directions, plain.trials) = (4, 5);
+    });
+}
+
+/// Exact finders, and a limit beyond the graph's size, give the graph that the nearest nodes give.
+#[test]
+fn exact_finders_grow_one_graph() {
+    let digest = |generator: &str| grown(SPACE, generator, 40, 4).1.digest();
+    let expected = digest("{ rrg = { step = 1.0 } }");
+    for neighbors in [
+        "\"auto\"",
+        "{}",
+        "{ finder = { k-nearest = { neighbors = \"auto\" } } }",
+        "{ finder = { brute-force = { neighbors = \"auto\" } } }",
+        "{ finder = { metric-tree = { neighbors = \"auto\" } } }",
+        "{ finder = { approximate = { neighbors = \"auto\", epsilon = 0 } } }",
+        "{ hop_limit = 200 }",
+    ] {
+        let generator = format!("{{ rrg = {{ step = 1.0, neighbors = {neighbors} }} }}");
+        assert_eq!(digest(&generator), expected, "{generator}");
+    }
+    for neighbors in [
+        "{ finder = { approximate = { neighbors = \"auto\", epsilon = 2 } } }",
+        "{ finder = { randomised = { neighbors = \"auto\" } } }",
+        "{ finder = { randomised = {} }, hop_limit = 4 }",
+        "{ finder = { radius = { radius = 1.0, most = 5 } } }",
+        "{ hop_limit = 1 }",
+    ] {
+        let generator = format!("{{ rrg = {{ step = 1.0, neighbors = {neighbors} }} }}");
+        assert_ne!(digest(&generator), expected, "{generator}");
+        assert_eq!(digest(&generator), digest(&generator), "{generator}");
+    }
+}
+
+/// Without a node to grow from a set begins at a root of its own; neighbours are its milestones only.
+#[test]
+fn hop_limits_hold_where_a_set_begins_at_no_node() {
+    let found = FoundNeighbors { hop_limit: Some(2), ..FoundNeighbors::default() };
+    let limited = Rrg { neighbors: GraphNeighbors::Found(found), ..Rrg::default() };
+    let (problem, _) = grown(PLANE, "{ rrt = {} }", 2, 1);
+    let cx = problem.context();
+    let made = make(&cx, &limited, 3, None);
+    let all = make(&cx, &Rrg::default(), 3, None);
+    assert!(made.root_edges.is_empty() && all.root_edges.is_empty());
+    // Edges do not decide where a graph grows, and within two edges there are some.
+    assert_eq!(made.configs, all.configs);
+    assert!(made.edges.len() > made.configs.len());
+}
+
 fn make(cx: &Context, method: &dyn Generator, ordinal: u64, frozen: Option<&Roadmap>) -> Increment {
     let seed = Seed::of_set(1, "it", Ordinal(ordinal));
     let made = method.generate(cx, &seed, 40, frozen, &mut Scratch::new());
@@ -318,6 +418,18 @@ fn sets_have_as_many_valid_milestones_as_they_should_and_valid_edges() {
     }
 }
 
+/// Numbers of neighbours have the bytes that they had before there were other finders.
+#[test]
+fn bytes_of_numbers_of_neighbours_stay() {
+    for (neighbors, count) in [
+        (GraphNeighbors::Auto, NeighborCount::Auto),
+        (GraphNeighbors::Fixed(7), NeighborCount::Fixed(7)),
+    ] {
+        assert_eq!(crate::wire::encode(&neighbors), crate::wire::encode(&count));
+        assert_eq!(neighbors, count.into());
+    }
+}
+
 /// The thesis' Lemma 1.
 #[test]
 fn with_one_direction_mrrg_is_rrg_and_without_neighbours_rrt() {
@@ -325,7 +437,7 @@ fn with_one_direction_mrrg_is_rrg_and_without_neighbours_rrt() {
         let (problem, frozen) = grown(scene, "{ rrg = { step = 1.0 } }", 20, 3);
         let cx = problem.context();
         let one = Mrrg { directions: 1, ..Mrrg::default() };
-        let tree = Mrrg { neighbors: NeighborCount::Fixed(0), ..one.clone() };
+        let tree = Mrrg { neighbors: GraphNeighbors::Fixed(0), ..one.clone() };
         for ordinal in 0..4 {
             for frozen in [None, Some(&frozen)] {
                 let of = |method: &dyn Generator| make(&cx, method, ordinal, frozen);
@@ -490,7 +602,7 @@ fn settings_are_refused_with_what_is_expected() {
     }
     let neighbors = "neighbors = 0 found; \"auto\" or at least 1 expected";
     refused(PLANE, "{ rrg = { neighbors = 0 } }", neighbors);
-    let expected = "expected neighbors = \"auto\" or a whole number from 0 to 4294967295";
+    let expected = "expected neighbors = \"auto\" or a whole number from 0 to 4294967295, or a table with finder and hop_limit";
     for (found, said) in [
         ("\"some\"", "invalid value: string \"some\", "),
         ("-1", "invalid value: integer `-1`, "),
@@ -501,6 +613,15 @@ fn settings_are_refused_with_what_is_expected() {
             let generator = format!("{{ {method} = {{ neighbors = {found} }} }}");
             refused(PLANE, &generator, &format!("{said}{expected}"));
         }
+    }
+    for method in ["rrg", "mrrg"] {
+        let with = |found: &str| format!("{{ {method} = {{ neighbors = {{ {found} }} }} }}");
+        refused(PLANE, &with("hop_limit = 0"), "hop_limit = 0 found; at least 1 expected");
+        refused(PLANE, &with("hops = 1"), "unknown field `hops`");
+        let none = "finder = { brute-force = { neighbors = 0 } }";
+        refused(PLANE, &with(none), "neighbors = 0 found; \"auto\" or at least 1 expected");
+        let of_proteins = "neighbours by Cα RMSD found, a model with Cα expected";
+        refused(PLANE, &with("finder = { ca-rmsd = {} }"), of_proteins);
     }
     refused(PLANE, "{ mrrg = { directions = 0 } }", "directions = 0 found; 1 to 1000 expected");
     refused(PLANE, "{ mrrg = { trials = 1001 } }", "trials = 1001 found; 1 to 1000 expected");

@@ -1,5 +1,6 @@
-use super::set::{GrowingSet, Place};
-use crate::neighbor::{Best, Neighbor, Subset};
+use super::set::GrowingSet;
+use crate::finder::{Finder, Milestones};
+use crate::neighbor::{Best, Neighbor, Ranked, Subset};
 use crate::numbers::NodeId;
 use crate::roadmap::{Component, Configs};
 use crate::seed::Seed;
@@ -94,46 +95,66 @@ impl<'a> GrowingTree<'a> {
 
     /// The place nearest to a configuration, ties by number; `None` in a tree of nothing.
     pub fn nearest(&self, set: &GrowingSet, q: &[f64]) -> Option<Near> {
-        self.near(set, q, 1, self.own.iter().copied()).into_iter().next()
-    }
-
-    /// The at most `count` nodes nearest to a configuration, nearest first, ties by number.
-    pub fn nearest_nodes(&self, set: &GrowingSet, q: &[f64], count: usize) -> Vec<Near> {
-        self.near(set, q, count, self.own_nodes(set))
-    }
-
-    fn own_nodes(&self, set: &GrowingSet) -> impl Iterator<Item = u32> {
-        self.own.iter().copied().filter(|number| matches!(set.place(*number), Place::New(_)))
-    }
-
-    /// The nearest of the components' nodes, by the roadmap's index, and of `own`, of which there are few.
-    fn near(
-        &self,
-        set: &GrowingSet,
-        q: &[f64],
-        count: usize,
-        own: impl Iterator<Item = u32>,
-    ) -> Vec<Near> {
         let space = &set.cx.space;
-        let mut best: Best<Neighbor> = Best::new(count);
+        let mut best: Best<Neighbor> = Best::new(1);
         if let Some(frozen) = set.frozen {
             let mut one = Configs::new(space.len());
             one.push(q);
             let (query, configs) = (Subset { all: &one, ids: &[0] }, frozen.configs());
             for component in &self.components {
                 let components = frozen.components();
-                let near = components.closest_pairs(space, query, configs, component, count);
-                for pair in near {
+                for pair in components.closest_pairs(space, query, configs, component, 1) {
                     best.offer(Neighbor { distance: pair.distance, id: pair.second });
                 }
             }
         }
-        for id in own {
+        for id in self.own.iter().copied() {
             if let Some(distance) = space.distance_unless_above(q, set.config(id), best.bound()) {
                 best.offer(Neighbor { distance, id });
             }
         }
-        let near = best.into_items().into_iter();
-        near.map(|Neighbor { distance, id }| Near { number: id, distance }).collect()
+        let nearest = best.into_items().into_iter().next();
+        nearest.map(|Neighbor { distance, id }| Near { number: id, distance })
+    }
+
+    /// The nodes that a finder gives for a configuration, nearest first, ties by number; `total` is the number of nodes.
+    pub fn near_nodes(
+        &self,
+        set: &mut GrowingSet,
+        finder: &dyn Finder,
+        total: usize,
+        q: &[f64],
+    ) -> Vec<Neighbor> {
+        let own: Vec<u32> = self.own_nodes(set).collect();
+        let mut near = self.near_of_few(set, finder, total, q, &own);
+        if let Some(frozen) = set.frozen {
+            for component in &self.components {
+                let (configs, components) = (frozen.configs(), frozen.components());
+                let all = Milestones::all(configs, components);
+                let milestones = Milestones { component: Some(component), total, ..all };
+                near.extend(finder.near(set.cx, &milestones, q, set.scratch));
+            }
+        }
+        near.sort_by(Ranked::rank);
+        near
+    }
+
+    /// The same among a few places, by looking at all; their numbers ascend.
+    pub fn near_of_few(
+        &self,
+        set: &mut GrowingSet,
+        finder: &dyn Finder,
+        total: usize,
+        q: &[f64],
+        numbers: &[u32],
+    ) -> Vec<Neighbor> {
+        let mut few = Configs::new(q.len());
+        numbers.iter().for_each(|number| few.push(set.config(*number)));
+        let near = finder.near_of_few(set.cx, &few, total, q, set.scratch).into_iter();
+        near.map(|neighbor| Neighbor { id: numbers[neighbor.id as usize], ..neighbor }).collect()
+    }
+
+    fn own_nodes(&self, set: &GrowingSet) -> impl Iterator<Item = u32> {
+        self.own.iter().copied().filter(|number| set.is_node(*number))
     }
 }
