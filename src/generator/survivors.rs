@@ -130,7 +130,7 @@ impl Generator for Survivors {
                 return Some(complaint);
             }
         }
-        KNearest { neighbors: self.neighbors }.complaint()
+        KNearest { neighbors: self.neighbors.into() }.complaint()
     }
 }
 

@@ -1,7 +1,7 @@
 use crate::context::Context;
-use crate::finder::{Finder, KNearest};
 use crate::local::{self, Planner};
 use crate::model::{Model, SceneChange, Scratch};
+use crate::neighbor::k_nearest_graph;
 use crate::numbers::NodeId;
 use crate::roadmap::{Configs, Edge};
 
@@ -26,7 +26,7 @@ pub fn retried(
     let among_removed = if everywhere { None } else { cx.model.among(&change.removed) };
     let mut joined: Vec<(u32, u32)> = edges.iter().map(|edge| (edge.low.0, edge.high.0)).collect();
     joined.sort_unstable();
-    let pairs = KNearest { neighbors }.pairs(cx, configs, scratch).into_iter();
+    let pairs = k_nearest_graph(&cx.space, configs, neighbors as usize).into_iter();
     let new = pairs.filter(|pair| joined.binary_search(pair).is_err());
     let edge = |(low, high): (u32, u32)| {
         let ends = (configs.get(low as usize), configs.get(high as usize));
