@@ -1,6 +1,6 @@
 //! Neighbour finders: which milestones near a configuration the connections try. One file per method.
 //!
-//! What an exact finder gives is *defined* by looking at all milestones; the indices of [`neighbor`](crate::neighbor) give
+//! What an exact finder gives is *defined* by looking at all milestones; the indices of [`neighbor`] give
 //! the same, bit for bit, in less time. So whether and when an index is built changes no roadmap. What [`Approximate`] gives follows
 //! from the milestones and their number, what [`Randomised`] gives from the set's seed besides.
 //!

@@ -33,7 +33,7 @@ proptest! {
             let at_once = k_d(&space, &configs, &[count]);
             let mut metric: SearchTrees<MetricTree> = SearchTrees::default();
             ends.iter().for_each(|end| metric.extend(&space, &configs, *end));
-            let is_eligible = |id: u32| id % share == 0;
+            let is_eligible = |id: u32| id.is_multiple_of(share);
             for _ in 0..4 {
                 let q = draw(&space, &mut stream, &configs);
                 let ids = (0..count).filter(|id| is_eligible(*id));
