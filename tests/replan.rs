@@ -4,11 +4,11 @@
 mod edges;
 
 use edges::with_edges;
-use roadmill::finder::{Finder, KNearest};
 use roadmill::img::{Grown, Memo, Setup, Simulated, Stop, build, build_in_threads, build_with};
 use roadmill::local::{self, Planner};
 use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::model::{Model, SceneChange, Scratch};
+use roadmill::neighbor::k_nearest_graph;
 use roadmill::numbers::Ordinal;
 use roadmill::pathways::{Dissimilar, Rank, dissimilar_unshortened};
 use roadmill::problem::{Components, OldRun, Problem, Replanned, Replanning};
@@ -283,11 +283,10 @@ fn pairs_are_tried_again_where_obstacles_went() {
             let (graph, scratch) = ((roadmap.configs(), &edges[..]), &mut Scratch::new());
             let new = retried(&cx, &change, graph, 8, &[STRAIGHT], scratch);
             let pair = |edge: &Edge| (edge.low.0, edge.high.0);
-            let finder = KNearest { neighbors: 8 };
             let known: BTreeSet<_> = edges.iter().map(pair).collect();
             let new: BTreeSet<_> = new.iter().map(pair).collect();
             assert!(known.is_disjoint(&new));
-            for (low, high) in finder.pairs(&cx, roadmap.configs(), scratch) {
+            for (low, high) in k_nearest_graph(cx.space(), roadmap.configs(), 8) {
                 let node = |id: u32| roadmap.configs().get(id as usize);
                 let free = |cx: &Context, scratch: &mut Scratch| {
                     cx.model().motion(node(low), node(high), 1, scratch).is_some()

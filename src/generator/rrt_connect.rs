@@ -69,8 +69,7 @@ impl Generator for RrtConnect {
             return Err(GaveUp { attempts: 0 });
         };
         let step = self.step.unwrap_or_else(|| STEP_SHARE * cx.space.diameter());
-        let mut set =
-            GrowingSet::new(cx, seed, scratch, frozen, count, (step, self.attempts));
+        let mut set = GrowingSet::new(cx, seed, scratch, frozen, count, (step, self.attempts));
         set.shorten_steps();
         let [start, goal] = GrowingTree::of(&mut set, seed, [&query.start[..], &query.goal]);
         let mut tree = if start.is_same(&goal) {

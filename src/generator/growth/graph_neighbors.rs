@@ -79,7 +79,10 @@ impl<'de> Visitor<'de> for GraphNeighborsVisitor {
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let most = u32::MAX;
-        write!(f, "neighbors = \"auto\" or a whole number from 0 to {most}, or a table with finder and hop_limit")
+        write!(
+            f,
+            "neighbors = \"auto\" or a whole number from 0 to {most}, or a table with finder and hop_limit"
+        )
     }
 
     fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<GraphNeighbors, E> {
