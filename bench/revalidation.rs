@@ -14,10 +14,10 @@
 mod support;
 
 use roadmill::Context;
-use roadmill::finder::{Finder, KNearest};
 use roadmill::local::{self, Planner};
 use roadmill::model::Scratch;
 use roadmill::model::bodies::{BodySpec, ShapeSpec};
+use roadmill::neighbor::k_nearest_graph;
 use roadmill::problem::Problem;
 use roadmill::replan::Revalidation;
 use roadmill::roadmap::Configs;
@@ -124,7 +124,7 @@ fn kept<T>(
 fn roadmap(cx: &Context, count: usize) -> (Configs, Vec<(u32, u32)>) {
     let configs = sample(cx, (count as f64 * MILESTONES_PER_EDGE) as usize, 0);
     let scratch = &mut Scratch::new();
-    let pairs = KNearest { neighbors: NEIGHBORS }.pairs(cx, &configs, scratch).into_iter();
+    let pairs = k_nearest_graph(cx.space(), &configs, NEIGHBORS as usize).into_iter();
     let valid = pairs.filter(|(low, high)| {
         let (a, b) = (configs.get(*low as usize), configs.get(*high as usize));
         cx.model().motion(a, b, 1, scratch).is_some()
