@@ -54,10 +54,12 @@ fn the_digests_are_golden() {
     assert_eq!(found, GOLDEN, "bits of a given seed changed: bump BITS_VERSION");
 }
 
-/// Where motions are looked at step by step, this problem has another roadmap, for a motion that slips by between two
+/// Where motions are looked at step by step, these problems have another roadmap, for motions that slip by between two
 /// steps.
-const SAMPLED: [(&str, &str); 1] =
-    [("adaptive", "edb641a35628449ca03ff1220876420e42843852b23e47f63cded7db100775a0")];
+const SAMPLED: [(&str, &str); 2] = [
+    ("adaptive", "edb641a35628449ca03ff1220876420e42843852b23e47f63cded7db100775a0"),
+    ("neighbors", "a2f0fcb7cb412fe3d5d037ea4470d0e9a2ef119dd088c3be876bdeb476d96d0c"),
+];
 
 #[test]
 fn sampled_edges_have_golden_digests_too() {

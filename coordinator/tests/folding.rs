@@ -62,7 +62,7 @@ fn a_hairpin_folds_in_one_command_whoever_works() {
     // Objects alone are for programs to read.
     let (_, said) = fold("json", &["--threads", "1", "--json"]);
     let objects = said.lines().map(serde_json::from_str::<serde_json::Value>);
-    assert!(objects.clone().count() > 1 && objects.clone().all(|object| object.is_ok()), "{said}");
+    assert!(objects.clone().count() > 0 && objects.clone().all(|object| object.is_ok()), "{said}");
 }
 
 #[test]

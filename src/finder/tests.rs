@@ -281,7 +281,10 @@ fn settings_are_refused_with_what_is_expected() {
         [[strategies]]\nlabel = \"a\"\nsampler = { uniform = {} }\n";
     for (finder, message) in [
         ("brute-force = { neighbors = 0 }", "neighbors = 0 found; \"auto\" or at least 1 expected"),
-        ("metric-tree = { neighbors = \"all\" }", "expected \"auto\" or a number"),
+        (
+            "metric-tree = { neighbors = \"all\" }",
+            "expected neighbors = \"auto\" or a whole number from 0",
+        ),
         (
             "approximate = { epsilon = -0.1 }",
             "epsilon = -0.1 found; at least 0, at most 1000 expected",
