@@ -58,7 +58,7 @@ fn two_structures_become_a_problem_a_roadmap_and_paths_whoever_works() {
     // Objects alone are for programs to read; what is said of the ends is no object.
     let (_, said) = transition("json", &["--threads", "2", "--json", "--max-time", "1"]);
     let objects = said.lines().map(serde_json::from_str::<serde_json::Value>);
-    assert!(objects.clone().count() > 1 && objects.clone().all(|object| object.is_ok()), "{said}");
+    assert!(objects.clone().count() > 0 && objects.clone().all(|object| object.is_ok()), "{said}");
     // Of two structures it is said which is the native one.
     let done = scratch.run(&["orders", "one", "--unstructured", "1000"]);
     assert!(done.stdout.contains("the native conformation is the source"), "{}", done.stdout);
