@@ -6,8 +6,10 @@
 //! cargo bench --bench solve -- --from FILE --svg FILE
 //! ```
 //!
-//! PEER is `bench/peers/race.cpp`, built as `bench/race.rs` says. Builds every scene with N seeds (default 20) from F (default
-//! 1) on, each for at most S CPU seconds (default 60), ours and OMPL's in turn. Ours are built at default settings, or, with
+//! PEER is `bench/peers/race.cpp`, built as `bench/race.rs` says.
+//!
+//! Builds every scene with N seeds (default 20), the first of which is F (default 1),
+//! each for at most S CPU seconds (default 60), ours and OMPL's in turn. Ours are built at default settings, or, with
 //! `--among nearest-nodes,until-joined,…`, as often again with these connections among sets (`docs/problems.md`), or, with
 //! `--settings one.toml,two.toml`, with the tables `[img]` and `[[strategies]]` of these files. PLANNERS are `prm`,
 //! `rrt-connect` (both by default) or `none`. A path of OMPL's counts only if its motions also pass at steps 20 times finer

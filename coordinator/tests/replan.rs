@@ -56,6 +56,20 @@ fn a_replanned_run_has_the_same_bits_for_any_workers_and_names_its_parent() {
 }
 
 #[test]
+fn the_run_that_is_gone_on_with_is_not_replaced() {
+    let scratch = scratch();
+    let before = scratch.ledger("old");
+    fs::create_dir(scratch.path("above")).expect("a new folder");
+    scratch.build("above/old", &["endless.toml", "--threads", "1", "--max-sets", "12"], 0);
+    for (run, out) in [("old", "old"), ("old", "./old/"), ("above/old", "above")] {
+        let done = scratch.run(&["replan", run, "--with", "changed.toml", "--out", out, "--force"]);
+        done.assert_code(2);
+        assert!(done.stderr.contains("the run that is gone on with is there"), "{}", done.stderr);
+    }
+    assert!(scratch.ledger("old") == before && scratch.ledger("above/old") == before);
+}
+
+#[test]
 fn verify_needs_the_parent() {
     let scratch = scratch();
     replan(&scratch, "new", &["--threads", "2", "--max-sets", "20"]).assert_code(0);

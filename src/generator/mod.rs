@@ -21,6 +21,7 @@
 
 mod elastic_growth;
 mod elastic_walk;
+mod end_trees;
 mod expansion_step;
 mod growth;
 mod interpolation;
@@ -47,12 +48,14 @@ methods! {
         Mrrg(mrrg::Mrrg),
         Tree(tree::Tree),
         RrtConnect(rrt_connect::RrtConnect),
-        Survivors(survivors::Survivors), // new ones at the end, since ledgers know methods by number
+        Survivors(survivors::Survivors),
+        EndTrees(end_trees::EndTrees), // new ones at the end, since ledgers know methods by number
     }
 }
 
 pub use crate::finder::NeighborCount;
 pub use elastic_growth::{ElasticGrowth, GrowthAim};
+pub use end_trees::EndTrees;
 pub use expansion_step::ExpansionStep;
 pub use growth::{FoundNeighbors, GraphNeighbors};
 pub use interpolation::Interpolation;

@@ -1,9 +1,9 @@
 use super::growth::{
-    Complaints, Exploration, Extension, GrowingSet, GrowingTree, default_attempts, explore,
-    needs_query,
+    Complaints, Exploration, Extension, GrowingSet, GrowingTree, calibrated, default_attempts,
+    explore, needs_query, step_of,
 };
 use super::{ATTEMPTS_MAX, Generator, Reads};
-use crate::context::Context;
+use crate::context::{Context, Ends};
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::roadmap::{Increment, Roadmap};
@@ -11,10 +11,6 @@ use crate::sampler::GaveUp;
 use crate::seed::Seed;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
-
-/// The step of a problem that names none, as a share of the largest distance in the space. Of a tenth, a twentieth and a
-/// fiftieth it was the best over `cargo bench --bench trees` (`docs/growth.md`).
-const STEP_SHARE: f64 = 0.05;
 
 /// Two trees, from the query's start and from its goal, that grow toward each other until they meet (J. J. Kuffner,
 /// S. M. LaValle, *RRT-Connect: an efficient approach to single-query path planning*, ICRA 2000, Figures 2 and 5).
@@ -24,8 +20,8 @@ const STEP_SHARE: f64 = 0.05;
 /// step becomes a node. If that leads to q_new, the trees are one. Otherwise they change their parts.
 ///
 /// The trees are the connected components of the roadmap at the start of the round that contain the start and the goal, and what
-/// the set has added to them. Once they are one, as from the beginning of later sets, it goes on as an RRT of no goal, so
-/// that any build with a query can have this strategy among others and lose nothing but time.
+/// the set has added to them. Once they are one, as from the beginning of later sets, it goes on as an RRT of no goal. Where
+/// neither tree can grow the build ends; with [`EndTrees`](super::EndTrees) it goes on.
 ///
 /// The first set makes the ends milestones where no nodes lie there. Other sets of its round grow from the ends as well, but
 /// the edges of what they grow first would lead to nodes that they do not know: the connection among sets joins it. Sets with
@@ -34,13 +30,11 @@ const STEP_SHARE: f64 = 0.05;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct RrtConnect {
-    /// The most by which an extension moves, in the space's metric (the paper: ε). If none is given, a twentieth of the
-    /// largest distance in the space, found when the problem is read. It is a quarter of that of the other methods that
-    /// grow, since a greedy extension comes as far in several short steps, and through narrower places (`docs/growth.md`).
+    /// The most by which an extension moves, in the space's metric (the paper: ε). If none is given, a fifth of the largest
+    /// distance in the space, found when the problem is read.
     #[serde(default)]
     pub step: Option<f64>,
-    /// The most extensions tried for one milestone. Each tenth of them that comes to nothing halves the step until there is
-    /// a milestone, so that an end in a narrow place does not end the build.
+    /// The most extensions tried for one milestone.
     #[serde(default = "default_attempts")]
     pub attempts: u64,
 }
@@ -68,19 +62,9 @@ impl Generator for RrtConnect {
         let Some(query) = cx.query.as_ref().filter(|_| self.complaint().is_none()) else {
             return Err(GaveUp { attempts: 0 });
         };
-        let step = self.step.unwrap_or_else(|| STEP_SHARE * cx.space.diameter());
-        let mut set = GrowingSet::new(cx, seed, scratch, frozen, count, (step, self.attempts));
-        set.shorten_steps();
-        let [start, goal] = GrowingTree::of(&mut set, seed, [&query.start[..], &query.goal]);
-        let mut tree = if start.is_same(&goal) {
-            start
-        } else {
-            let goal_is_next = seed.ordinal().0 % 2 == 1;
-            let trees = if goal_is_next { [goal, start] } else { [start, goal] };
-            meet(&mut set, trees)?
-        };
-        let plain = Exploration { neighbors: None, directions: 1, trials: 1 };
-        explore(&mut set, &mut tree, None, &plain)?;
+        let limits = (step_of(self.step, &cx.space), self.attempts);
+        let mut set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
+        grow_from_ends(&mut set, seed, query)?;
         Ok(set.made)
     }
 
@@ -89,8 +73,7 @@ impl Generator for RrtConnect {
     }
 
     fn calibrate(&mut self, cx: &Context, _seed: &Seed) {
-        let chosen = || Some(STEP_SHARE * cx.space.diameter()).filter(|step| *step > 0.0);
-        self.step = self.step.or_else(chosen);
+        self.step = calibrated(self.step, &cx.space);
     }
 
     fn complaint(&self) -> Option<Complaint> {
@@ -101,6 +84,27 @@ impl Generator for RrtConnect {
     fn suits(&self, cx: &Context) -> Result<(), String> {
         needs_query(cx)
     }
+}
+
+/// Grows the trees of a query's ends toward each other until they meet, and then as one, until the set is full.
+///
+/// # Errors
+/// [`GaveUp`] where too many extensions since the last milestone came to nothing; what has grown until then stays in the set.
+pub(super) fn grow_from_ends<'a>(
+    set: &mut GrowingSet<'a>,
+    seed: &Seed,
+    query: &'a Ends,
+) -> Result<(), GaveUp> {
+    let [start, goal] = GrowingTree::of(set, seed, [&query.start[..], &query.goal]);
+    let mut tree = if start.is_same(&goal) {
+        start
+    } else {
+        let goal_is_next = seed.ordinal().0 % 2 == 1;
+        let trees = if goal_is_next { [goal, start] } else { [start, goal] };
+        meet(set, trees)?
+    };
+    let plain = Exploration { neighbors: None, directions: 1, trials: 1 };
+    explore(set, &mut tree, None, &plain)
 }
 
 /// Grows two trees, of which the first has its turn, until they meet or the set is full. They are one then, or the set has

@@ -25,7 +25,9 @@ pub(super) struct Sets {
 }
 
 pub(super) fn sets_of(source: &Source, file: &File) -> Result<Sets, ProblemError> {
-    let (default, default_schedule) = default_strategies(file.query.is_some());
+    // A schedule can only name the strategy that every problem without strategies has.
+    let has_trees = file.query.is_some() && file.img.schedule.is_none();
+    let (default, default_schedule) = default_strategies(has_trees);
     let specs = if file.strategies.is_empty() { &default } else { &file.strategies };
     let mut strategies: Vec<Strategy> = Vec::new();
     for (index, spec) in specs.iter().enumerate() {
@@ -129,9 +131,9 @@ pub(super) fn adaptive_of(source: &Source, file: &File) -> Result<Option<Adaptiv
 ///
 /// Uniform sampling, and, if there is a query, in every fifth set trees from both its ends. Each of the two solves queries that
 /// the other is long about, and both together many sooner than either (`docs/performance.md`, "Time to solve").
-fn default_strategies(has_query: bool) -> (Vec<StrategySpec>, Vec<StrategyIndex>) {
+fn default_strategies(has_trees: bool) -> (Vec<StrategySpec>, Vec<StrategyIndex>) {
     let (uniform, growing) = (StrategyIndex(0), StrategyIndex(1));
-    match has_query {
+    match has_trees {
         false => (vec![StrategySpec::uniform()], vec![uniform]),
         true => (
             vec![StrategySpec::uniform(), StrategySpec::from_both_ends()],

@@ -4,6 +4,7 @@
 use super::Problem;
 use crate::numbers::StrategyIndex;
 use crate::schedule::Adaptive;
+use crate::strategy::Strategy;
 use bincode::{Decode, Encode};
 
 /// How the sets of some rounds were scheduled, before another schedule took over.
@@ -33,6 +34,17 @@ impl Problem {
         if let Some(difference) = self.scene_difference(changed) {
             return Err(difference);
         }
+        // Sets that were made about the ends of a query are only made again while that is the query.
+        let about_ends = |known: &&Strategy| known.generator.method().reads_query();
+        if self.query != changed.query
+            && let Some(known) = self.strategies.iter().find(about_ends)
+        {
+            return Err(format!(
+                "the strategy `{}` draws about the ends of the query, which are not what they were; the same query expected, or \
+                 `roadmill replan`, which takes the roadmap over into a run of its own",
+                known.label
+            ));
+        }
         let mut strategies = self.strategies.clone();
         let mut index = Vec::new();
         for strategy in &changed.strategies {
@@ -40,14 +52,6 @@ impl Problem {
             if known.is_some_and(|known| strategies[known] != *strategy) {
                 return Err(format!(
                     "the strategy `{}` is not what it was; one with a label of its own expected",
-                    strategy.label
-                ));
-            }
-            let reads = strategy.generator.method().reads_query();
-            if known.is_some() && reads && self.query != changed.query {
-                return Err(format!(
-                    "the strategy `{}` draws about the ends of the query, which are not what they were; a strategy with a label \
-                     of its own expected",
                     strategy.label
                 ));
             }

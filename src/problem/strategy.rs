@@ -1,5 +1,5 @@
 use crate::connect::{AmongKind, UntilJoined, WithinKind};
-use crate::generator::{GeneratorKind, RrtConnect, Sample};
+use crate::generator::{EndTrees, GeneratorKind, Sample};
 use crate::sampler::SamplerKind;
 use crate::strategy::Strategy;
 use serde::Deserialize;
@@ -83,7 +83,7 @@ impl StrategySpec {
     /// The second strategy of a problem with a query that names none: trees from both ends. What they grow hangs at the ends
     /// already, so that it is joined to other components only.
     pub(super) fn from_both_ends() -> StrategySpec {
-        StrategySpec::generated("rrt-connect", GeneratorKind::RrtConnect(RrtConnect::default()))
+        StrategySpec::generated("rrt-connect", GeneratorKind::EndTrees(EndTrees::default()))
             .among(AmongKind::UntilJoined(UntilJoined::default()))
     }
 

@@ -12,6 +12,7 @@ use roadmill::pathways::{Dissimilar, Pathway, Rank, dissimilar_unshortened};
 use roadmill::problem::{Components, OldRun, Problem, Replanned, Replanning};
 use roadmill::replan::Revalidation;
 use roadmill::{Context, Ends};
+use std::fs;
 use std::path::{Component, Path, PathBuf, absolute};
 use std::sync::Arc;
 use std::time::Instant;
@@ -31,6 +32,7 @@ pub fn replan(arguments: &ReplanArguments) -> Result<Code, Failure> {
     let problem = problem.clone().with_seed(seed.unwrap_or(problem.seed()));
     // What cannot be used of the command line is said before anything is looked at.
     let (problem, workers) = bounded_problem(problem, growth)?;
+    stays(run, out.as_deref())?;
     let old = Run::at(run).read()?;
     match old.stopped() {
         None => note("the build has not ended; its complete rounds are gone on with"),
@@ -69,6 +71,18 @@ pub fn replan(arguments: &ReplanArguments) -> Result<Code, Failure> {
     let signals = Arc::new(Signals::listen().map_err(Failure::system)?);
     let growing = Run::begin(replanned.problem).workers(&workers).signals(&signals);
     grow_in(growing, (out.as_deref(), *force, *or_resume), growth, cpu)
+}
+
+/// Refuses a place for the new run at which the old one is, or that holds it: to replace it would delete what `verify` needs.
+fn stays(old: &Path, out: Option<&Path>) -> Result<(), Failure> {
+    let place = |path: &Path| fs::canonicalize(path).ok();
+    match (place(old), out.and_then(place)) {
+        (Some(old), Some(new)) if old.starts_with(&new) => Err(Failure::usage(format!(
+            "--out {}: the run that is gone on with is there; another folder expected, since the new run needs the old one",
+            new.display()
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// The run `old` as a path from the folder of the run that is made: what does not change when both are moved together.

@@ -7,9 +7,6 @@ use crate::roadmap::{Increment, Roadmap};
 use crate::sampler::GaveUp;
 use crate::seed::{Purpose, Seed, Stream};
 
-/// Into how many parts the attempts for a milestone are divided, after each of which a step may be halved.
-const SHORTENINGS: u64 = 10;
-
 /// A node set while it grows, from the roadmap as it was at the start of its round.
 ///
 /// What it can grow from are *places*. They are numbered, which breaks ties of distance: first the nodes of that roadmap
@@ -23,10 +20,8 @@ pub(in crate::generator) struct GrowingSet<'a> {
     pub made: Increment,
     /// How many milestones the set is to have.
     count: usize,
-    /// The most by which an extension moves, in the space's metric, until `shortens` makes it less.
+    /// The most by which an extension moves, in the space's metric.
     step: f64,
-    /// Whether extensions become shorter while none comes to a milestone.
-    shortens: bool,
     /// Where trees begin that begin at no node.
     roots: Vec<&'a [f64]>,
     proposing: Stream,
@@ -88,7 +83,6 @@ impl<'a> GrowingSet<'a> {
             made: Increment::empty(cx.space.len()),
             count,
             step,
-            shortens: false,
             roots: Vec::new(),
             proposing: seed.stream(Purpose::Sampling),
             deciding: seed.stream(Purpose::Accepting),
@@ -96,19 +90,6 @@ impl<'a> GrowingSet<'a> {
             attempts,
             tried: 0,
         }
-    }
-
-    /// From now on each tenth of the attempts for a milestone that comes to nothing halves the step until there is a
-    /// milestone, so that trees leave places where all motions of a whole step are stopped.
-    pub fn shorten_steps(&mut self) {
-        self.shortens = true;
-    }
-
-    /// The most by which an extension moves now.
-    fn step(&self) -> f64 {
-        let tenth = (self.attempts / SHORTENINGS).max(1);
-        let halvings = if self.shortens { self.tried.saturating_sub(1) / tenth } else { 0 };
-        (0..halvings.min(SHORTENINGS)).fold(self.step, |step, _| 0.5 * step)
     }
 
     /// How many milestones it is to have, at least one.
@@ -203,14 +184,13 @@ impl<'a> GrowingSet<'a> {
         if start == toward {
             return Extension::Trapped;
         }
-        let step = self.step();
-        let is_there = from.distance <= step;
+        let is_there = from.distance <= self.step;
         let mut q = toward.to_vec();
         if !is_there {
-            self.cx.space.interpolate(start, toward, step / from.distance, &mut q);
+            self.cx.space.interpolate(start, toward, self.step / from.distance, &mut q);
             // A step can be too short to move anything, or, of rotations, to move anything by what was asked.
             if self.cx.space.canonicalize(&mut q).is_err()
-                || self.cx.space.distance(start, &q) < 0.5 * step
+                || self.cx.space.distance(start, &q) < 0.5 * self.step
             {
                 return Extension::Trapped;
             }
@@ -237,7 +217,7 @@ impl<'a> GrowingSet<'a> {
 
     /// Whether two places are near enough for a motion between them to be one step.
     pub fn is_a_step(&self, near: Near) -> bool {
-        near.distance <= self.step()
+        near.distance <= self.step
     }
 
     /// Tries the motion from a place to the milestone `new`, which comes after it and lies at `q`, and makes it an edge.

@@ -44,6 +44,10 @@ pub fn append(word: &mut Word, crossings: impl IntoIterator<Item = Crossing>) {
 /// motion planning: S. Bhattacharya, M. Likhachev, V. Kumar, *Topological constraints in search-based robot path planning*, Autonomous Robots
 /// 33, 2012; A. Hatcher, *Algebraic Topology*, §1.2.)
 ///
+/// The point of a mesh is one of its vertices, that of another shape its middle. Where the robot's reference point can lie there,
+/// as a point robot's can at a vertex, or where the plane cuts the obstacle elsewhere only, the obstacle has no puncture, and ways
+/// around it are not told apart: [`Punctures::left_out`] counts such obstacles.
+///
 /// Obstacles that touch need not be known as one. Where several punctures lie in one piece of what is forbidden, its
 /// letters come together in every word, and words are equal as they would be with a single one.
 ///

@@ -2,8 +2,7 @@
 
 use crate::context::Context;
 use crate::generator::{
-    FoundNeighbors, Generator, GeneratorKind, GraphNeighbors, Mrrg, NeighborCount, Rrg, Rrt,
-    RrtConnect,
+    FoundNeighbors, Generator, GraphNeighbors, Mrrg, NeighborCount, Rrg, Rrt, RrtConnect,
 };
 use crate::img::{Setup, build};
 use crate::math;

@@ -2,7 +2,10 @@
 
 use super::{PLANE, grown, make, parse};
 use crate::generator::GeneratorKind;
+use crate::model::Scratch;
+use crate::numbers::Ordinal;
 use crate::problem::Problem;
+use crate::seed::Seed;
 use crate::space::Space;
 use std::path::Path;
 
@@ -15,7 +18,7 @@ fn settings_are_refused_with_what_is_expected() {
         assert!(error.contains(message), "{error}");
         assert!(error.starts_with("growth.toml:"), "{error}");
     };
-    for method in ["rrt", "rrg", "mrrg", "tree", "rrt-connect"] {
+    for method in ["rrt", "rrg", "mrrg", "tree", "rrt-connect", "end-trees"] {
         let with = |settings: &str| format!("{{ {method} = {{ {settings} }} }}");
         refused(
             PLANE,
@@ -85,46 +88,53 @@ fn a_step_that_is_left_open_becomes_part_of_the_problem() {
     assert_eq!(rrt.step, Some(0.2 * space.diameter()));
 }
 
-/// The bar lies in a slot that is hardly wider and longer than the bar is, so that no motion of a twentieth of the space's diameter
-/// is valid; half of a thirtieth of that is.
+/// Both ends lie in slots in which the bar cannot move by a twentieth of the space's diameter.
 #[test]
-fn a_step_that_leads_nowhere_is_halved_until_it_leads_on() {
-    let slot = r#"
-[space]
-motion = "rigid-2d"
-min = [0, 0]
-max = [8, 6]
-bounds = "body"
-[robot]
-bodies = [{ shape = { box = { size = [1.0, 0.2, 1.0] } } }]
-[[obstacles]]
-shape = { box = { size = [1.2, 0.2, 1.0] } }
-position = [1.0, 1.21, 0.0]
-[[obstacles]]
-shape = { box = { size = [1.2, 0.2, 1.0] } }
-position = [1.0, 0.79, 0.0]
-[[obstacles]]
-shape = { box = { size = [0.2, 0.62, 1.0] } }
-position = [0.35, 1.0, 0.0]
-[[obstacles]]
-shape = { box = { size = [0.2, 0.62, 1.0] } }
-position = [1.65, 1.0, 0.0]
-[query]
-start = [1.0, 1.0, 0.0]
-goal = [7.0, 5.0, 0.0]
-"#;
-    let text = format!(
-        "{slot}[[strategies]]\nlabel = \"it\"\ngenerator = {{ rrt-connect = {{ attempts = 1000 }} }}\n"
-    );
-    let problem = parse(&text);
-    let cx = problem.context();
-    let GeneratorKind::RrtConnect(rrt) = &problem.strategies[0].generator else {
-        panic!("an RRT-Connect")
+fn where_no_tree_can_grow_the_rest_of_a_set_is_drawn() {
+    let slot = |x: f64| {
+        let wall = |size: [f64; 2], at: [f64; 2]| {
+            format!(
+                "[[obstacles]]\nshape = {{ box = {{ size = [{:?}, {:?}, 1.0] }} }}\nposition = [{:?}, {:?}, 0.0]\n",
+                size[0], size[1], at[0], at[1]
+            )
+        };
+        wall([1.2, 0.2], [x, 3.21])
+            + &wall([1.2, 0.2], [x, 2.79])
+            + &wall([0.2, 0.62], [x - 0.61, 3.0])
+            + &wall([0.2, 0.62], [x + 0.61, 3.0])
     };
-    let step = rrt.step.expect("it is part of the problem");
-    assert_eq!(step, 0.05 * cx.space.diameter());
-    let set = make(&cx, rrt, 0, None);
-    let start = &cx.query.as_ref().expect("a query").start;
-    let near = |index: usize| cx.space.distance(start, set.configs.get(index)) < 0.5 * step;
-    assert!((1..set.configs.len()).any(near), "something grew in the slot");
+    let scene = format!(
+        "[space]\nmotion = \"rigid-2d\"\nmin = [0, 0]\nmax = [8, 6]\nbounds = \"body\"\n[robot]\n\
+         bodies = [{{ shape = {{ box = {{ size = [1.0, 0.2, 1.0] }} }} }}]\n{}{}\
+         [query]\nstart = [2.0, 3.0, 0.0]\ngoal = [6.0, 3.0, 0.0]\n",
+        slot(2.0),
+        slot(6.0)
+    );
+    let strategy = |generator: &str| {
+        parse(&format!(
+            "{scene}[[strategies]]\nlabel = \"it\"\ngenerator = {{ {generator} = {{}} }}\n"
+        ))
+    };
+    let problem = strategy("end-trees");
+    let (cx, trees) = (problem.context(), problem.strategies[0].generator.method());
+    let set = make(&cx, trees, 0, None);
+    // The ends are nodes, and stand alone among what was drawn.
+    let query = cx.query.as_ref().expect("a query");
+    assert_eq!((set.configs.get(0), set.configs.get(1)), (&query.start[..], &query.goal[..]));
+    assert_eq!((set.configs.len(), set.edges.len()), (40, 0));
+    assert!(set.configs.iter().all(|q| cx.model.is_valid(q, &mut Scratch::new())));
+    assert_eq!(make(&cx, trees, 0, None), set);
+
+    let problem = strategy("rrt-connect");
+    let seed = Seed::of_set(1, "it", Ordinal(0));
+    let made = problem.strategies[0].generator.method();
+    let given_up = made.generate(&problem.context(), &seed, 40, None, &mut Scratch::new());
+    assert!(given_up.is_err(), "a tree alone has nowhere to go");
+}
+
+#[test]
+fn trees_from_both_ends_are_those_of_rrt_connect() {
+    let step = "{ step = 0.5 }";
+    let grown = |generator: &str| grown(PLANE, &format!("{{ {generator} = {step} }}"), 30, 8).1;
+    assert_eq!(grown("end-trees").digest(), grown("rrt-connect").digest());
 }
