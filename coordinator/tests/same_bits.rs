@@ -247,7 +247,7 @@ fn same_bits_for_sets_that_grow_from_the_roadmap() {
 fn same_bits_for_trees_and_graphs_that_grow_by_steps() {
     processes_build_what_threads_build("growth");
     processes_end_as_threads("directions", 0);
-    processes_end_as_threads("neighbors", 0);
+    processes_build_what_threads_build("neighbors");
 }
 
 #[test]
