@@ -1,9 +1,10 @@
 use super::build::{bounded_problem, grow_in};
 use super::load::load_file;
+use super::search::{TRIES, usual_distance, usual_spacing};
 use crate::cli::{KeptComponents, ReplanArguments};
 use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
-use crate::output::{line, note};
+use crate::output::{note, told};
 use crate::signals::Signals;
 use crate::work::{Recorded, Run};
 use roadmill::Cancel;
@@ -16,9 +17,6 @@ use std::fs;
 use std::path::{Component, Path, PathBuf, absolute};
 use std::sync::Arc;
 use std::time::Instant;
-
-/// Candidates of dissimilar paths that are compared, at most twice as many in all: as many as `paths` compares.
-const TRIES: usize = 40;
 
 /// Where a run goes that is given no folder.
 const RUNS: &str = "runs";
@@ -47,13 +45,7 @@ pub fn replan(arguments: &ReplanArguments) -> Result<Code, Failure> {
     };
     let refuse = |why: String| Failure::usage(format!("{}: {why}", with.display()));
     let change = old.problem().model().description().change(problem.model()).map_err(refuse)?;
-    let say = |text: String| match growth.json {
-        // Standard output is for the objects alone.
-        true => note(text),
-        false => {
-            line(text);
-        }
-    };
+    let say = |text: String| told(text, growth.json);
     say_change(&change, say);
     say_paths(&old, &problem, &change, arguments.paths, say)?;
     let begun = Instant::now();
@@ -174,13 +166,12 @@ fn old_paths(
     scratch: &mut Scratch,
 ) -> Result<Vec<Pathway>, Failure> {
     let cx: &Context = old.context();
-    let diameter = cx.space().diameter();
     let asked = Dissimilar {
         count: count as usize,
         rank: Rank::Cost,
-        distance: diameter / 20.0,
-        spacing: diameter / 100.0,
-        tries: TRIES.max(count as usize),
+        distance: usual_distance(cx),
+        spacing: usual_spacing(cx),
+        tries: TRIES.max(count) as usize,
         shortcuts: 0,
     };
     let (roadmap, attachment) = (old.roadmap(), problem.attachment());

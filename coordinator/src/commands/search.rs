@@ -10,11 +10,21 @@ use roadmill::pathways::topology::Topology;
 use roadmill::pathways::{
     DISTANCE, Dissimilar, Distinct, KBest, Pathways, Rank, SPACING, dissimilar, distinct, k_best,
 };
-use roadmill::{Cancel, Ends};
+use roadmill::{Cancel, Context, Ends};
 
 /// How many candidates of dissimilar paths are shortened, and how often a shortcut is tried on each, if nothing is said.
-const TRIES: u32 = 40;
+pub(super) const TRIES: u32 = 40;
 const SHORTEN_TRIES: u32 = 200;
+
+/// How far apart dissimilar paths are at least in the metric of a model without Cα, unless told otherwise.
+pub(super) fn usual_distance(cx: &Context) -> f64 {
+    cx.space().diameter() / 20.0
+}
+
+/// How far apart frames are at most in the metric of a model without Cα, unless told otherwise.
+pub(super) fn usual_spacing(cx: &Context) -> f64 {
+    cx.space().diameter() / 100.0
+}
 
 /// What is asked for, with what the model says of it.
 pub(super) struct Asked<'a> {
@@ -53,7 +63,7 @@ impl<'a> Asked<'a> {
         if molecule.is_none() && !arguments.angles.is_empty() {
             return Err(Failure::usage("--angle: this model is no molecule"));
         }
-        let usual = if has_alphas { SPACING } else { cx.space().diameter() / 100.0 };
+        let usual = if has_alphas { SPACING } else { usual_spacing(cx) };
         let energy = description.node_values().iter().find(|value| value.name == "energy");
         Ok(Asked {
             run,
@@ -70,7 +80,7 @@ impl<'a> Asked<'a> {
 
     /// The least distance of dissimilar paths, unless told otherwise.
     pub fn usual_distance(&self) -> f64 {
-        if self.length == "Å" { DISTANCE } else { self.run.context().space().diameter() / 20.0 }
+        if self.length == "Å" { DISTANCE } else { usual_distance(self.run.context()) }
     }
 
     /// The best paths, however alike; or, with a distance or `Some(None)` for the usual one, dissimilar ones, of which those
