@@ -1,5 +1,6 @@
 //! The command line.
 
+mod examples;
 mod fold;
 mod job;
 mod orders;
@@ -14,9 +15,9 @@ pub use paths::{FrameFormat, PathsArguments, RankBy, ReportArguments, SearchArgu
 pub use replan::{KeptComponents, ReplanArguments};
 pub use transition::{ChainArguments, EndsArguments, TransitionArguments};
 
-use crate::exit;
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use roadmill::BITS_VERSION;
 use roadmill::export::{FORMATS, RoadmapFormat};
 use roadmill::numbers::Ordinal;
 use roadmill::structure::{ResidueNumber, parse_range};
@@ -25,7 +26,7 @@ use std::path::PathBuf;
 
 /// Grows probabilistic roadmaps in many processes, the same bit for bit however many.
 #[derive(Debug, Parser)]
-#[command(name = "roadmill", version, after_help = exit::HELP)]
+#[command(name = "roadmill", version)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -58,7 +59,6 @@ pub enum Command {
     #[command(allow_negative_numbers = true)]
     Paths(PathsArguments),
     /// Say in which order the parts of a protein's native structure form, over all pathways of a run
-    #[command(after_help = exit::HELP)]
     Orders(OrdersArguments),
     /// Write a page about a run: its map, several paths in numbers and pictures, structures that move
     #[command(allow_negative_numbers = true)]
@@ -80,8 +80,30 @@ pub enum Command {
     /// Look at structures of proteins
     #[command(subcommand)]
     Protein(ProteinCommand),
+    /// Print a script by which a shell completes commands, options and values
+    Completions(CompletionsArguments),
+    /// Print the manual page, or write one for each command
+    Man(ManArguments),
     #[command(hide = true)]
     Worker(WorkerArguments),
+}
+
+impl Arguments {
+    /// The command line as it is parsed, shown and completed: with the examples, and with the version of the bits, by which
+    /// two programs are known to give the same roadmaps.
+    pub fn whole() -> clap::Command {
+        let version = format!("{} (bits version {BITS_VERSION})", env!("CARGO_PKG_VERSION"));
+        examples::with_examples(Arguments::command()).version(version)
+    }
+
+    /// What the process was called with.
+    ///
+    /// # Errors
+    /// It cannot be understood, or asks for help or the version.
+    pub fn of_process() -> Result<Arguments, clap::Error> {
+        let matches = Arguments::whole().try_get_matches()?;
+        Arguments::from_arg_matches(&matches)
+    }
 }
 
 /// The problem, and what is to be taken where a scene of another program leaves a choice.
@@ -177,7 +199,6 @@ pub enum Dh {
 
 /// Of `build`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct BuildArguments {
     #[command(flatten)]
     pub problem: ProblemArguments,
@@ -202,7 +223,6 @@ pub struct BuildArguments {
 
 /// Of `generate`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct GenerateArguments {
     #[command(flatten)]
     pub problem: ProblemArguments,
@@ -259,7 +279,6 @@ pub struct CrewArguments {
 
 /// Of `resume`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct ResumeArguments {
     /// The run folder
     pub run: PathBuf,
@@ -275,7 +294,6 @@ pub struct ResumeArguments {
 
 /// Of `status`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct StatusArguments {
     /// The run folder
     pub run: PathBuf,
@@ -289,7 +307,6 @@ pub struct StatusArguments {
 
 /// Of `verify`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct VerifyArguments {
     /// The run folder
     pub run: PathBuf,
@@ -311,7 +328,6 @@ pub struct VerifyArguments {
 
 /// Of `diff`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct DiffArguments {
     /// A run folder
     pub left: PathBuf,
@@ -321,7 +337,6 @@ pub struct DiffArguments {
 
 /// Of `log`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct LogArguments {
     /// The run folder
     pub run: PathBuf,
@@ -332,7 +347,6 @@ pub struct LogArguments {
 
 /// Of `query`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct QueryArguments {
     /// The run folder
     pub run: PathBuf,
@@ -342,7 +356,7 @@ pub struct QueryArguments {
     /// Configuration where the path ends [default: the problem's goal]
     #[arg(long, value_name = "CONFIGURATION", allow_hyphen_values = true)]
     pub goal: Option<String>,
-    /// Where to write the path [default: standard output]; with --queries a new folder of paths
+    /// Where to write the path, - for standard output [default: -]; with --queries a new folder of paths
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// The format of paths
@@ -373,7 +387,6 @@ pub enum PathFormat {
 
 /// Of `check`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct CheckArguments {
     #[command(flatten)]
     pub problem: ProblemArguments,
@@ -381,7 +394,6 @@ pub struct CheckArguments {
 
 /// Of `import`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct ImportArguments {
     #[command(flatten)]
     pub problem: ProblemArguments,
@@ -395,14 +407,13 @@ pub struct ImportArguments {
 
 /// Of `export`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct ExportArguments {
     /// The run folder
     pub run: PathBuf,
     /// The format
     #[arg(long, value_parser = formats())]
     pub format: String,
-    /// The file to be written; of csv the nodes, the edges go beside it into NAME.edges.csv
+    /// The file to be written, - for standard output; of csv the nodes, the edges go beside it into NAME.edges.csv
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
 }
@@ -427,7 +438,6 @@ pub enum ProteinCommand {
 
 /// Of `protein info`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct ProteinInfoArguments {
     /// A PDB or mmCIF file (docs/structures.md)
     pub file: PathBuf,
@@ -444,7 +454,6 @@ pub struct ProteinInfoArguments {
 
 /// Of `protein compare`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct ProteinCompareArguments {
     /// A PDB or mmCIF file (docs/structures.md); its first model is taken
     pub first: PathBuf,
@@ -469,7 +478,6 @@ pub struct ProteinCompareArguments {
 
 /// Of `protein problem`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct ProteinProblemArguments {
     /// A PDB or mmCIF file (docs/structures.md): its bonds, angles and omegas are kept, and it is the start
     pub first: PathBuf,
@@ -492,6 +500,22 @@ pub enum Gaps {
     Error,
     /// What follows a gap moves as one with what is before it
     Rigid,
+}
+
+/// Of `completions`.
+#[derive(Debug, Args)]
+pub struct CompletionsArguments {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: clap_complete::Shell,
+}
+
+/// Of `man`.
+#[derive(Debug, Args)]
+pub struct ManArguments {
+    /// A folder for the pages of all commands; it is made if it is not there, and pages in it are replaced
+    #[arg(long, value_name = "FOLDER")]
+    pub out: Option<PathBuf>,
 }
 
 /// Of the hidden worker command.

@@ -1,6 +1,7 @@
 //! Files: opened for what they are expected to be, and written whole.
 
 use crate::exit::{Code, Failure};
+use crate::output;
 pub(crate) use roadmill::internal::regular::open_regular;
 use rustix::fs::{CWD, OFlags, RenameFlags, fcntl_getfl, fcntl_setfl, renameat_with};
 use rustix::io::Errno;
@@ -83,6 +84,23 @@ pub(crate) fn write_whole(path: &Path, contents: impl AsRef<[u8]>) -> Result<(),
     file.write_all(contents.as_ref()).map_err(cannot)?;
     file.persist(path).map_err(|error| cannot(error.error))?;
     Ok(())
+}
+
+/// Whether a path that the command line gives as `--out` stands for standard output, as in other programs.
+pub(crate) fn is_standard_output(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Writes what a command makes: to standard output where the path is `-`, and otherwise as [`write_whole`].
+///
+/// # Errors
+/// As [`write_whole`]; standard output that is lost is told at the end of the program.
+pub(crate) fn write_out(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), Failure> {
+    if is_standard_output(path) {
+        output::bytes(contents.as_ref());
+        return Ok(());
+    }
+    write_whole(path, contents)
 }
 
 /// Opens what is no regular file to write to it: at once, even a FIFO; writing then waits for the reader.

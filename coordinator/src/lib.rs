@@ -21,7 +21,6 @@ pub mod work;
 
 pub use work::{Ended, Growth, Run, Selection, Workers};
 
-use clap::Parser;
 use exit::{Code, Failure};
 use std::process::ExitCode;
 
@@ -31,7 +30,7 @@ pub fn main() -> ExitCode {
         output::note(format_args!("roadmill: cannot listen to signals: {error}"));
         return ExitCode::from(Code::System as u8);
     }
-    let code = match cli::Arguments::try_parse() {
+    let code = match cli::Arguments::of_process() {
         Ok(arguments) => run(arguments.command).unwrap_or_else(say_failure),
         // Help and version are output as any other.
         Err(told) if !told.use_stderr() => {
@@ -70,6 +69,8 @@ fn run(command: cli::Command) -> Result<Code, Failure> {
         cli::Command::Fold(arguments) => commands::fold(&arguments),
         cli::Command::Replan(arguments) => commands::replan(&arguments),
         cli::Command::Protein(command) => commands::protein(&command),
+        cli::Command::Completions(arguments) => commands::completions(&arguments),
+        cli::Command::Man(arguments) => commands::man(&arguments),
         cli::Command::Worker(arguments) => commands::worker(&arguments),
     }
 }

@@ -59,6 +59,14 @@ pub(crate) fn data(text: &str) -> bool {
     }
 }
 
+/// Prints a file's contents on standard output, byte for byte; text as [`data`] does. Returns as [`line`].
+pub(crate) fn bytes(contents: &[u8]) -> bool {
+    match std::str::from_utf8(contents) {
+        Ok(text) => data(text),
+        Err(_) => print(contents),
+    }
+}
+
 /// Prints a line for people: on standard output, escaped, or on standard error where standard output is for objects alone.
 pub(crate) fn told(text: impl Display, is_json: bool) {
     match is_json {

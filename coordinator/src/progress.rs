@@ -31,22 +31,17 @@ pub struct Report {
     workers_wanted: usize,
 }
 
+/// What decides when the build ends comes first: a narrow terminal cuts the rest of the line off.
 impl std::fmt::Display for Report {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(
-            f,
-            "{:.0} s: {} sets generated, {} joined; {} nodes, {} edges, {} components; {:.0} nodes/s; ",
-            self.seconds,
-            self.sets_generated,
-            self.sets_joined,
-            self.nodes,
-            self.edges,
-            self.components,
-            self.nodes_per_second,
-        )?;
+        write!(f, "{:.0} s: ", self.seconds)?;
         for evaluator in &self.evaluators {
             write!(f, "{evaluator}; ")?;
         }
+        let Report { nodes, edges, components, sets_generated, sets_joined, .. } = self;
+        write!(f, "{nodes} nodes, {edges} edges, {components} components; ")?;
+        write!(f, "{sets_generated} sets generated, {sets_joined} joined; ")?;
+        write!(f, "{:.0} nodes/s; ", self.nodes_per_second)?;
         write!(f, "{} of {} workers", self.workers_alive, self.workers_wanted)
     }
 }

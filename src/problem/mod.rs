@@ -5,6 +5,7 @@
 
 mod builder;
 mod building;
+mod changes;
 mod chapter;
 mod configuration;
 mod describe;
@@ -22,6 +23,7 @@ mod write;
 pub use crate::source::ProblemError;
 use crate::source::read_file;
 pub use builder::ProblemBuilder;
+pub use changes::ChangedKey;
 pub use chapter::EarlierSchedule;
 pub use configuration::configuration;
 pub use folding::folding;

@@ -1,12 +1,11 @@
 //! Arguments of `fold`.
 
-use super::{ChainArguments, JobArguments, exit};
+use super::{ChainArguments, JobArguments};
 use clap::Args;
 use std::path::PathBuf;
 
 /// Of `fold`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct FoldArguments {
     /// A PDB or mmCIF file (docs/structures.md) with the native structure
     pub file: PathBuf,

@@ -1,7 +1,6 @@
 //! The command line of what looks for several paths.
 
 use super::seconds;
-use crate::exit;
 use clap::{Args, ValueEnum};
 use roadmill::pathways::DomainAngle;
 use roadmill::structure::parse_range;
@@ -80,7 +79,6 @@ pub struct PathsArguments {
 
 /// Of `report`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct ReportArguments {
     /// The run folder
     pub run: PathBuf,

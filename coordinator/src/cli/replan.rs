@@ -1,13 +1,11 @@
 //! Arguments of `replan`.
 
 use super::GrowthArguments;
-use crate::exit;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 /// Of `replan`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct ReplanArguments {
     /// The run folder whose roadmap is gone on with; it stays as it is
     pub run: PathBuf,

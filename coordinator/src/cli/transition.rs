@@ -1,7 +1,7 @@
 //! Arguments about the two ends of a protein's transition.
 
 use super::paths::angle;
-use super::{Gaps, JobArguments, exit, residues};
+use super::{Gaps, JobArguments, residues};
 use clap::Args;
 use roadmill::pathways::DomainAngle;
 use roadmill::problem::HOLD;
@@ -40,7 +40,6 @@ pub struct EndsArguments {
 
 /// Of `transition`.
 #[derive(Debug, Args)]
-#[command(after_help = exit::HELP)]
 pub struct TransitionArguments {
     /// A PDB or mmCIF file (docs/structures.md): its bonds, angles and omegas are kept, and it is the start
     pub first: PathBuf,

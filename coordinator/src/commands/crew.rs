@@ -44,6 +44,9 @@ pub(super) fn grow(growth: Growth, json: bool) -> Result<Code, Failure> {
     match ended.outcome() {
         (Code::Done, _) => {
             say_way_on(&ended);
+            if !json {
+                say_look(&ended);
+            }
             Ok(Code::Done)
         }
         (code, reason) => Err(Failure::new(code, with_way_on(reason, &ended))),
@@ -55,6 +58,19 @@ fn say_way_on(ended: &Ended) {
     if let Some(way) = ended.way_on() {
         note(format_args!("{}: {way}", Plain(ended.problem().name())));
     }
+}
+
+/// Says by which command people see what was built.
+fn say_look(ended: &Ended) {
+    let (name, run) = (Plain(ended.problem().name()), ended.run().folder().display());
+    let description = ended.problem().model().description();
+    let look = match (ended.path(), description.figure(), description.molecule()) {
+        (Some(_), Some(_), _) => format!("roadmill query {run} --shorten --animate path.html"),
+        (None, Some(_), _) => format!("roadmill export {run} --format svg --out roadmap.svg"),
+        (_, None, Some(_)) => format!("roadmill report {run} --out report.html"),
+        (_, None, None) => return,
+    };
+    note(format_args!("{name}: to look at it: `{look}`"));
 }
 
 /// Why a build ended, and how it goes on.

@@ -12,11 +12,21 @@ use roadmill::scene::is_mesh_file;
 use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
 
+/// The most keys of the problems that are listed.
+const KEYS_SHOWN: usize = 20;
+
 /// Compares two runs.
 pub fn diff(arguments: &DiffArguments) -> Result<Code, Failure> {
     let (left, right) = (Read::new(&arguments.left)?, Read::new(&arguments.right)?);
     for reason in reasons(&left.scan.chapters, &right.scan.chapters) {
         line(reason);
+    }
+    let changed = left.problem.changed_keys(&right.problem);
+    for key in changed.iter().take(KEYS_SHOWN) {
+        line(key);
+    }
+    if let Some(more @ 1..) = changed.len().checked_sub(KEYS_SHOWN) {
+        line(format_args!("and {more} more keys"));
     }
     let [mut ours, mut theirs] = [Side::new(&left)?, Side::new(&right)?];
     let mut sets = 0u64;

@@ -1,17 +1,21 @@
 //! Where a command may write its file.
 
 use crate::exit::Failure;
-use crate::files::folder_of;
+use crate::files::{folder_of, is_standard_output};
 use crate::run::is_of_run;
 use std::fs;
 use std::path::Path;
 
-/// Refuses, before any work is done for it, a place at which no file can be written, or at which a run has one of its own.
+/// Refuses, before any work is done for it, a place at which no file can be written, or at which a run has one of its own; `-` is
+/// standard output.
 ///
 /// # Errors
 /// Exit code 2: a folder is there, or it is a file that makes up a run.
 pub(super) fn check_place(option: &str, path: &Path) -> Result<(), Failure> {
     let found = path.display();
+    if is_standard_output(path) {
+        return Ok(());
+    }
     if path.is_dir() {
         let message = format!("{option}: {found} found, a folder; the name of a file expected");
         return Err(Failure::usage(message));
@@ -30,6 +34,10 @@ pub(super) fn check_place(option: &str, path: &Path) -> Result<(), Failure> {
 /// # Errors
 /// As [`check_place`]; exit code 2, too, if something else than a regular file is there.
 pub(super) fn check_page(option: &str, path: &Path) -> Result<(), Failure> {
+    if is_standard_output(path) {
+        let message = format!("{option}: - found; the name of a regular file expected");
+        return Err(Failure::usage(message));
+    }
     check_place(option, path)?;
     match fs::metadata(path) {
         Ok(there) if !there.is_file() => Err(Failure::usage(format!(

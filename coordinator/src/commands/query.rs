@@ -3,7 +3,7 @@ use super::batch;
 use super::place::check_place;
 use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
-use crate::files::write_whole;
+use crate::files::{write_out, write_whole};
 use crate::output::{self, note};
 use crate::work::{Recorded, Run};
 use roadmill::export::animation;
@@ -40,7 +40,7 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     };
     let text = asker.text(path);
     match &arguments.out {
-        Some(file) => write_whole(file, &text)?,
+        Some(file) => write_out(file, &text)?,
         None => {
             output::data(&text);
         }
