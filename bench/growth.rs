@@ -16,7 +16,7 @@
 mod support;
 
 use roadmill::img::{Job, Joined, Outcome, Replica, Setup};
-use roadmill::model::{Cost, Model, Scratch, Validity};
+use roadmill::model::{Cost, Model, Reason, Scratch, Validity};
 use roadmill::numbers::{Ordinal, SetName, SetNumber};
 use roadmill::problem::Problem;
 use roadmill::query::Attachment;
@@ -60,8 +60,8 @@ impl Model for Timed {
     fn motion(&self, a: &[f64], b: &[f64], refinement: u32, scratch: &mut Scratch) -> Option<Cost> {
         timed(|| self.0.motion(a, b, refinement, scratch))
     }
-    fn invalidity(&self) -> &'static str {
-        self.0.invalidity()
+    fn reasons(&self, q: &[f64], depths: bool) -> Vec<Reason> {
+        self.0.reasons(q, depths)
     }
     fn is_obstructed(&self) -> bool {
         self.0.is_obstructed()

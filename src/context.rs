@@ -1,6 +1,9 @@
-use crate::model::{Model, Scratch, Validity};
+use crate::model::{Model, Reason, Scratch, Validity};
 use crate::space::{FactorKind, Space, stored_form};
 use bincode::{Decode, Encode};
+
+/// The most reasons that a message names why a configuration is not valid.
+const REASONS: usize = 4;
 
 /// A problem made ready for work: what everything that samples, joins and evaluates shares.
 pub struct Context {
@@ -48,6 +51,25 @@ impl Context {
     /// # Errors
     /// Says what is wrong with it: the number of values, a value, or that it is not valid.
     pub fn accept(&self, q: &mut [f64]) -> Result<(), String> {
+        self.stored(q)?;
+        if self.model.validity(q, &mut Scratch::new()) != Validity::Valid {
+            let reasons = self.model.reasons(q, true);
+            let why: Vec<String> = reasons.iter().take(REASONS).map(Reason::to_string).collect();
+            let more = match reasons.len().saturating_sub(REASONS) {
+                0 => String::new(),
+                more => format!("; and {more} more reasons"),
+            };
+            let why = why.join("; ");
+            return Err(format!("{q:?} found, where {why}{more}; a valid configuration expected"));
+        }
+        Ok(())
+    }
+
+    /// Brings a configuration that came from outside, valid or not, into stored form.
+    ///
+    /// # Errors
+    /// Says what is wrong with it: the number of values, or a value.
+    pub(crate) fn stored(&self, q: &mut [f64]) -> Result<(), String> {
         let space = &self.space;
         if q.len() != space.len() {
             let names: Vec<_> = space.dofs().iter().map(|dof| dof.name.as_str()).collect();
@@ -61,13 +83,6 @@ impl Context {
             let four = part.at..part.at + 4;
             let quaternion = [0, 1, 2, 3].map(|i| given[part.at + i]);
             q[four].copy_from_slice(&stored_form(quaternion).expect("it has a direction"));
-        }
-        if !space.within_bounds(q) {
-            return Err(format!("{q:?} found, a configuration within the bounds expected"));
-        }
-        if self.model.validity(q, &mut Scratch::new()) != Validity::Valid {
-            let (why, expected) = (self.model.invalidity(), "a valid configuration expected");
-            return Err(format!("{q:?} found, where {why}; {expected}"));
         }
         Ok(())
     }

@@ -66,6 +66,7 @@ mod source;
 pub mod space;
 mod strategy;
 pub mod structure;
+pub mod survey;
 
 use internal::{shelf, wire};
 

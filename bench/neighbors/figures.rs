@@ -6,7 +6,7 @@
 use super::scenes::Scene;
 use super::support::cpu_seconds;
 use roadmill::img::{Job, Outcome, Replica, Setup};
-use roadmill::model::{Cost, Model, Scratch, Validity};
+use roadmill::model::{Cost, Model, Reason, Scratch, Validity};
 use roadmill::numbers::{SetName, SetNumber};
 use roadmill::space::Space;
 use std::cell::RefCell;
@@ -88,8 +88,8 @@ impl Model for Watched {
         });
         cost
     }
-    fn invalidity(&self) -> &'static str {
-        self.0.invalidity()
+    fn reasons(&self, q: &[f64], depths: bool) -> Vec<Reason> {
+        self.0.reasons(q, depths)
     }
     fn is_obstructed(&self) -> bool {
         self.0.is_obstructed()

@@ -1,5 +1,6 @@
 //! The command line.
 
+mod compare;
 mod examples;
 mod fold;
 mod job;
@@ -8,6 +9,7 @@ mod paths;
 mod replan;
 mod transition;
 
+pub use compare::CompareArguments;
 pub use fold::FoldArguments;
 pub use job::JobArguments;
 pub use orders::{FormationArguments, OrdersArguments};
@@ -63,6 +65,8 @@ pub enum Command {
     /// Write a page about a run: its map, several paths in numbers and pictures, structures that move
     #[command(allow_negative_numbers = true)]
     Report(ReportArguments),
+    /// Compare strategies on a problem over several seeds: nodes, time, success, and how large a roadmap each needs
+    Compare(CompareArguments),
     /// Say what is wrong with a problem, or what it would build
     Check(CheckArguments),
     /// Write a problem, or a scene of another program, as a problem file with its meshes
@@ -390,6 +394,15 @@ pub enum PathFormat {
 pub struct CheckArguments {
     #[command(flatten)]
     pub problem: ProblemArguments,
+    /// Say whether this configuration is valid, and every reason if it is not: what collides, how deep, what is out of range
+    #[arg(long, value_name = "CONFIGURATION", allow_hyphen_values = true)]
+    pub at: Option<String>,
+    /// Also draw the scene with the robot at that configuration, as SVG; - for standard output
+    #[arg(long, value_name = "FILE.svg", requires = "at")]
+    pub picture: Option<PathBuf>,
+    /// The answer about the configuration as a JSON object
+    #[arg(long, requires = "at")]
+    pub json: bool,
 }
 
 /// Of `import`.

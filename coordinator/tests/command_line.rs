@@ -88,6 +88,78 @@ fn a_dash_is_standard_output() {
     done.assert_stderr(&["--out: - found; the name of a regular file expected"]);
 }
 
+/// A ball in a room that a block fills: it collides everywhere within its bounds.
+const FILLED: &str = r#"
+[space]
+motion = "translation-2d"
+min = [0.0, 0.0]
+max = [9.0, 9.0]
+bounds = "body"
+[robot]
+bodies = [{ shape = { sphere = { radius = 0.2 } } }]
+[[obstacles]]
+shape = { box = { size = [10.0, 10.0, 1.0] } }
+position = [4.5, 4.5, 0.0]
+[[strategies]]
+label = "a"
+nodes = 20
+sampler = { uniform = { attempts = 50 } }
+"#;
+
+#[test]
+fn a_build_that_finds_nothing_says_what_is_in_the_way() {
+    let scratch = Scratch::new();
+    scratch.write("filled.toml", FILLED);
+    let done = scratch.run(&["build", "filled.toml", "--threads", "1", "--out", "run"]);
+    done.assert_code(3);
+    let culprit = "most often the robot collides with obstacles[0]";
+    done.assert_stderr(&["filled: 0 of 1000 uniform draws are valid", culprit, "obprm"]);
+    let done = scratch.run(&["check", "filled.toml"]);
+    done.assert_code(0);
+    assert!(done.stdout.contains("draws            0 of 1000 uniform draws are valid"));
+    assert!(done.stdout.contains(culprit), "{}", done.stdout);
+}
+
+#[test]
+fn check_gives_the_reasons_at_a_configuration() {
+    let scratch = Scratch::new();
+    scratch.write("filled.toml", FILLED);
+    scratch.write("small.toml", SMALL);
+    let done = scratch.run(&["check", "small.toml", "--at", "3 3"]);
+    done.assert_code(0);
+    assert_eq!(done.stdout, "valid\n");
+    for (problem, at, expected) in [
+        ("small.toml", "-1 3", "x is -1, 0 to 9 expected\n"),
+        ("small.toml", "3, 8.9", "the robot reaches 1.000e-1 beyond the bounds at +y\n"),
+        ("filled.toml", "4.5 4.5", "the robot collides with obstacles[0], "),
+    ] {
+        let done = scratch.run(&["check", problem, "--at", at, "--picture", "at.svg"]);
+        done.assert_code(3);
+        assert!(done.stdout.starts_with(expected), "{at}: {}", done.stdout);
+        let picture = fs::read_to_string(scratch.path("at.svg")).expect("it is drawn");
+        assert!(picture.contains("class=\"robot\""), "{at}: no robot is drawn");
+        assert!(picture.contains(expected.trim_end()), "{at}: the reason is not in the picture");
+    }
+    let done = scratch.run(&["check", "filled.toml", "--at", "4.5 4.5", "--json"]);
+    done.assert_code(3);
+    let answer: serde_json::Value = serde_json::from_str(&done.stdout).expect("an object");
+    assert_eq!(answer["valid"], false);
+    let reason = &answer["reasons"][0];
+    assert_eq!(reason["reason"], "collision");
+    assert_eq!(
+        (&reason["body"]["link"], &reason["other"]["obstacle"]),
+        (&"robot".into(), &0.into())
+    );
+    // Out through the nearer face of two equal ones, in z: half the block and the ball's radius.
+    let depth = reason["depth"].as_f64().expect("a number");
+    assert!((depth - 0.7).abs() < 2e-3, "{depth}");
+    for (at, expected) in [("1 2 3", "3 values found, 2 expected: x y"), ("1 a", "`a` found")] {
+        let done = scratch.run(&["check", "filled.toml", "--at", at]);
+        done.assert_code(2);
+        done.assert_stderr(&[expected]);
+    }
+}
+
 #[test]
 fn diff_names_the_keys_that_were_changed() {
     let scratch = Scratch::new();
@@ -111,4 +183,64 @@ fn a_build_that_has_ended_says_how_to_look_at_it() {
     let words: Vec<&str> = command.split(' ').skip(1).collect();
     scratch.run(&words).assert_code(0);
     assert!(scratch.path("path.html").exists());
+}
+
+#[test]
+fn strategies_are_compared_and_a_comparison_that_was_cut_off_goes_on() {
+    let scratch = Scratch::new();
+    // The direct way is closed: a wall with a gap at the top.
+    let wall =
+        "[[obstacles]]\nshape = { box = { size = [0.5, 8.0, 1.0] } }\nposition = [4.5, 4.0, 0.0]\n";
+    scratch.write("wall.toml", &format!("{SMALL}{wall}[[evaluators]]\nquery = {{}}\n"));
+    let command = |seeds: &str, more: &[&str]| {
+        let out = if more.is_empty() { "c" } else { "beyond" };
+        let all = ["compare", "wall.toml", "--samplers", "own", "halton", "--seeds", seeds];
+        let limits = ["--threads", "1", "--max-nodes", "2000", "--out", out];
+        let done = scratch.run(&[&all[..], &limits, more].concat());
+        done.assert_code(0);
+        done
+    };
+    let first = command("1-2", &[]);
+    assert_eq!(first.stdout.lines().count(), 3, "{}", first.stdout);
+    let row = |label: &str, text: &str| {
+        text.lines().find(|line| line.starts_with(label)).expect("a row").to_owned()
+    };
+    assert!(row("own", &first.stdout).contains("2 of 2"), "{}", first.stdout);
+    let ledger = scratch.ledger("c/runs/own-1");
+    let of_seeds_before: Vec<String> = table(&scratch, "c/compare.csv");
+    // Goes on: the runs that are there are taken as they are.
+    let second = command("1-3", &[]);
+    assert!(row("halton", &second.stdout).contains("3 of 3"), "{}", second.stdout);
+    assert!(ledger == scratch.ledger("c/runs/own-1"));
+    let all = table(&scratch, "c/compare.csv");
+    assert_eq!(all.len(), 1 + 6, "{all:?}");
+    assert!(of_seeds_before.iter().all(|line| all.contains(line)), "{all:?}");
+    let curves = table(&scratch, "c/curves.csv");
+    assert_eq!(curves[0], "strategy,seed,nodes,query");
+    let page = fs::read_to_string(scratch.path("c/compare.html")).expect("a page");
+    assert!(page.contains("How large a roadmap?"));
+
+    // Beyond the criteria: to the limit, and yet it is told when they were met.
+    let done = command("1", &["--go-on", "--json"]);
+    for line in done.stdout.lines() {
+        let built: serde_json::Value = serde_json::from_str(line).expect("an object");
+        assert!(built["nodes"].as_u64() >= Some(2000), "{built}");
+        let met = built["nodes_when_met"].as_u64().expect("met on the way");
+        assert!(met < 2000, "{built}");
+    }
+
+    for (strategies, expected) in [
+        ("unifrm", "unknown variant `unifrm`"),
+        ("a/b = { sampler = { uniform = {} } }", "a label of letters"),
+    ] {
+        let done = scratch.run(&["compare", "wall.toml", "--samplers", strategies, "--out", "d"]);
+        done.assert_code(2);
+        done.assert_stderr(&[expected]);
+        assert!(!scratch.path("d").exists());
+    }
+}
+
+fn table(scratch: &Scratch, name: &str) -> Vec<String> {
+    let text = fs::read_to_string(scratch.path(name)).expect("a table");
+    text.lines().map(str::to_owned).collect()
 }

@@ -113,6 +113,9 @@ impl Drawing<'_> {
     /// without a path, the query's start and goal.
     fn poses(&self, path: Option<&query::Path>) -> Vec<(f64, Vec<f64>)> {
         match (path, &self.problem.query) {
+            (Some(path), _) if path.configs.len() == 1 => {
+                vec![(0.0, path.configs.get(0).to_vec())]
+            }
             (Some(path), _) => {
                 let fractions: Vec<f64> =
                     (0..POSES).map(|i| i as f64 / (POSES - 1) as f64).collect();

@@ -57,8 +57,10 @@ pub use parasol::{parasol_map, parasol_path};
 pub use path_csv::path_csv;
 pub use pdb::pdb;
 pub use pymol::pymol;
-pub use report::{Folding, Report, RoundOutcome, RoundValue, report};
-pub use svg::svg;
+pub use report::{
+    ComparedBuild, ComparedStrategy, Comparison, Folding, Report, RoundOutcome, RoundValue, report,
+};
+pub use svg::{svg, svg_at};
 pub use xtc::xtc;
 
 use crate::local::Planner;

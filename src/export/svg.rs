@@ -6,7 +6,7 @@ use crate::model::Figure;
 use crate::numbers::NodeId;
 use crate::problem::Problem;
 use crate::query;
-use crate::roadmap::Roadmap;
+use crate::roadmap::{Configs, Roadmap};
 use crate::scene::Pose;
 use std::collections::BTreeSet;
 
@@ -71,7 +71,30 @@ pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> 
         drawing.solids_and_journey(path);
     }
     drawing.ends();
-    drawing.caption(roadmap, path);
+    drawing.caption(&counts(roadmap, path));
+    drawing.out.push_str("</svg>\n");
+    Some(drawing.out)
+}
+
+/// A picture of a problem's scene with the robot at the configuration `q`, valid or not, as [`svg`] draws it; `text` stands
+/// below it. `None` where the problem's model cannot be drawn.
+pub fn svg_at(problem: &Problem, q: &[f64], text: &str) -> Option<String> {
+    let figure = problem.model.description().figure()?;
+    let planar = figure.is_planar();
+    let mut configs = Configs::new(q.len());
+    configs.push(q);
+    let alone = Some(query::Path { configs, length: 0.0 });
+    let view = View::new(planar, &points_to_hold(problem, figure, alone.as_ref()));
+    let mut drawing = Drawing { problem, figure, view, planar, out: String::new() };
+    drawing.head();
+    drawing.floor();
+    if planar {
+        drawing.obstacles();
+        drawing.journey(alone.as_ref());
+    } else {
+        drawing.solids_and_journey(alone.as_ref());
+    }
+    drawing.caption(text);
     drawing.out.push_str("</svg>\n");
     Some(drawing.out)
 }
@@ -248,28 +271,34 @@ impl Drawing<'_> {
         }
     }
 
-    fn caption(&mut self, roadmap: &Roadmap, path: Option<&query::Path>) {
-        let count = |number: usize, noun: &str| {
-            format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
-        };
-        let mut text = [
-            count(roadmap.configs().len(), "node"),
-            count(roadmap.edges().len(), "edge"),
-            count(roadmap.components().count(), "component"),
-        ]
-        .join(" · ");
-        if let Some(path) = path {
-            let directed = roadmap.edges().is_directed();
-            let length = if directed { "path with climbs of" } else { "path of length" };
-            text += &format!(" · {length} {:.2}", path.length);
-        }
-        let name = escaped(&self.problem.name);
+    /// The name of the problem and a text, below the scene.
+    fn caption(&mut self, text: &str) {
+        let (name, text) = (escaped(&self.problem.name), escaped(text));
         let (x, y) = (decimal(MARGIN_PX), decimal(self.view.size_px[1] + 8.0));
         self.put(format_args!(
             "<text x=\"{x}\" y=\"{y}\" {FONT} font-size=\"16\" fill=\"{INK}\">\
              <tspan font-weight=\"600\">{name}</tspan><tspan dx=\"14\" fill-opacity=\"0.75\">{text}</tspan></text>"
         ));
     }
+}
+
+/// What is counted of a roadmap and its path, for the caption.
+fn counts(roadmap: &Roadmap, path: Option<&query::Path>) -> String {
+    let count = |number: usize, noun: &str| {
+        format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+    };
+    let mut text = [
+        count(roadmap.configs().len(), "node"),
+        count(roadmap.edges().len(), "edge"),
+        count(roadmap.components().count(), "component"),
+    ]
+    .join(" · ");
+    if let Some(path) = path {
+        let directed = roadmap.edges().is_directed();
+        let length = if directed { "path with climbs of" } else { "path of length" };
+        text += &format!(" · {length} {:.2}", path.length);
+    }
+    text
 }
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above `length`.

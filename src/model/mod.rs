@@ -27,6 +27,7 @@ mod description;
 mod elasticity;
 mod figure;
 mod molecule;
+mod reason;
 mod scene_change;
 mod scratch;
 
@@ -41,10 +42,12 @@ pub use description::{Description, Documents, ForeignProblem};
 pub use elasticity::{Draw, Elastic};
 pub use figure::{Figure, Placement};
 pub use molecule::{Energies, Molecule};
+pub use reason::{BodyName, Reason};
 pub use scene_change::SceneChange;
 pub use scratch::{Asked, ModelScratch, Scratch};
 
 pub(crate) use description::{Resolve, import};
+pub(crate) use reason::{SOLE_LINK, link_named, out_of_range};
 
 use crate::scene::Body;
 use crate::source::{ProblemError, Source};
@@ -251,8 +254,9 @@ pub trait Model: Any + Send + Sync {
         &[]
     }
 
-    /// What makes a configuration invalid, for people to read: "the robot collides or leaves the bounds".
-    fn invalidity(&self) -> &'static str;
+    /// The reasons why `q` is not valid, every one that there is; none where it is valid. This is for people: it takes much
+    /// longer than [`Model::validity`]. Without `depths` it takes less, and depths of collisions are NaN. Nothing is counted.
+    fn reasons(&self, q: &[f64], depths: bool) -> Vec<Reason>;
 
     /// Whether some configuration within the bounds could be invalid.
     fn is_obstructed(&self) -> bool;

@@ -135,7 +135,7 @@ nodes = 100
 
     #[test]
     fn what_a_default_gives_is_no_difference() {
-        assert_eq!(changed("sampler = { uniform = {} }\n", ""), [""; 0]);
+        assert_eq!(changed("[limits]", "[img]\nsets_per_round = 5\n[limits]"), [""; 0]);
         assert_eq!(changed("nodes = 100", "nodes = 100 # the same"), [""; 0]);
     }
 }

@@ -25,7 +25,7 @@ use crate::source::read_file;
 pub use builder::ProblemBuilder;
 pub use changes::ChangedKey;
 pub use chapter::EarlierSchedule;
-pub use configuration::configuration;
+pub use configuration::{configuration, configuration_at_all};
 pub use folding::folding;
 pub use layout::Layout;
 pub use limits::{Limits, NODES_MAX};

@@ -45,6 +45,72 @@ impl StrategySpec {
         }
     }
 
+    /// Reads a strategy from a line: the name of a sampler or of a generator, with its usual settings, or
+    /// `LABEL = { … }` with a table as it stands under `[[strategies]]`.
+    ///
+    /// # Errors
+    /// Says what was found and what is expected.
+    pub fn parse(text: &str) -> Result<StrategySpec, String> {
+        let text = text.trim();
+        let Some((label, table)) = text.split_once('=') else {
+            return StrategySpec::named(text);
+        };
+        let label = label.trim();
+        // As a document of its own, the table's keys are at the top.
+        let document: toml::Table = format!("it = {}", table.trim())
+            .parse()
+            .map_err(|error: toml::de::Error| format!("{text}: {}", error.message()))?;
+        let Some(toml::Value::Table(mut keys)) = document.get("it").cloned() else {
+            return Err(format!("{text}: LABEL = {{ sampler = … }} expected"));
+        };
+        keys.insert("label".to_owned(), toml::Value::String(label.to_owned()));
+        let spec = toml::Value::Table(keys).try_into::<StrategySpec>();
+        spec.map_err(|error| format!("{text}: {}", error.message()))
+    }
+
+    /// The strategy that is a sampler or a generator of this name with its usual settings.
+    fn named(name: &str) -> Result<StrategySpec, String> {
+        let with = |role: &str| {
+            let keys = toml::Table::from_iter([
+                ("label".to_owned(), toml::Value::String(name.to_owned())),
+                (
+                    role.to_owned(),
+                    toml::Value::Table(toml::Table::from_iter([(
+                        name.to_owned(),
+                        toml::Value::Table(toml::Table::new()),
+                    )])),
+                ),
+            ]);
+            toml::Value::Table(keys).try_into::<StrategySpec>()
+        };
+        let of_sampler = match with("sampler") {
+            Ok(spec) => return Ok(spec),
+            Err(error) => error.message().to_owned(),
+        };
+        let of_generator = match with("generator") {
+            Ok(spec) => return Ok(spec),
+            Err(error) => error.message().to_owned(),
+        };
+        // What is known but lacks a setting says so; what neither role knows is told with both lists.
+        let is_unknown = |message: &str| message.starts_with("unknown variant");
+        match (is_unknown(&of_sampler), is_unknown(&of_generator)) {
+            (false, _) => Err(format!(
+                "{name}: {of_sampler}; LABEL = {{ sampler = {{ {name} = {{ … }} }} }} says it"
+            )),
+            (true, false) => Err(format!(
+                "{name}: {of_generator}; LABEL = {{ generator = {{ {name} = {{ … }} }} }} says it"
+            )),
+            (true, true) => {
+                Err(format!("{name}: a sampler: {of_sampler}; a generator: {of_generator}"))
+            }
+        }
+    }
+
+    /// The label.
+    pub fn name(&self) -> &str {
+        &self.label
+    }
+
     /// Milestones per set (TR05-007: *n*); 50 if nothing is said.
     pub fn nodes(self, nodes: u64) -> StrategySpec {
         StrategySpec { nodes, ..self }
@@ -118,6 +184,30 @@ impl From<&Strategy> for StrategySpec {
                 spec.sampler(sampler.clone()).within(within.clone())
             }
             None => spec.generator(strategy.generator.clone()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_a_name_or_a_label_with_a_table() {
+        let uniform = StrategySpec::parse("uniform").expect("a sampler");
+        assert_eq!(uniform, StrategySpec::uniform());
+        let trees = StrategySpec::parse(" rrt-connect ").expect("a generator");
+        assert_eq!((trees.name(), trees.sampler.is_none()), ("rrt-connect", true));
+        let near = StrategySpec::parse("near = { sampler = { uniform = {} }, nodes = 7 }");
+        assert_eq!(near, Ok(StrategySpec::uniform().label("near").nodes(7)));
+        for (text, expected) in [
+            ("unifrm", "unknown variant `unifrm`"),
+            ("a = 3", "LABEL = { sampler = … } expected"),
+            ("a = { sampler = { uniform = {} }, node = 7 }", "unknown field `node`"),
+            ("a = { sampler", "a = { sampler: "),
+        ] {
+            let error = StrategySpec::parse(text).expect_err(text);
+            assert!(error.contains(expected), "{text}: {error}");
         }
     }
 }

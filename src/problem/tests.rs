@@ -46,7 +46,7 @@ fn errors_name_file_line_and_key() {
         ("min", "min = [0.0, 0.0]", "space.min: 2 values found; 3 expected"),
         ("start", "start = [1.0, 2.0]", "query.start: 2 values found, 7 expected: x y z qw"),
         ("start", "start = [2.0, 3.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "query.start: [2.0, 3.0"),
-        ("start", "start = [-2.0, 3.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "within the bounds expected"),
+        ("start", "start = [-2.0, 3.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "x is -2, 0 to 8 expected"),
         ("goal", "goal = [7.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0]", "query.goal: the quaternion"),
     ] {
         let (text, place) = replaced(key, with);

@@ -111,6 +111,23 @@ const EXAMPLES: &[(&[&str], &[(&str, &str)])] = &[
         &[
             ("What it would build", "roadmill check problem.toml"),
             ("A robot's description as it is", "roadmill check arm.urdf"),
+            (
+                "Why a configuration is not valid",
+                "roadmill check problem.toml --at '1 2 2 1 0 0 0' --picture at.svg",
+            ),
+        ],
+    ),
+    (
+        &["compare"],
+        &[
+            (
+                "Three samplers, ten seeds",
+                "roadmill compare problem.toml --samplers uniform obprm own --seeds 1-10 --out compared",
+            ),
+            (
+                "How values go on beyond the criteria",
+                "roadmill compare problem.toml --samplers own --go-on --max-nodes 5000 --out beyond",
+            ),
         ],
     ),
     (

@@ -1,10 +1,64 @@
+use super::crew::DRAWS;
 use super::load::load;
+use super::place::check_place;
 use crate::cli::CheckArguments;
 use crate::exit::{Code, Failure};
-use crate::output::lines;
+use crate::files::write_out;
+use crate::output::{json, line, lines};
+use roadmill::export::svg_at;
+use roadmill::model::Reason;
+use roadmill::problem::{Problem, configuration_at_all};
+use roadmill::survey::Survey;
+use serde::Serialize;
 
-/// Says what is wrong with a problem, or what it would build.
+/// Says what is wrong with a problem, or what it would build; or of one configuration why it is not valid.
 pub fn check(arguments: &CheckArguments) -> Result<Code, Failure> {
-    lines(load(&arguments.problem)?.describe().trim_end());
+    let problem = load(&arguments.problem)?;
+    if let Some(text) = &arguments.at {
+        return check_at(&problem, text, arguments);
+    }
+    lines(problem.describe().trim_end());
+    let survey = Survey::new(&problem.context(), DRAWS);
+    line(format_args!("draws            {survey}"));
+    if let Some(advice) = survey.advice() {
+        line(format_args!("                 {advice}"));
+    }
     Ok(Code::Done)
+}
+
+/// What is said of one configuration.
+#[derive(Serialize)]
+struct Answer {
+    configuration: Vec<f64>,
+    valid: bool,
+    reasons: Vec<Reason>,
+}
+
+fn check_at(problem: &Problem, text: &str, arguments: &CheckArguments) -> Result<Code, Failure> {
+    arguments.picture.as_ref().map_or(Ok(()), |file| check_place("--picture", file))?;
+    let cx = problem.context();
+    let q = configuration_at_all(&cx, text);
+    let q = q.map_err(|error| Failure::usage(format!("--at: {error}")))?;
+    let reasons = cx.model().reasons(&q, true);
+    if let Some(file) = &arguments.picture {
+        let caption = match reasons.as_slice() {
+            [] => "valid".to_owned(),
+            [reason] => reason.to_string(),
+            [reason, more @ ..] => format!("{reason}; and {} more", more.len()),
+        };
+        let picture = svg_at(problem, &q, &caption);
+        let refused = || Failure::usage("--picture: this model cannot be drawn");
+        write_out(file, picture.ok_or_else(refused)?)?;
+    }
+    let valid = reasons.is_empty();
+    if arguments.json {
+        json(&Answer { configuration: q, valid, reasons });
+    } else if valid {
+        line("valid");
+    } else {
+        reasons.iter().for_each(|reason| {
+            line(reason);
+        });
+    }
+    Ok(if valid { Code::Done } else { Code::NoSuccess })
 }

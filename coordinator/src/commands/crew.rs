@@ -7,7 +7,14 @@ use crate::output::{self, Plain, note};
 use crate::progress::Reporter;
 use crate::run::SUMMARY_JSON;
 use crate::work::{Begun, Ended, Growth, Status, Torn, WORKERS_MAX, Watch, Workers};
+use roadmill::problem::Problem;
+use roadmill::survey::Survey;
 use rustix::fs::OFlags;
+
+/// After so many seconds without a set it is said what is in the way.
+const PATIENCE: f64 = 5.0;
+/// How many configurations are drawn for that.
+pub(super) const DRAWS: usize = 1000;
 
 /// Who does the jobs, as the command line says.
 pub(super) fn workers(crew: &CrewArguments) -> Result<Workers, Failure> {
@@ -34,8 +41,12 @@ pub(super) fn count(crew: &CrewArguments) -> Result<usize, Failure> {
 
 /// Grows a roadmap and says how it goes and what came of it; the exit code.
 pub(super) fn grow(growth: Growth, json: bool) -> Result<Code, Failure> {
-    let ended = growth.watch(Telling { json, reporter: None, is_late: false }).grow()?;
+    let telling = Telling { json, reporter: None, is_late: false, is_surveyed: false };
+    let ended = growth.watch(telling).grow()?;
     let Some(summary) = ended.summary() else { return say_finished(&ended, json) };
+    if ended.stopped().gave_up() {
+        say_survey(ended.problem());
+    }
     if json {
         output::json(summary);
     } else {
@@ -57,6 +68,16 @@ pub(super) fn grow(growth: Growth, json: bool) -> Result<Code, Failure> {
 fn say_way_on(ended: &Ended) {
     if let Some(way) = ended.way_on() {
         note(format_args!("{}: {way}", Plain(ended.problem().name())));
+    }
+}
+
+/// Says how much of the space is valid and what is mostly in the way, and what might suit.
+fn say_survey(problem: &Problem) {
+    let name = Plain(problem.name());
+    let survey = Survey::new(&problem.context(), DRAWS);
+    note(format_args!("{name}: {survey}"));
+    if let Some(advice) = survey.advice() {
+        note(format_args!("{name}: {advice}"));
     }
 }
 
@@ -113,6 +134,8 @@ struct Telling {
     reporter: Option<Reporter>,
     /// Whether it was said that the build's time is up.
     is_late: bool,
+    /// Whether it was said why there are no milestones yet.
+    is_surveyed: bool,
 }
 
 impl Watch for Telling {
@@ -126,6 +149,10 @@ impl Watch for Telling {
     fn progress(&mut self, status: &Status) {
         if let Some(reporter) = &mut self.reporter {
             reporter.report(status);
+            let has_nothing = status.progress.sets_generated == 0 && reporter.seconds() > PATIENCE;
+            if has_nothing && !std::mem::replace(&mut self.is_surveyed, true) {
+                say_survey(status.problem);
+            }
             let Status { problem, is_late, .. } = status;
             if *is_late && !std::mem::replace(&mut self.is_late, true) && !self.json {
                 let name = Plain(problem.name());

@@ -5,6 +5,7 @@ mod batch;
 mod bounded;
 mod build;
 mod check;
+mod compare;
 mod completions;
 mod crew;
 mod diff;
@@ -33,6 +34,7 @@ mod written;
 
 pub use build::build;
 pub use check::check;
+pub use compare::compare;
 pub use completions::completions;
 pub use diff::diff;
 pub use export::export;

@@ -8,6 +8,7 @@
 
 mod along;
 mod chart;
+mod comparison;
 mod folding;
 mod growth;
 mod header;
@@ -22,6 +23,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
+pub use comparison::{ComparedBuild, ComparedStrategy, Comparison};
 pub use folding::Folding;
 pub use rounds::{RoundOutcome, RoundValue};
 

@@ -9,6 +9,8 @@ pub struct RoundOutcome {
     pub components: u64,
     /// What the evaluators said of it; nothing of a round that was not judged.
     pub numbers: Vec<RoundValue>,
+    /// Whether each criterion is met, in their order; nothing of a round that was not judged.
+    pub satisfied: Vec<bool>,
 }
 
 /// A number that an evaluator gave.

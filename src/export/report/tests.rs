@@ -39,6 +39,7 @@ fn page(built: &Built, angles: &[DomainAngle], change: impl Fn(&mut Problem)) ->
                 value,
                 threshold: Some(10.0),
             }],
+            satisfied: vec![value <= 10.0],
         })
         .into();
     report(

@@ -14,7 +14,7 @@ pub use spec::LandscapeSpec;
 
 use super::{
     Cost, Description, Directed, Documents, Figure, Model, ModelKind, ModelScratch, NodeValue,
-    Resolve, Scratch, Validity,
+    Reason, Resolve, Scratch, Validity, out_of_range,
 };
 use crate::source::{ProblemError, Source, value};
 use crate::space::{Dof, Factor, FactorKind, Space};
@@ -251,8 +251,14 @@ impl Model for PointInEnergy {
         Some(self.energy_at(q))
     }
 
-    fn invalidity(&self) -> &'static str {
-        "the energy is above the highest that is valid"
+    fn reasons(&self, q: &[f64], _depths: bool) -> Vec<Reason> {
+        let mut reasons = out_of_range(&self.space, q);
+        let energy = self.energy_at(q);
+        if let Some(highest) = self.highest.filter(|highest| energy > *highest) {
+            let text = format!("the energy is {energy}, at most {highest} expected");
+            reasons.push(Reason::Other { text });
+        }
+        reasons
     }
 
     fn is_obstructed(&self) -> bool {

@@ -12,9 +12,11 @@ use super::motion::{
     EnergySteps, Limits as MotionLimits, MotionScratch, MotionValidity, Profile, profile,
 };
 use super::placed::{Placed, Site};
-use super::validity::{Counts, Limits, Obstacles, Screen, Violation};
+use super::validity::{Atom, Counts, Limits, Obstacles, Screen, Violation};
 use super::{ENERGY, KT, Protein};
-use crate::model::{Cost, Directed, Elastic, Model, ModelScratch, NodeValue, Scratch, Validity};
+use crate::model::{
+    Cost, Directed, Elastic, Model, ModelScratch, NodeValue, Reason, Scratch, Validity,
+};
 use crate::space::Space;
 use crate::structure::Point;
 use crate::structure::measure::{Element, elements};
@@ -25,6 +27,8 @@ pub(super) struct ChainInEnergy {
     native: Vec<f64>,
     /// Helices and strands of the source structure.
     elements: Vec<Element>,
+    /// The names of the residues, as in the source's file.
+    residues: Vec<String>,
     conformer: Conformer,
     /// A conformation still to be placed, with what the chain lacks.
     empty: Placed,
@@ -75,6 +79,7 @@ impl ChainInEnergy {
             space: crate::model::Description::space(protein),
             native: linkage.source(),
             elements: elements(&protein.source),
+            residues: protein.source.iter().map(ToString::to_string).collect(),
             energy: energy_of(protein, &conformer),
             empty: conformer.placed(),
             conformer,
@@ -129,6 +134,32 @@ impl ChainInEnergy {
     pub fn first_violation(&self, q: &[f64]) -> Option<Violation> {
         let screen = &mut Screen::default();
         self.limits.first_violation(self.placed(q, &mut None), &self.obstacles, screen)
+    }
+
+    /// Why `q` is not valid, for people to read: the first pair of atoms that breaks a rule, or its energy, above the highest
+    /// that is valid; `None` if it is valid.
+    pub fn broken_rule(&self, q: &[f64]) -> Option<String> {
+        if let Some(violation) = self.first_violation(q) {
+            return Some(self.text_of(&violation));
+        }
+        let (highest, energy) = (self.highest?, self.energy_at(q));
+        (energy > highest).then(|| {
+            format!(
+                "an energy of {energy:.1} model kJ/mol, where {highest} is the highest that is valid"
+            )
+        })
+    }
+
+    /// "Backbone: VAL 35 N and GLY 40 O, 2.312 Å apart".
+    pub fn text_of(&self, violation: &Violation) -> String {
+        let Violation { rule, first, second, distance } = violation;
+        let (residue, other) = (&self.residues[first.0], self.residues.get(second.0));
+        let atom = |atom: &Atom| format!("{atom:?}");
+        let second = match (second.1, other) {
+            (Atom::Obstacle, _) | (_, None) => format!("obstacle atom {}", second.0),
+            (at, Some(other)) => format!("{other} {}", atom(&at)),
+        };
+        format!("{rule:?}: {residue} {} and {second}, {distance:.3} Å apart", atom(&first.1))
     }
 
     fn is_allowed(&self, energy: f64) -> bool {
@@ -234,8 +265,8 @@ impl Model for ChainInEnergy {
         &self.elements
     }
 
-    fn invalidity(&self) -> &'static str {
-        "two parts of the chain are too close, or the energy is above the highest that is valid"
+    fn reasons(&self, q: &[f64], _depths: bool) -> Vec<Reason> {
+        self.broken_rule(q).map(|text| Reason::Other { text }).into_iter().collect()
     }
 
     fn is_obstructed(&self) -> bool {

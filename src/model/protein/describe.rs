@@ -5,7 +5,6 @@ use super::chain_in_energy::{ChainInEnergy, basins_of};
 use super::energy::{ConstraintKind, Constraints};
 use super::linkage::TorsionKind;
 use super::motion::EnergySteps;
-use super::validity::Violation;
 use super::{Gaps, Protein};
 use crate::structure::measure::superpose;
 use crate::structure::{AminoAcid, Point};
@@ -128,36 +127,10 @@ pub(super) fn describe_end(protein: &Protein, name: &str, q: &[f64], out: &mut S
             writeln!(
                 out,
                 "                 breaks rules at {count} pairs, first {}",
-                text_of(protein, &violation)
+                model.text_of(&violation)
             )
         }
     }
-}
-
-/// Why `q` is not valid, for people to read: the first pair of atoms that breaks a rule, or the energy above the highest.
-pub(super) fn broken_rule(protein: &Protein, q: &[f64]) -> Option<String> {
-    let model = ChainInEnergy::of(protein);
-    if let Some(violation) = model.first_violation(q) {
-        return Some(text_of(protein, &violation));
-    }
-    let (highest, energy) = (protein.highest?, model.energy_at(q));
-    (energy > highest).then(|| {
-        format!(
-            "an energy of {energy:.1} model kJ/mol, where {highest} is the highest that is valid"
-        )
-    })
-}
-
-/// "Backbone: VAL 35 N, GLY 40 O, 2.312 Å apart".
-fn text_of(protein: &Protein, violation: &Violation) -> String {
-    let Violation { rule, first, second, distance } = violation;
-    let (residue, other) = (&protein.source[first.0], protein.source.get(second.0));
-    let atom = |atom: &super::validity::Atom| format!("{atom:?}");
-    let second = match (second.1, other) {
-        (super::validity::Atom::Obstacle, _) | (_, None) => format!("obstacle atom {}", second.0),
-        (at, Some(other)) => format!("{other} {}", atom(&at)),
-    };
-    format!("{rule:?}: {residue} {} and {second}, {distance:.3} Å apart", atom(&first.1))
 }
 
 /// The positions of all Cα; sound descriptions have them.

@@ -103,7 +103,7 @@ impl Protein {
     /// Why a configuration is not valid, for people to read: the first pair of atoms that breaks a rule, or its energy, above
     /// the highest that is valid; `None` if it is valid.
     pub fn broken_rule(&self, q: &[f64]) -> Option<String> {
-        describe::broken_rule(self, q)
+        ChainInEnergy::of(self).broken_rule(q)
     }
 
     /// The linkage.

@@ -82,7 +82,12 @@ impl Ledger {
                     replay.check(roadmap.tally(), digest)?;
                     let tally = roadmap.tally();
                     let (nodes, components) = (tally.nodes() as u64, tally.components() as u64);
-                    rounds.push(RoundOutcome { nodes, components, numbers: Vec::new() });
+                    rounds.push(RoundOutcome {
+                        nodes,
+                        components,
+                        numbers: Vec::new(),
+                        satisfied: Vec::new(),
+                    });
                 }
                 Told::Judged(Judged { verdicts, .. }) => {
                     let chapter = replay.chapter();
@@ -90,6 +95,7 @@ impl Ledger {
                         criteria = Some((chapter, scan.problem_of(chapter).ok()));
                     }
                     if let (Some(last), Some((_, Some(problem)))) = (rounds.last_mut(), &criteria) {
+                        last.satisfied = verdicts.iter().map(|verdict| verdict.satisfied).collect();
                         last.numbers = RoundValue::of(problem.evaluators(), &verdicts);
                     }
                 }

@@ -58,6 +58,11 @@ impl Stopped {
         matches!(&*self.word, "satisfied" | "node-limit" | "set-limit" | "gave-up")
     }
 
+    /// Whether a sampler or a generator found no milestone.
+    pub fn gave_up(&self) -> bool {
+        self.word == "gave-up"
+    }
+
     /// The command by which the build in the folder `run` goes on, and the option that decides how far; `None` where
     /// it has met its criteria or something is broken.
     pub fn way_on(&self, run: &Path) -> Option<String> {

@@ -7,7 +7,7 @@ use super::piece::Piece;
 use super::swept::Walls;
 use crate::lanes::Lanes;
 use crate::model::bodies::robot::{Hops, Rates, Robot, Speeds};
-use crate::model::{Clearance, Clearances, Cost, Model, Scratch, Validity};
+use crate::model::{Clearance, Clearances, Cost, Model, Reason, Scratch, Validity};
 use crate::scene::Body;
 use crate::space::{BaseJoint, Space};
 use bincode::{Decode, Encode};
@@ -300,8 +300,8 @@ impl Model for BodyValidity {
         self.swept_box_meets(a, b, scratch.of_model())
     }
 
-    fn invalidity(&self) -> &'static str {
-        "the robot collides or leaves the bounds"
+    fn reasons(&self, q: &[f64], depths: bool) -> Vec<Reason> {
+        self.reasons_at(q, depths)
     }
 
     fn is_obstructed(&self) -> bool {

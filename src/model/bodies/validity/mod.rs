@@ -14,6 +14,7 @@ mod nearest;
 mod obb;
 mod origin;
 mod piece;
+mod reasons;
 mod scratch;
 mod shells;
 mod swept;
