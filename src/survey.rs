@@ -71,8 +71,8 @@ impl Survey {
 fn name(reason: &Reason) -> String {
     match reason {
         Reason::Collision { body, other, .. } => format!("{body} collides with {other}"),
-        Reason::Bounds { link, side, .. } => {
-            format!("{} leaves the bounds at {side}", link_named(link))
+        Reason::Bounds { link, .. } => {
+            format!("{} leaves the bounds", link_named(link))
         }
         Reason::Range { dof, .. } => format!("{dof} is out of its range"),
         Reason::Other { text } => {

@@ -54,6 +54,15 @@ pub(crate) fn link_named(link: &str) -> String {
     if link == SOLE_LINK { "the robot".to_owned() } else { format!("link {link}") }
 }
 
+/// A positive length to three digits.
+fn short(length: f64) -> String {
+    let (mut decimals, mut least) = (0, 100.0);
+    while length < least && decimals < 7 {
+        (decimals, least) = (decimals + 1, least / 10.0);
+    }
+    if decimals == 7 { format!("{length:.2e}") } else { format!("{length:.decimals$}") }
+}
+
 /// A body as people know it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(untagged)]
@@ -91,14 +100,15 @@ impl fmt::Display for Reason {
                 write!(f, "{dof} is {value}, {min} to {max} expected")
             }
             Reason::Bounds { link, side, by } => {
-                write!(f, "{} reaches {by:.3e} beyond the bounds at {side}", link_named(link))
+                write!(f, "{} reaches {} beyond the bounds at {side}", link_named(link), short(*by))
             }
             Reason::Collision { body, other, depth, .. } if *depth == 0.0 => {
                 write!(f, "{body} touches {other}")
             }
             Reason::Collision { body, other, depth, direction: [x, y, z] } => write!(
                 f,
-                "{body} collides with {other}, {depth:.3e} deep: moved so far along ({x:.2} {y:.2} {z:.2}) it is free"
+                "{body} collides with {other}, {} deep (free if moved by that along ({x:.2} {y:.2} {z:.2}))",
+                short(*depth)
             ),
             Reason::Other { text } => f.write_str(text),
         }
@@ -117,4 +127,23 @@ pub(crate) fn out_of_range(space: &Space, q: &[f64]) -> Vec<Reason> {
         }
     }
     reasons
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_have_three_digits() {
+        for (length, expected) in [
+            (1234.5, "1234"),
+            (123.4, "123"),
+            (12.34, "12.3"),
+            (0.16774, "0.168"),
+            (0.000_123_4, "0.000123"),
+            (1.234e-7, "1.23e-7"),
+        ] {
+            assert_eq!(short(length), expected);
+        }
+    }
 }

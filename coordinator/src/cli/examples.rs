@@ -121,8 +121,8 @@ const EXAMPLES: &[(&[&str], &[(&str, &str)])] = &[
         &["compare"],
         &[
             (
-                "Three samplers, ten seeds",
-                "roadmill compare problem.toml --samplers uniform obprm own --seeds 1-10 --out compared",
+                "Two samplers beside the problem's own strategies, ten seeds",
+                "roadmill compare problem.toml --samplers uniform halton own --seeds 1-10 --out compared",
             ),
             (
                 "How values go on beyond the criteria",
