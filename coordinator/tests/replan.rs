@@ -222,7 +222,8 @@ fn what_cannot_be_replanned_is_said_and_leaves_nothing() {
     let query = DISC.find("[query]").expect("a query");
     let without = DISC[..query].to_owned() + &DISC[DISC.find("[img]").expect("a schedule")..];
     refused(&without, &["--components", "start"], &["with.toml: ", "[query]"]);
-    refused(DISC, &["--neighbors", "0"], &["--neighbors"]);
+    refused(DISC, &["--neighbors", "0"], &["--neighbors", "1..=1000"]);
+    refused(DISC, &["--neighbors", "4294967295"], &["--neighbors", "1..=1000"]);
     refused(DISC, &["--components", "some"], &["--components", "start, all"]);
     refused("nonsense", &[], &["with.toml:1"]);
     let closed = DISC.replace("size = [0.4, 3.0, 1.0]", "size = [0.4, 3.0, -1.0]");
