@@ -97,8 +97,13 @@ fn verify_needs_the_parent() {
     changed.assert_stderr(&["its ledger has the hash", "expected"]);
     verify(&["--parent", "new"]).assert_code(2);
     verify(&["--parent", "nowhere"]).assert_code(2);
-    // What is no such run needs none.
+    // What is no such run needs none, and takes none.
     scratch.run(&["verify", "elsewhere/old", "--all", "--threads", "2"]).assert_code(0);
+    for parent in ["nowhere", "new"] {
+        let done = scratch.run(&["verify", "elsewhere/old", "--parent", parent, "--threads", "1"]);
+        done.assert_code(2);
+        done.assert_stderr(&["elsewhere/old: replans no other run", "--parent", parent]);
+    }
 }
 
 #[test]

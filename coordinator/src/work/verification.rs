@@ -82,7 +82,7 @@ impl Verification {
     }
 
     /// Of a run that replans another: where that other run's folder is, if it is no longer where it was, from this run's
-    /// own folder.
+    /// own folder. A run that replans none has no use for it, and is refused.
     pub fn parent(self, folder: impl Into<PathBuf>) -> Verification {
         Verification { parent: Some(folder.into()), ..self }
     }
@@ -103,15 +103,23 @@ impl Verification {
     ///
     /// # Errors
     /// Exit code 7: something is not as it is recorded, which the message names; 2: there is no run, a run that it replans
-    /// is not found, or a set that is not in it was asked for; 4: the run is damaged; 1: the system refuses; 5: the workers are lost; 6: it was
+    /// is not found, it replans none and is given one, or a set that is not in it was asked for; 4: the run is damaged; 1: the system refuses; 5: the workers are lost; 6: it was
     /// ended before.
     pub fn check(self) -> Result<Verified, Failure> {
         let Verification { folder, selection, parent, workers, interrupt } = self;
         workers.check()?;
         let scan = Scan::read(&folder)?;
         let problem = scan.problem()?;
-        if problem.survivors().is_some() {
-            check_parent(&folder, &scan.problem_of(0)?, parent.as_deref())?;
+        match (problem.survivors(), &parent) {
+            (Some(_), parent) => check_parent(&folder, &scan.problem_of(0)?, parent.as_deref())?,
+            (None, Some(parent)) => {
+                return Err(Failure::usage(format!(
+                    "{}: replans no other run; --parent {} found, none expected",
+                    folder.display(),
+                    parent.display()
+                )));
+            }
+            (None, None) => {}
         }
         let choice = Choice::new(&selection, &scan, &problem)?;
         let setup = Arc::new(Setup::new(problem));
