@@ -107,6 +107,31 @@ fn verify_needs_the_parent() {
 }
 
 #[test]
+fn a_place_that_is_taken_is_told_before_anything_is_computed() {
+    let scratch = scratch();
+    fs::create_dir(scratch.path("mine")).expect("a folder can be made");
+    scratch.write("mine/notes.txt", "mine");
+    scratch.build("run", &["endless.toml", "--threads", "1", "--max-sets", "1"], 0);
+    for (arguments, said) in [
+        (&["--out", "run"][..], "run: exists already"),
+        (&["--out", "mine"], "mine: exists already"),
+        (&["--out", "mine", "--force"], "mine: holds no ledger"),
+        (&["--out", "changed.toml", "--force"], "changed.toml: not a folder"),
+        (&["--out", "mine", "--or-resume"], "mine: holds `notes.txt` but no ledger"),
+        (&["--out", "run/new"], "in the folder of the run"),
+    ] {
+        let done = scratch.run(&[&REPLAN[..], arguments].concat());
+        done.assert_code(2);
+        done.assert_stderr(&[said]);
+        assert_eq!(done.stdout, "", "{arguments:?}");
+        // `build` has the same words.
+        let build = scratch.run(&[&["build", "endless.toml"], arguments].concat());
+        build.assert_code(2);
+        build.assert_stderr(&[said]);
+    }
+}
+
+#[test]
 fn a_killed_replanning_goes_on_and_writes_the_same_bytes() {
     let scratch = scratch();
     let sets = ["--max-sets", "600"];

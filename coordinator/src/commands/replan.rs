@@ -5,6 +5,7 @@ use crate::cli::{KeptComponents, ReplanArguments};
 use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
 use crate::output::{note, told};
+use crate::run::RunFolder;
 use crate::signals::Signals;
 use crate::work::{Recorded, Run};
 use roadmill::Cancel;
@@ -31,6 +32,9 @@ pub fn replan(arguments: &ReplanArguments) -> Result<Code, Failure> {
     // What cannot be used of the command line is said before anything is looked at.
     let (problem, workers) = bounded_problem(problem, growth)?;
     stays(run, out.as_deref())?;
+    if let Some(out) = out {
+        RunFolder::check(out, *force, *or_resume)?;
+    }
     let old = Run::at(run).read()?;
     match old.stopped() {
         None => note("the build has not ended; its complete rounds are gone on with"),
