@@ -106,6 +106,30 @@ fn verify_needs_the_parent() {
     }
 }
 
+/// Runs are reached by links, to the folder that they are in and to themselves, and by ways back through links.
+#[test]
+fn a_parent_is_found_again_by_whatever_links_it_was_reached() {
+    let scratch = scratch();
+    fs::create_dir_all(scratch.path("far/away/runs")).expect("a folder can be made");
+    std::os::unix::fs::symlink("far/away", scratch.path("link")).expect("a link can be made");
+    std::os::unix::fs::symlink("../../../old", scratch.path("far/away/runs/latest"))
+        .expect("a link");
+    for (old, out) in [
+        ("old", "link/new"),
+        ("link/runs/latest", "by-link"),
+        ("link/../../old", "link/runs/new"),
+        ("old", "link/runs/../other"),
+    ] {
+        let call = ["replan", old, "--with", "changed.toml", "--out", out, "--threads", "1"];
+        scratch.run(&[&call[..], &["--max-sets", "4"]].concat()).assert_code(0);
+        scratch.run(&["verify", out, "--threads", "1"]).assert_code(0);
+    }
+    // Without the links, too.
+    scratch.run(&["verify", "far/away/runs/new", "--threads", "1"]).assert_code(0);
+    fs::remove_file(scratch.path("link")).expect("it can be removed");
+    scratch.run(&["verify", "far/away/new", "--threads", "1"]).assert_code(0);
+}
+
 #[test]
 fn a_place_that_is_taken_is_told_before_anything_is_computed() {
     let scratch = scratch();

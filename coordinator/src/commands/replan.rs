@@ -15,6 +15,7 @@ use roadmill::problem::{Components, OldRun, Problem, Replanned, Replanning};
 use roadmill::replan::Revalidation;
 use roadmill::{Context, Ends};
 use std::fs;
+use std::io;
 use std::path::{Component, Path, PathBuf, absolute};
 use std::sync::Arc;
 use std::time::Instant;
@@ -81,28 +82,39 @@ fn stays(old: &Path, out: Option<&Path>) -> Result<(), Failure> {
     }
 }
 
-/// The run `old` as a path from the folder of the run that is made: what does not change when both are moved together.
+/// The run `old` as a path from the folder of the run that is made: from where the one is to where the other is, with links
+/// followed. It leads there by whatever links either is reached, and does not change when both are moved together.
+///
+/// # Errors
+/// Exit code 2: the folder in which the program runs has no path.
 fn place_from(out: Option<&Path>, old: &Path) -> Result<PathBuf, Failure> {
-    let plain = |path: &Path| {
-        let path = absolute(path).map_err(|error| Failure::usage(error.to_string()))?;
-        // What links lead to is not asked: both are named as they are on the command line.
-        let mut parts: Vec<Component> = Vec::new();
-        for part in path.components() {
-            match part {
-                Component::ParentDir => {
-                    parts.pop();
-                }
-                part => parts.push(part),
-            }
-        }
-        Ok(parts.iter().collect::<PathBuf>())
-    };
     // A run without a name for its folder gets one beside others; which, does not matter here.
-    let from = plain(out.unwrap_or(&Path::new(RUNS).join("it")))?;
-    let to = plain(old)?;
+    let out = out.map_or_else(|| Path::new(RUNS).join("it"), Path::to_owned);
+    let place = |path: &Path| {
+        place_of(path).map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
+    };
+    let (from, to) = (place(&out)?, place(old)?);
     let common = from.components().zip(to.components()).take_while(|(a, b)| a == b).count();
     let up = from.components().skip(common).map(|_| Component::ParentDir);
     Ok(up.chain(to.components().skip(common)).collect())
+}
+
+/// Where a folder is, or will be once it is made, without links on the way.
+fn place_of(path: &Path) -> io::Result<PathBuf> {
+    let mut place = PathBuf::new();
+    for part in absolute(path)?.components() {
+        match part {
+            Component::ParentDir => {
+                place.pop();
+            }
+            part => {
+                place.push(part);
+                // What is not there yet is no link.
+                place = fs::canonicalize(&place).unwrap_or(place);
+            }
+        }
+    }
+    Ok(place)
 }
 
 fn say_change(change: &SceneChange, say: impl Fn(String)) {
