@@ -4,7 +4,7 @@ mod support;
 
 use rustix::process::Signal;
 use std::fs;
-use support::{ENDLESS, Scratch};
+use support::{ENDLESS, Scratch, wait_until};
 
 /// A wall has moved, the pillar has gone, and a ball has come.
 fn changed() -> String {
@@ -153,6 +153,32 @@ fn a_place_that_is_taken_is_told_before_anything_is_computed() {
         build.assert_code(2);
         build.assert_stderr(&[said]);
     }
+}
+
+/// A roadmap with more ways than anybody waits for, of which all are looked for.
+#[test]
+fn the_search_for_old_paths_ends_with_the_time_or_a_signal() {
+    let scratch = Scratch::new();
+    scratch.write("endless.toml", ENDLESS);
+    scratch.build("old", &["endless.toml", "--threads", "1", "--max-sets", "200"], 0);
+    let query = "[query]\nstart = [1.0, 0.6, 1.0, 1.0, 0.0, 0.0, 0.0]\ngoal = [7.2, 3.0, 3.0, 1.0, 0.0, 0.0, 0.0]\n";
+    scratch.write("changed.toml", &(changed() + query));
+    let many = [&REPLAN[..], &["--paths", "1000", "--threads", "1", "--out", "new"]].concat();
+    // No time at all: the search is cut, and the one round that every build makes is made.
+    let done = scratch.run(&[&many[..], &["--max-time", "1e-9"]].concat());
+    assert!(matches!(done.status.code(), Some(0 | 3)), "{done:?}");
+    let cut = "the time was up before the search for them was over";
+    assert!(done.stdout.contains(cut), "{}", done.stdout);
+    scratch.run(&["verify", "new", "--threads", "1"]).assert_code(0);
+
+    fs::remove_dir_all(scratch.path("new")).expect("it can be removed");
+    let running = scratch.start(&many);
+    wait_until("signals are listened to", || running.catches(Signal::INT) || !running.is_alive());
+    running.signal(Signal::INT);
+    let done = running.finish();
+    done.assert_code(6);
+    done.assert_stderr(&["a signal came; no run is made"]);
+    assert!(!scratch.path("new").exists());
 }
 
 #[test]
