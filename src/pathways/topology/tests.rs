@@ -275,9 +275,14 @@ fn the_shortest_route_of_every_class_is_found() {
     };
     let attachment = Attachment { neighbors: 1, ..Attachment::default() };
     let configs = [&ends.start[..], &ends.goal];
-    let ways = Ways::between(&cx, &roadmap, configs, &attachment, scratch);
+    let mut ways = Ways::between(&cx, &roadmap, configs, &attachment, scratch);
     let crossings = EdgeCrossings::of(&ways, punctures, |q| topology.point(q));
-    let routes = shortest_of_classes(&ways, &crossings, 12);
+    let mut shortest = |ways: &mut Ways, cancel: &Cancel| {
+        let found = shortest_of_classes(ways, &crossings, 12, cancel, scratch);
+        assert!(!found.has_failed);
+        found.routes
+    };
+    let routes = shortest(&mut ways, &Cancel::new());
     assert_eq!(routes.len(), 12);
     assert!(routes.is_sorted_by(|a, b| a.length <= b.length));
     let longest = routes[11].length;
@@ -294,11 +299,14 @@ fn the_shortest_route_of_every_class_is_found() {
     assert_eq!(first, ["-", "1", "2", "1 2"].map(str::to_owned).into());
     // An edge that has failed the finer check is not gone along.
     let without = routes[0].edges[1];
-    let mut ways = Ways::between(&cx, &roadmap, configs, &attachment, scratch);
     ways.failed.insert(without);
-    let others = shortest_of_classes(&ways, &crossings, 12);
+    let others = shortest(&mut ways, &Cancel::new());
     assert!(others.iter().all(|route| !route.edges.contains(&without)));
     assert!(others[0].length >= routes[0].length && others.len() == 12);
+    // Nor is anything looked for once the search is cancelled.
+    let cancel = Cancel::new();
+    cancel.cancel();
+    assert!(shortest(&mut ways, &cancel).is_empty());
 }
 
 #[test]
