@@ -131,7 +131,7 @@ impl<'a> Asked<'a> {
         let left_out = topology.punctures().map_or(0, |punctures| punctures.left_out());
         if left_out > 0 {
             note(format_args!(
-                "{left_out} obstacles, or pieces of them, do not count: the robot's reference point can be where they are"
+                "{left_out} obstacles, or parts of them, do not count: the robot's reference point can be where they are"
             ));
         }
         let asked = Distinct {
