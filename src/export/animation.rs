@@ -1,8 +1,7 @@
 use super::markup::{escaped, quoted};
-use super::tessellate::tessellate;
 use crate::problem::Problem;
 use crate::query::Path;
-use crate::scene::{Body, Pose};
+use crate::scene::{Body, Pose, tessellate};
 use std::fmt::Write;
 
 /// The page without its data.

@@ -49,7 +49,7 @@ pub fn examples(
         }
     }
     Ok(Pathways {
-        pairs: pairs(cx, &found),
+        pairs: pairs(cx, &found, cancel),
         connected: formation.pathways > 0,
         pathways: found,
         tried,

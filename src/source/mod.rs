@@ -5,6 +5,7 @@ mod error;
 mod file;
 mod names;
 mod text;
+mod whole_number;
 mod xml;
 
 pub use error::ProblemError;
@@ -61,11 +62,13 @@ impl<'a> Source<'a> {
 
     /// Reads the tables of the file that `T` describes; others are not looked at.
     pub fn tables<T: DeserializeOwned>(&self) -> Result<T, ProblemError> {
-        let (path, text) = match &self.file {
-            Some(file) => (file.path, file.text),
-            None => (Path::new(""), ""),
+        let Some(File { path, text, tree }) = &self.file else {
+            return toml::from_str("").map_err(|error| syntax_error(Path::new(""), "", &error));
         };
-        toml::from_str(text).map_err(|error| syntax_error(path, text, &error))
+        toml::from_str(text).map_err(|error| match whole_number::complaint(tree, &error) {
+            Some((offset, message)) => ProblemError::line(path, line_of(text, offset), message),
+            None => syntax_error(path, text, &error),
+        })
     }
 
     /// The name of the file without folder and extension; empty where there is no file.

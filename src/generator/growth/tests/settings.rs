@@ -52,16 +52,12 @@ fn settings_are_refused_with_what_is_expected() {
     }
     let neighbors = "neighbors = 0 found; \"auto\" or at least 1 expected";
     refused(PLANE, "{ rrg = { neighbors = 0 } }", neighbors);
-    let expected = "expected neighbors = \"auto\" or a whole number from 0 to 4294967295, or a table with finder and hop_limit";
-    for (found, said) in [
-        ("\"some\"", "invalid value: string \"some\", "),
-        ("-1", "invalid value: integer `-1`, "),
-        ("4294967296", "invalid value: integer `4294967296`, "),
-        ("5.0", "invalid type: floating point `5.0`, "),
-    ] {
+    let expected = "\"auto\" or a whole number from 0 to 4294967295, or a table with finder and hop_limit expected";
+    for found in ["\"some\"", "-1", "4294967296", "5.0"] {
         for method in ["rrg", "mrrg"] {
             let generator = format!("{{ {method} = {{ neighbors = {found} }} }}");
-            refused(PLANE, &generator, &format!("{said}{expected}"));
+            let key = format!("strategies[0].generator.{method}.neighbors");
+            refused(PLANE, &generator, &format!("{key}: {found} found; {expected}"));
         }
     }
     for method in ["rrg", "mrrg"] {
