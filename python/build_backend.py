@@ -38,8 +38,8 @@ def build_wheel(
 def place_program() -> None:
     """Builds the program and puts it, without its symbols, where maturin looks for data files."""
     cargo = ["cargo", "build", "--profile", PROFILE, "--bin", "roadmill"]
-    # Built together with the module, so that both have the same dependencies with the same features and share what is compiled.
-    cargo += ["--package", "roadmill-coordinator", "--package", "roadmill-python"]
+    # With the features that the whole workspace asks for, so that the module, which is built next, shares what is compiled.
+    cargo.append("--workspace")
     told = subprocess.run(
         [*cargo, "--message-format", "json-render-diagnostics"],
         cwd=HERE,
