@@ -4,6 +4,8 @@ maturin packs a module or a program, not both, but it packs a folder of data fil
 programs are. So this backend (PEP 517) has cargo build the program into that folder and leaves the rest to maturin.
 
 The environment variable ROADMILL_PROFILE names the profile of cargo that both are built with; `release` if there is none.
+ROADMILL_COMPATIBILITY is maturin's `--compatibility`: `pypi` makes a wheel for every system whose C library is new enough, and says
+in its name how new; without it the wheel is for systems like this one.
 """
 
 from __future__ import annotations
@@ -20,6 +22,10 @@ from maturin import *  # noqa: F403  (the hooks that nothing is added to)
 
 HERE = Path(__file__).resolve().parent
 PROFILE = os.environ.get("ROADMILL_PROFILE", "release")
+COMPATIBILITY = os.environ.get("ROADMILL_COMPATIBILITY", "off")
+SCRIPTS = HERE / "data" / "scripts"
+# maturin expects the folder in every hook.
+SCRIPTS.mkdir(parents=True, exist_ok=True)
 
 
 def build_wheel(
@@ -30,7 +36,7 @@ def build_wheel(
     """The hook of PEP 517: builds the wheel into a folder and gives its name."""
     place_program()
     settings = dict(config_settings or {})
-    settings.setdefault("build-args", f"--profile {PROFILE}")
+    settings.setdefault("build-args", f"--profile {PROFILE} --compatibility {COMPATIBILITY}")
     name: str = maturin.build_wheel(wheel_directory, settings, metadata_directory)
     return name
 
@@ -53,9 +59,7 @@ def place_program() -> None:
         for message in messages
         if message.get("executable") and message["target"]["name"] == "roadmill"
     )
-    scripts = HERE / "data" / "scripts"
-    scripts.mkdir(parents=True, exist_ok=True)
-    place = scripts / "roadmill"
+    place = SCRIPTS / "roadmill"
     shutil.copy(program, place)
     strip = shutil.which("strip")
     if strip is not None:

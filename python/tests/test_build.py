@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import threading
+from typing import Any
 
 import pytest
 
@@ -33,7 +34,7 @@ def test_threads_give_the_same_roadmap(problems: pathlib.Path, tmp_path: pathlib
 
 
 @pytest.mark.parametrize("crew", [{"workers": 1}, {"threads": 1}])
-def test_progress_is_told(endless: roadmill.Problem, tmp_path: pathlib.Path, crew: dict[str, int]) -> None:
+def test_progress_is_told(endless: roadmill.Problem, tmp_path: pathlib.Path, crew: dict[str, Any]) -> None:
     told: list[roadmill.Progress] = []
 
     def progress(now: roadmill.Progress) -> None:
@@ -51,7 +52,7 @@ def test_progress_is_told(endless: roadmill.Problem, tmp_path: pathlib.Path, cre
 
 @pytest.mark.parametrize("crew", [{"workers": 2}, {"threads": 2}])
 def test_ctrl_c_keeps_the_last_complete_round(
-    endless: roadmill.Problem, tmp_path: pathlib.Path, crew: dict[str, int]
+    endless: roadmill.Problem, tmp_path: pathlib.Path, crew: dict[str, Any]
 ) -> None:
     def ctrl_c(now: roadmill.Progress) -> None:
         if now.rounds > 2:
@@ -93,14 +94,15 @@ def test_other_threads_go_on_while_threads_build(endless: roadmill.Problem, tmp_
 
 
 def test_a_limit_is_no_error(problems: pathlib.Path, tmp_path: pathlib.Path) -> None:
-    for name, crew in (("processes", {"workers": 1}), ("threads", {"threads": 1})):
+    crews: dict[str, dict[str, Any]] = {"processes": {"workers": 1}, "threads": {"threads": 1}}
+    for name, crew in crews.items():
         roadmap = roadmill.build(problems / "sealed.toml", out=tmp_path / name, max_nodes=200, **crew)
         assert roadmap.path is None and not roadmap.status().satisfied
         assert roadmap.status().state == "node-limit"
 
 
 @pytest.mark.parametrize("crew", [{"workers": 1}, {"threads": 1}])
-def test_what_cannot_be_used_is_said(problems: pathlib.Path, tmp_path: pathlib.Path, crew: dict[str, int]) -> None:
+def test_what_cannot_be_used_is_said(problems: pathlib.Path, tmp_path: pathlib.Path, crew: dict[str, Any]) -> None:
     with pytest.raises(roadmill.UsageError, match="cannot read the problem"):
         roadmill.build(tmp_path / "nothing.toml", **crew)
     roadmill.build(problems / "maze.toml", out=tmp_path / "maze", seed=3, **crew)

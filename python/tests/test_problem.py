@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import roadmill
+from roadmill import _core
 from roadmill import Body, Box, Frame, Link, Mesh, Problem, Robot, Space, Strategy, method
 
 CART = """
@@ -35,7 +36,7 @@ def from_file(folder: pathlib.Path, text: str) -> str:
     """The digest of the problem in a file."""
     file = folder / "cart.toml"
     file.write_text(text)
-    return roadmill._core.check_problem(file)[0]  # type: ignore[attr-defined, no-any-return]
+    return _core.check_problem(file)[0]
 
 
 def test_the_digest_is_that_of_the_file(cart: Problem, tmp_path: pathlib.Path) -> None:

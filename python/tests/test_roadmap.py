@@ -68,7 +68,7 @@ def test_queries_give_the_programs_bits(walls: roadmill.Roadmap, shorten: bool) 
     options = ["--shorten"] if shorten else []
     random = np.random.default_rng(1)
     asked = [ENDS, (ENDS[1], ENDS[0])]
-    asked += [tuple(walls.nodes[random.integers(len(walls), size=2)]) for _ in range(8)]  # type: ignore[misc]
+    asked += [tuple(walls.nodes[random.integers(len(walls), size=2)]) for _ in range(8)]
     for start, goal in asked:
         path = walls.query(start, goal, shorten=shorten)
         expected = by_program(walls.run, (start, goal), *options)
