@@ -1,5 +1,6 @@
 //! Roadmaps: configurations, edges, connected components, and the fold that grows them.
 
+pub(crate) mod bidirectional;
 mod centre;
 mod component;
 mod components;
