@@ -115,8 +115,8 @@ fn unusable_problems_are_refused_at_their_line() {
         (START, "start = [1.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0]", "quaternion"),
         (START, "start = [nan, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "NaN"),
         (START, "start = [4.0, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "collides"),
-        (START, "start = [9.0, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "bounds"),
-        (START, "start = [0.1, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "leaves the bounds"),
+        (START, "start = [9.0, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "x is 9, 0 to 8 expected"),
+        (START, "start = [0.1, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "the robot reaches 0.9 beyond the bounds at -x"),
         (START, "start = [1.0, 2.0, 2.0]", "7 expected: x y z qw qx qy qz"),
         // counts
         ("sets_per_round = 2", "sets_per_round = 0", "0 found"),

@@ -323,7 +323,8 @@ fn a_build_goes_on_with_another_query_and_each_set_is_verified_under_its_own() {
     same_label.assert_stderr(&["the strategy `trees`", "one with a label of its own expected"]);
     let query = "[query]\nstart = [1.0, 5.0]\ngoal = [7.0, 3.0]\n";
     let without = chapter("u2", "[1.0, 5.0]", 16).replace(query, "");
-    let without = without.replace("rrt-connect = { step = 0.5 }", "sample = {}");
+    let without =
+        without.replace("rrt-connect = { step = 0.5 }", "sample = { sampler = { uniform = {} } }");
     let without = resume(&without);
     without.assert_code(2);
     without.assert_stderr(&["no [query] found, but the strategy `trees`"]);
