@@ -128,7 +128,7 @@ fn unusable_problems_are_refused_at_their_line() {
         (
             "nodes = 30\n",
             "nodes = -1\n",
-            "strategies[0].nodes: -1 found; a whole number from 0 to 4294967295 expected",
+            "strategies[0].nodes: -1 found; a whole number from 0 to",
         ),
         (
             "neighbors = 5",
