@@ -13,6 +13,7 @@
 
 mod figures;
 mod queries;
+#[allow(dead_code, reason = "some of its scenes are those of other benches")]
 mod scenes;
 #[path = "../support/mod.rs"]
 mod support;
