@@ -117,6 +117,12 @@ pub struct ProblemArguments {
     /// Order of Denavit and Hartenberg's numbers in a Parasol robot [default: standard]
     #[arg(long, value_enum)]
     pub dh: Option<Dh>,
+    /// The .srdf file beside a URDF: its groups, states and pairs of links that may touch
+    #[arg(long, value_name = "FILE")]
+    pub srdf: Option<PathBuf>,
+    /// The group of the .srdf file whose joints move; all others are locked [default: all joints move]
+    #[arg(long, value_name = "NAME")]
+    pub group: Option<String>,
 }
 
 /// Whether insides are material.

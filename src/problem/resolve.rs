@@ -2,13 +2,13 @@
 
 use super::building::{Sets, adaptive_of, evaluators_of, limits_of, sets_of};
 use super::file::{File, KEYS};
-use super::{DEFAULT_SEED, Problem};
+use super::{ConfigurationSpec, DEFAULT_SEED, Problem};
 use crate::context::Ends;
 use crate::generator::{Runs, Sample};
 use crate::internal::plain::plain;
 use crate::model::{ModelKind, ModelSpec};
 use crate::seed::Seed;
-use crate::source::Step::{Index, Key};
+use crate::source::Step::{self, Index, Key};
 use crate::source::{ProblemError, Source, fits};
 use crate::space::Space;
 use crate::strategy::Strategy;
@@ -96,10 +96,17 @@ fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {
 fn accepted(source: &Source, file: &File, mut problem: Problem) -> Result<Problem, ProblemError> {
     let mut cx = problem.context();
     if let Some(query) = &file.query {
-        let (mut start, mut goal) = (query.start.clone(), query.goal.clone());
-        for (key, q) in [("start", &mut start), ("goal", &mut goal)] {
-            cx.accept(q).map_err(|message| source.error(&[Key("query"), Key(key)], message))?;
-        }
+        let end_of = |key, spec: &ConfigurationSpec| {
+            let fail = |place: &[Step], message| {
+                source.error(&[&[Key("query"), Key(key)], place].concat(), message)
+            };
+            let mut q = spec
+                .values(&cx.space, &source.states.borrow())
+                .map_err(|(place, message)| fail(&place, message))?;
+            cx.accept(&mut q).map_err(|message| fail(&[], message))?;
+            Ok(q)
+        };
+        let (start, goal) = (end_of("start", &query.start)?, end_of("goal", &query.goal)?);
         problem.query = Some(Ends { start, goal });
         cx.query.clone_from(&problem.query);
     }

@@ -14,7 +14,7 @@ pub use robot::{LinkSpec, RobotSpec};
 pub use space::SpaceSpec;
 
 pub(super) use body::Solid;
-pub(super) use joint::JointKindSpec;
+pub(super) use joint::{JointKindSpec, MimicSpec};
 
 use serde::Deserialize;
 
@@ -23,6 +23,7 @@ use serde::Deserialize;
 /// built.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct BodiesSpec {
+    #[serde(default)]
     pub(super) space: SpaceSpec,
     pub(super) robot: RobotSpec,
     #[serde(default)]
