@@ -44,7 +44,7 @@ pub(crate) struct Source<'a> {
 pub(crate) struct NamedState {
     /// Its name, unique within its group.
     pub name: String,
-    /// The group of values that it is about.
+    /// The group of values that it is about; empty if none is named.
     pub group: String,
     /// Whether that is the group for which is planned.
     pub is_planned: bool,
@@ -52,21 +52,26 @@ pub(crate) struct NamedState {
     pub values: BTreeMap<String, f64>,
 }
 
+impl NamedState {
+    /// What tells it from states of other groups.
+    fn whole_name(&self) -> String {
+        let NamedState { name, group, .. } = self;
+        if group.is_empty() { name.clone() } else { format!("{group}/{name}") }
+    }
+}
+
 /// The state that is meant by `NAME` or `GROUP/NAME`: of several of one name that of the group for which is planned.
 ///
 /// # Errors
 /// Says what was found and what is expected.
 pub(crate) fn state_of<'s>(states: &'s [NamedState], name: &str) -> Result<&'s NamedState, String> {
-    let is_meant = |state: &&NamedState| {
-        state.name == name || format!("{}/{}", state.group, state.name) == name
-    };
+    let is_meant = |state: &&NamedState| state.name == name || state.whole_name() == name;
     let mut meant: Vec<&NamedState> = states.iter().filter(is_meant).collect();
     if meant.iter().any(|state| state.is_planned) {
         meant.retain(|state| state.is_planned);
     }
     let listed = |states: &mut dyn Iterator<Item = &NamedState>| {
-        let names: Vec<String> =
-            states.map(|state| format!("{}/{}", state.group, state.name)).collect();
+        let names: Vec<String> = states.map(NamedState::whole_name).collect();
         if names.is_empty() { "none, as no SRDF names any".to_owned() } else { names.join(", ") }
     };
     match meant[..] {

@@ -203,10 +203,10 @@ fn complaint_of(kind: &JointKind, links: &[Link]) -> Option<String> {
              number expected, of one that slides limits of the other"
         ));
     }
-    // Written so that NaN fails it. The sum of sizes rather than the size of the sum: rounding goes by it.
+    // The sum of sizes rather than the size of the sum: rounding goes by it.
     let size = mimic.size(size_of(range));
     let most = most * (1.0 + 1e-9);
-    (!(size <= most)).then(|| {
+    (size.is_nan() || size > most).then(|| {
         format!(
             "follows a value of up to {}, times {multiplier}, plus {offset}: {size} found; at most \
              {most:e} expected",

@@ -125,6 +125,8 @@ impl Robot {
 }
 
 #[cfg(test)]
+pub(crate) mod mimics_tests;
+#[cfg(test)]
 mod rates_reference;
 #[cfg(test)]
 pub(crate) mod rates_tests;

@@ -66,7 +66,7 @@ pub enum Member {
 pub struct GroupState {
     /// Its name.
     pub name: String,
-    /// The group of which it is a state.
+    /// The group of which it is a state; empty where the file says none.
     pub group: String,
     /// Names of joints and their values: one of most joints.
     pub joints: Vec<(String, Vec<f64>)>,
@@ -224,7 +224,8 @@ impl Reader<'_> {
             })?;
             joints.push((name, values));
         }
-        let (name, group) = (self.text(node, "name")?, self.text(node, "group")?);
+        let (name, group) = (self.text(node, "name")?, node.attribute("group").unwrap_or_default());
+        let group = group.to_owned();
         Ok(GroupState { name, group, joints })
     }
 

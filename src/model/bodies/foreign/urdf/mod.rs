@@ -199,7 +199,16 @@ impl Reader<'_> {
         let mut numbers = Vec::new();
         for (link, (_, joint)) in walk.iter().enumerate() {
             let Some((number, _)) = joint else { continue };
-            let Some(mimic) = &robot.joints[*number].mimic else { continue };
+            let joint = &robot.joints[*number];
+            let Some(mimic) = &joint.mimic else { continue };
+            if joint.joint_type == JointType::Fixed {
+                // Tools that reduce a robot leave this behind.
+                let name = &joint.name;
+                self.notes.push(format!(
+                    "joint `{name}` is fixed and follows none, whatever its <mimic> says"
+                ));
+                continue;
+            }
             let is_named = |(_, joint): &Step| {
                 joint.is_some_and(|(number, _)| robot.joints[number].name == mimic.joint)
             };
@@ -239,7 +248,12 @@ impl Reader<'_> {
             }
             Err(fail(format!("axis {:?} found; a direction expected", joint.axis.xyz.0)))
         };
+        let open = self.lines.without_ends[index];
         let limits = |most: f64| {
+            if open && joint.mimic.is_some() {
+                // What it may be follows from the joint that it follows.
+                return Ok(Limits { min: -most, max: most });
+            }
             let (min, max) = (joint.limit.lower, joint.limit.upper);
             if -most <= min && min <= max && max <= most {
                 return Ok(Limits { min, max });
@@ -247,9 +261,12 @@ impl Reader<'_> {
             let expected = format!("a least and a largest value within ±{most:e} expected");
             Err(fail(format!("limits {min} to {max} found; {expected}")))
         };
+        let ends = [joint.limit.lower, joint.limit.upper];
+        let endless = ends[0] < -TURN_MAX && TURN_MAX < ends[1];
         let kind = match joint.joint_type.clone() {
             JointType::Fixed => JointKind::Fixed,
             JointType::Continuous => JointKind::Revolute { axis: axis()?, limits: None },
+            JointType::Revolute if endless => JointKind::Revolute { axis: axis()?, limits: None },
             JointType::Revolute => {
                 JointKind::Revolute { axis: axis()?, limits: Some(limits(TURN_MAX)?) }
             }
@@ -266,10 +283,15 @@ impl Reader<'_> {
             }
         };
         let limited = matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic);
-        if limited && self.lines.without_ends[index] {
+        if limited && open && joint.mimic.is_none() {
             let what =
                 "stays at 0, the format's default, as its <limit> gives neither lower nor upper";
             self.notes.push(format!("joint `{name}` {what}"));
+        }
+        if endless && joint.joint_type == JointType::Revolute {
+            let [min, max] = ends;
+            let what = "turns on and on, as it may by more than ten turns either way";
+            self.notes.push(format!("joint `{name}` {what}: {min} to {max}"));
         }
         let before = pose(&joint.origin);
         Ok(Joint { name: name.clone(), parent: parent as u32, kind, before, after: Pose::IDENTITY })
