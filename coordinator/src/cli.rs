@@ -383,6 +383,10 @@ pub enum PathFormat {
 pub struct CheckArguments {
     #[command(flatten)]
     pub problem: ProblemArguments,
+    /// Say which links touch one another in all, or in none, of so many configurations drawn uniformly, as lines of a problem
+    /// file
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    pub touching: Option<u64>,
 }
 
 /// Of `import`.

@@ -27,6 +27,7 @@ mod description;
 mod elasticity;
 mod figure;
 mod molecule;
+mod pose_goal;
 mod scene_change;
 mod scratch;
 
@@ -41,6 +42,7 @@ pub use description::{Description, Documents, ForeignProblem};
 pub use elasticity::{Draw, Elastic};
 pub use figure::{Figure, Placement};
 pub use molecule::{Energies, Molecule};
+pub use pose_goal::{PoseFound, PoseGoal};
 pub use scene_change::SceneChange;
 pub use scratch::{Asked, ModelScratch, Scratch};
 

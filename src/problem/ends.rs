@@ -1,8 +1,10 @@
 //! The ends of a query as they are asked for: by values, by names of joints and states.
 
+use super::PoseSpec;
 use crate::source::Step::{self, Key};
 use crate::source::{NamedState, fitting, state_of};
 use crate::space::Space;
+use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
@@ -22,6 +24,14 @@ pub enum ConfigurationSpec {
         /// Values by names.
         values: BTreeMap<String, f64>,
     },
+    /// Any configuration at which a link has a pose.
+    Pose(PoseSpec),
+}
+
+impl From<PoseSpec> for ConfigurationSpec {
+    fn from(pose: PoseSpec) -> ConfigurationSpec {
+        ConfigurationSpec::Pose(pose)
+    }
 }
 
 impl From<Vec<f64>> for ConfigurationSpec {
@@ -50,7 +60,7 @@ impl<'n, const N: usize> From<[(&'n str, f64); N]> for ConfigurationSpec {
 }
 
 impl ConfigurationSpec {
-    /// The values that are asked for, in the order of the space.
+    /// The values that are asked for, in the order of the space; of a pose none are.
     ///
     /// # Errors
     /// The place in the configuration's table, what was found and what is expected.
@@ -62,6 +72,7 @@ impl ConfigurationSpec {
         let whole = |message: String| (Vec::new(), message);
         let (state, values) = match self {
             ConfigurationSpec::Values(values) => return Ok(values.clone()),
+            ConfigurationSpec::Pose(_) => return Ok(Vec::new()),
             ConfigurationSpec::State(state) => (Some(state), None),
             ConfigurationSpec::Named { state, values } => (state.as_ref(), Some(values)),
         };
@@ -144,6 +155,21 @@ impl<'de> Visitor<'de> for Reader {
             match entries.next_value()? {
                 Entry::Value(value) => _ = values.insert(name, value),
                 Entry::State(named) if name == "state" => state = Some(named),
+                Entry::Pose(pose) if name == "pose" => {
+                    if !values.is_empty()
+                        || state.is_some()
+                        || entries.next_key::<String>()?.is_some()
+                    {
+                        let message =
+                            "`pose` found beside others; either a pose or values expected";
+                        return Err(serde::de::Error::custom(message));
+                    }
+                    return Ok(ConfigurationSpec::Pose(pose));
+                }
+                Entry::Pose(_) => {
+                    let message = format!("`{name}` = {{ … }} found; a number expected");
+                    return Err(serde::de::Error::custom(message));
+                }
                 Entry::State(named) => {
                     let message = format!("`{name}` = \"{named}\" found; a number expected");
                     return Err(serde::de::Error::custom(message));
@@ -158,6 +184,7 @@ impl<'de> Visitor<'de> for Reader {
 enum Entry {
     Value(f64),
     State(String),
+    Pose(PoseSpec),
 }
 
 impl<'de> Deserialize<'de> for Entry {
@@ -168,7 +195,7 @@ impl<'de> Deserialize<'de> for Entry {
 
 struct EntryReader;
 
-impl Visitor<'_> for EntryReader {
+impl<'de> Visitor<'de> for EntryReader {
     type Value = Entry;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -189,5 +216,9 @@ impl Visitor<'_> for EntryReader {
 
     fn visit_str<E>(self, name: &str) -> Result<Entry, E> {
         Ok(Entry::State(name.to_owned()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, pose: A) -> Result<Entry, A::Error> {
+        PoseSpec::deserialize(MapAccessDeserializer::new(pose)).map(Entry::Pose)
     }
 }

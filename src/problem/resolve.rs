@@ -2,13 +2,13 @@
 
 use super::building::{Sets, adaptive_of, evaluators_of, limits_of, sets_of};
 use super::file::{File, KEYS};
-use super::{ConfigurationSpec, DEFAULT_SEED, Problem};
-use crate::context::Ends;
+use super::poses::ends_of;
+use super::{DEFAULT_SEED, Problem};
 use crate::generator::{Runs, Sample};
 use crate::internal::plain::plain;
 use crate::model::{ModelKind, ModelSpec};
 use crate::seed::Seed;
-use crate::source::Step::{self, Index, Key};
+use crate::source::Step::{Index, Key};
 use crate::source::{ProblemError, Source, fits};
 use crate::space::Space;
 use crate::strategy::Strategy;
@@ -96,18 +96,8 @@ fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {
 fn accepted(source: &Source, file: &File, mut problem: Problem) -> Result<Problem, ProblemError> {
     let mut cx = problem.context();
     if let Some(query) = &file.query {
-        let end_of = |key, spec: &ConfigurationSpec| {
-            let fail = |place: &[Step], message| {
-                source.error(&[&[Key("query"), Key(key)], place].concat(), message)
-            };
-            let mut q = spec
-                .values(&cx.space, &source.states.borrow())
-                .map_err(|(place, message)| fail(&place, message))?;
-            cx.accept(&mut q).map_err(|message| fail(&[], message))?;
-            Ok(q)
-        };
-        let (start, goal) = (end_of("start", &query.start)?, end_of("goal", &query.goal)?);
-        problem.query = Some(Ends { start, goal });
+        let asked = [("start", &query.start), ("goal", &query.goal)];
+        problem.query = Some(ends_of(source, &cx, &mut problem, asked)?);
         cx.query.clone_from(&problem.query);
     }
     let seed = problem.seed;

@@ -4,11 +4,10 @@ use super::locks::{Locks, lock_joints};
 use super::robot::{Follower, Joint, JointKind, LINKS_MAX, Limits, Link, Robot, TURN_MAX, couple};
 use super::robot_files::{ReadRobot, RobotFiles, read_robot};
 use super::shapes::{bodies, pose_of, unit};
-use super::spec::{FrameSpec, JointKindSpec, LinkSpec, MimicSpec, RobotSpec};
+use super::spec::{AttachSpec, FrameSpec, JointKindSpec, LinkSpec, MimicSpec, RobotSpec};
 use crate::scene::{LENGTH_MAX, Pose};
-use crate::source;
 use crate::source::Step::{self, Index, Key};
-use crate::source::{ProblemError, Source, fits};
+use crate::source::{ProblemError, Source, fits, fitting};
 use crate::space::BaseJoint;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -63,8 +62,9 @@ pub(super) fn robot_of(
         }
         robot.base = frame(source, &[Key("robot"), Key("base")], base)?;
     }
-    if spec.links.len().max(robot.links.len()) > LINKS_MAX {
-        let found = spec.links.len().max(robot.links.len());
+    // The base, or the links of a URDF, stand beside the others.
+    let found = robot.links.len() + spec.attach.len() + spec.links.len();
+    if found > LINKS_MAX {
         let message = format!("{found} found; at most {LINKS_MAX} expected");
         return Err(source.error(&[Key("robot"), Key("links")], message));
     }
@@ -78,6 +78,11 @@ pub(super) fn robot_of(
         robot.links.push(link);
     }
     couple_links(source, spec, &index_of, &mut robot.links, notes)?;
+    for (index, attached) in spec.attach.iter().enumerate() {
+        let link = attached_link(source, &index_of, index, attached, notes)?;
+        index_of.insert(link.name.clone(), robot.links.len());
+        robot.links.push(link);
+    }
     let locks = Locks { lock: &spec.lock, rest: &spec.rest, group: group.as_ref() };
     lock_joints(&mut robot.links, &locks, &source.states.borrow(), notes).map_err(
         |(place, message)| source.error(&[&[Key("robot")], &place[..]].concat(), message),
@@ -157,17 +162,17 @@ pub(super) fn fitting_names(mut links: Vec<Link>) -> Vec<Link> {
     // taken, so that the numbers before it need not be tried again.
     let mut next_count: BTreeMap<String, u64> = BTreeMap::new();
     for link in &mut links {
-        let fitting = source::fitting(&link.name);
-        let mut name = if fitting.is_empty() { "link".to_owned() } else { fitting.clone() };
+        let fits_alone = fitting(&link.name);
+        let mut name = if fits_alone.is_empty() { "link".to_owned() } else { fits_alone.clone() };
         while taken.contains(&name) {
-            let count = next_count.entry(fitting.clone()).or_insert(2);
-            name = format!("{fitting}-{count}");
+            let count = next_count.entry(fits_alone.clone()).or_insert(2);
+            name = format!("{fits_alone}-{count}");
             *count += 1;
         }
         taken.insert(name.clone());
         link.name = name;
         if let Some(joint) = &mut link.joint {
-            joint.name = source::fitting(&joint.name);
+            joint.name = fitting(&joint.name);
         }
     }
     links
@@ -213,6 +218,32 @@ fn link_of(
             before: frame(source, &at(&[Key("joint"), Key("before")]), &joint.before)?,
             after: frame(source, &at(&[Key("joint"), Key("after")]), &joint.after)?,
         }),
+    })
+}
+
+/// The link that attached bodies become, given the indices of the links before it by their names.
+fn attached_link(
+    source: &Source,
+    index_of: &BTreeMap<String, usize>,
+    index: usize,
+    spec: &AttachSpec,
+    notes: &mut Vec<String>,
+) -> Result<Link, ProblemError> {
+    let at = |key| [Key("robot"), Key("attach"), Index(index), Key(key)];
+    if !fits(&spec.name) || index_of.contains_key(&spec.name) {
+        let message = format!("`{}` found; {NAME_EXPECTED}", spec.name);
+        return Err(source.error(&at("name"), message));
+    }
+    let link = &spec.link;
+    let parent = index_of.get(link).or_else(|| index_of.get(&fitting(link))).ok_or_else(|| {
+        source.error(&at("link"), format!("`{link}` found; the name of a link expected"))
+    })?;
+    let (before, after) = (Pose::IDENTITY, Pose::IDENTITY);
+    let (parent, kind) = (*parent as u32, JointKind::Locked);
+    Ok(Link {
+        name: spec.name.clone(),
+        bodies: bodies(source, &at("bodies"), &spec.bodies, notes)?,
+        joint: Some(Joint { name: spec.name.clone(), parent, kind, before, after }),
     })
 }
 

@@ -98,8 +98,7 @@ fn bounds_of(
 /// What is wrong with the reach.
 pub(super) fn bounds_of_reach(robot: &Robot) -> Result<(Bounds, String), String> {
     let reach = robot.reach();
-    // Written so that NaN fails it.
-    if !(reach <= LENGTH_MAX) {
+    if reach.is_nan() || reach > LENGTH_MAX {
         return Err(format!("a reach of {reach:e} found; at most {LENGTH_MAX:e} expected"));
     }
     let at = match robot.motion {

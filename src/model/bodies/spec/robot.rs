@@ -21,6 +21,8 @@ pub struct RobotSpec {
     #[serde(default)]
     pub(in crate::model::bodies) links: Vec<LinkSpec>,
     #[serde(default)]
+    pub(in crate::model::bodies) attach: Vec<AttachSpec>,
+    #[serde(default)]
     pub(in crate::model::bodies) may_touch: Vec<[String; 2]>,
 }
 
@@ -81,6 +83,12 @@ impl RobotSpec {
         self
     }
 
+    /// Attaches bodies to a link.
+    pub fn attach(mut self, attached: AttachSpec) -> RobotSpec {
+        self.attach.push(attached);
+        self
+    }
+
     /// Allows two links to touch, which are no neighbours: neighbours always may.
     pub fn may_touch(mut self, first: impl Into<String>, second: impl Into<String>) -> RobotSpec {
         self.may_touch.push([first.into(), second.into()]);
@@ -106,6 +114,29 @@ impl LinkSpec {
 
     /// Adds a body; its frame is the link's.
     pub fn body(mut self, body: impl Into<BodySpec>) -> LinkSpec {
+        self.bodies.push(body.into());
+        self
+    }
+}
+
+/// Bodies that a link carries, such as a tool or a load: one of `[[robot.attach]]`. They become a link of their own, held by a
+/// locked joint, which may touch the link that carries it and no other.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AttachSpec {
+    pub(in crate::model::bodies) name: String,
+    pub(in crate::model::bodies) link: String,
+    pub(in crate::model::bodies) bodies: Vec<BodySpec>,
+}
+
+impl AttachSpec {
+    /// A new link of a name that no other has, on the link `link`, and without bodies at first.
+    pub fn new(name: impl Into<String>, link: impl Into<String>) -> AttachSpec {
+        AttachSpec { name: name.into(), link: link.into(), bodies: Vec::new() }
+    }
+
+    /// Adds a body; its frame is that of the link that carries it.
+    pub fn body(mut self, body: impl Into<BodySpec>) -> AttachSpec {
         self.bodies.push(body.into());
         self
     }
