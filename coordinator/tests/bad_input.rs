@@ -125,11 +125,7 @@ fn unusable_problems_are_refused_at_their_line() {
         ("nodes = 30", "nodes = 1000000000000", "1000000000000 found"),
         ("nodes = 5000", "nodes = 1000000000000", "1000000000000 found"),
         // whole numbers
-        (
-            "nodes = 30\n",
-            "nodes = -1\n",
-            "strategies[0].nodes: -1 found; a whole number from 0 to",
-        ),
+        ("nodes = 30\n", "nodes = -1\n", "strategies[0].nodes: -1 found; a whole number from 0 to"),
         (
             "neighbors = 5",
             "neighbors = -1",
