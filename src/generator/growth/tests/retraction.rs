@@ -1,0 +1,97 @@
+//! Blocked extensions that are bent aside.
+
+use super::super::set::{Extension, GrowingSet};
+use super::super::tree::Near;
+use super::{PLANE, SPACE, grown, parse};
+use crate::img::{Setup, Stop, build};
+use crate::model::Scratch;
+use crate::numbers::Ordinal;
+use crate::seed::Seed;
+use std::sync::Arc;
+
+#[test]
+fn without_trials_the_trees_are_those_of_end_trees() {
+    let grown = |generator: &str| grown(PLANE, generator, 30, 8).1.digest();
+    let straight = grown("{ end-trees = { step = 0.5 } }");
+    assert_eq!(grown("{ retraction-trees = { step = 0.5, trials = 0 } }"), straight);
+    assert_ne!(grown("{ retraction-trees = { step = 0.5 } }"), straight);
+}
+
+#[test]
+fn every_edge_is_a_valid_motion_of_at_most_a_step() {
+    for scene in [PLANE, SPACE] {
+        let (problem, roadmap) = grown(scene, "{ retraction-trees = { step = 0.5 } }", 30, 8);
+        let (cx, scratch) = (problem.context(), &mut Scratch::new());
+        for edge in roadmap.edges().iter() {
+            let [a, b] = [edge.low, edge.high].map(|node| roadmap.configs().get(node.index()));
+            assert!(cx.space.distance(a, b) <= 0.5 * (1.0 + 1e-9), "{a:?} to {b:?}");
+            assert!(cx.model.is_valid(b, scratch), "{b:?}");
+            assert!(cx.model.motion(a, b, 1, scratch).is_some(), "{a:?} to {b:?}");
+        }
+        assert!(roadmap.edges().iter().count() > 200);
+    }
+}
+
+/// The bar stands before a wall, and is to go on behind it and further up.
+#[test]
+fn a_blocked_extension_goes_on_along_the_obstacle() {
+    let problem =
+        parse(&format!("{PLANE}[[strategies]]\nlabel = \"it\"\nsampler = {{ uniform = {{}} }}\n"));
+    let cx = problem.context();
+    let (at, toward) = ([2.3, 1.0, 0.0], [4.0, 2.2, 0.0]);
+    let distance = cx.space.distance(&at, &toward);
+    let extended = |trials: u32, ordinal: u64| {
+        let (seed, scratch) = (Seed::of_set(1, "it", Ordinal(ordinal)), &mut Scratch::new());
+        let set = GrowingSet::new(&cx, &seed, scratch, None, 10, (0.5, 100));
+        let mut set = set.with_trials(trials);
+        let number = set.add(&at);
+        let extension = set.extend(Near { number, distance }, &toward);
+        (extension, extension.milestone().map(|new| set.config(new).to_vec()), set.made)
+    };
+    for ordinal in 0..20 {
+        assert_eq!(extended(0, ordinal).0, Extension::Trapped);
+        let (extension, reached, made) = extended(12, ordinal);
+        assert!(matches!(extension, Extension::Advanced(_)), "{extension:?}");
+        let q = reached.expect("a milestone");
+        assert!(cx.space.distance(&q, &toward) < distance - 0.05 * 0.5, "{q:?}");
+        assert!(q[1] > at[1], "{q:?} is further up");
+        assert_eq!((made.configs.len(), made.edges.len()), (2, 1));
+    }
+}
+
+/// A bar has to pass between two blocks with a tenth of its width to spare on either side.
+#[test]
+fn narrow_passages_take_fewer_sets() {
+    let scene = r#"
+[space]
+motion = "rigid-2d"
+min = [0, 0]
+max = [8, 6]
+bounds = "body"
+[robot]
+bodies = [{ shape = { box = { size = [1.0, 0.2, 1.0] } } }]
+[[obstacles]]
+shape = { box = { size = [1.5, 2.88, 1.0] } }
+position = [4.0, 1.44, 0.0]
+[[obstacles]]
+shape = { box = { size = [1.5, 2.88, 1.0] } }
+position = [4.0, 4.56, 0.0]
+[query]
+start = [1.0, 1.0, 0.0]
+goal = [7.0, 5.0, 1.5]
+"#;
+    let sets = |generator: &str| -> u64 {
+        let sets_with = |seed: u64| {
+            let problem = parse(&format!(
+                "{scene}[img]\nsets_per_round = 1\n[limits]\nsets = 60\n[[strategies]]\nlabel = \"it\"\n\
+                 generator = {{ {generator} = {{}} }}\namong = {{ until-joined = {{}} }}\n"
+            ));
+            let built = build(&Arc::new(Setup::new(problem.with_seed(seed))));
+            eprintln!("{generator} {seed}: {:?} {}", built.stop, built.roadmap.sets());
+            if built.stop == Stop::Satisfied { built.roadmap.sets() } else { 60 }
+        };
+        (1..=5).map(sets_with).sum()
+    };
+    let (bent, straight) = (sets("retraction-trees"), sets("end-trees"));
+    assert!(2 * bent < straight, "{bent} and {straight} sets");
+}

@@ -1,0 +1,100 @@
+use super::end_trees::{calibrated, grow_or_draw, step_of};
+use super::growth::{Complaints, GrowingSet, needs_query};
+use super::{ATTEMPTS_MAX, Generator, Reads};
+use crate::context::Context;
+use crate::methods::Complaint;
+use crate::model::Scratch;
+use crate::numbers::Ordinal;
+use crate::roadmap::{Increment, Roadmap};
+use crate::sampler::GaveUp;
+use crate::seed::Seed;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+
+const TRIALS_MAX: u32 = 1000;
+
+/// Trees from both ends of the query as [`EndTrees`](super::EndTrees) grows them, whose blocked extensions are bent aside, so that they get on along
+/// obstacles and through narrow passages: a problem with a query that names no strategies has this one beside uniform
+/// sampling.
+///
+/// An extension from the node q_near toward q_rand goes by a step, as there. If that motion is blocked, configurations are tried that a
+/// valid straight motion of at most a step from q_near leads to, each nearer to q_rand than the last that was found;
+/// the last becomes the new node if by it the extension comes nearer to q_rand by at least a twentieth of its length.
+/// The first set extends straight only: it costs least where a query is solved in the open, and others follow.
+///
+/// After L. Zhang, D. Manocha, *An efficient retraction-based RRT planner*, ICRA 2008, which retracts q_rand to the nearest
+/// configuration in contact by the geometry of the contact, and S. Rodriguez, X. Tang, J.-M. Lien, N. M. Amato, *An obstacle-based
+/// rapidly-exploring random tree*, ICRA 2006, which extends along obstacles in random directions. What is tried here is
+/// drawn at random, as there, and kept if it comes nearer to q_rand, so that nothing needs to be known of the contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields)]
+pub struct RetractionTrees {
+    /// The most by which an extension moves, in the space's metric. If none is given, a twentieth of the largest distance in the
+    /// space, found when the problem is read.
+    #[serde(default)]
+    pub step: Option<f64>,
+    /// The most motions tried to bend a blocked extension aside, in all sets but the first; with 0 the method is [`EndTrees`](super::EndTrees).
+    #[serde(default = "default_trials")]
+    pub trials: u32,
+    /// The most extensions tried for one milestone before the rest of the set is drawn uniformly.
+    #[serde(default = "default_attempts")]
+    pub attempts: u64,
+}
+
+fn default_trials() -> u32 {
+    12
+}
+
+fn default_attempts() -> u64 {
+    1000
+}
+
+impl Default for RetractionTrees {
+    fn default() -> RetractionTrees {
+        RetractionTrees { step: None, trials: default_trials(), attempts: default_attempts() }
+    }
+}
+
+impl Generator for RetractionTrees {
+    fn reads(&self) -> Reads {
+        Reads::Roadmap
+    }
+
+    fn generate(
+        &self,
+        cx: &Context,
+        seed: &Seed,
+        count: usize,
+        frozen: Option<&Roadmap>,
+        scratch: &mut Scratch,
+    ) -> Result<Increment, GaveUp> {
+        // What is refused in a problem file can still come in bytes.
+        let Some(query) = cx.query.as_ref().filter(|_| self.complaint().is_none()) else {
+            return Err(GaveUp { attempts: 0 });
+        };
+        let limits = (step_of(self.step, cx), self.attempts);
+        let set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
+        let trials = if seed.ordinal() == Ordinal(0) { 0 } else { self.trials };
+        grow_or_draw(set.with_trials(trials), seed, query, count)
+    }
+
+    fn reads_query(&self) -> bool {
+        true
+    }
+
+    fn calibrate(&mut self, cx: &Context, _seed: &Seed) {
+        self.step = calibrated(self.step, cx);
+    }
+
+    fn complaint(&self) -> Option<Complaint> {
+        let is_sound = self.trials <= TRIALS_MAX;
+        let of_trials = (!is_sound).then(|| Complaint::new("trials", self.trials, "0 to 1000"));
+        Complaints::of_step(self.step)
+            .or(of_trials)
+            .or_else(|| Complaint::of_attempts(self.attempts, ATTEMPTS_MAX))
+    }
+
+    fn suits(&self, cx: &Context) -> Result<(), String> {
+        needs_query(cx)
+    }
+}
