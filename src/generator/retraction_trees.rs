@@ -18,7 +18,7 @@ const TRIALS_MAX: u32 = 1000;
 /// sampling.
 ///
 /// An extension from the node q_near toward q_rand goes by a step, as there. If that motion is blocked, configurations are tried that a
-/// valid straight motion of at most a step from q_near leads to, each nearer to q_rand than the last that was found;
+/// valid straight motion from q_near of at most one and a half times that length leads to, each nearer to q_rand than the last that was found;
 /// the last becomes the new node if by it the extension comes nearer to q_rand by at least a twentieth of its length.
 /// The first set extends straight only: it costs least where a query is solved in the open, and others follow.
 ///
@@ -29,7 +29,7 @@ const TRIALS_MAX: u32 = 1000;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct RetractionTrees {
-    /// The most by which an extension moves, in the space's metric. If none is given, a twentieth of the largest distance in the
+    /// The most by which a straight extension moves, in the space's metric. If none is given, a twentieth of the largest distance in the
     /// space, found when the problem is read.
     #[serde(default)]
     pub step: Option<f64>,

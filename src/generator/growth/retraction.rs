@@ -2,7 +2,7 @@ use super::set::{Extension, GrowingSet};
 use super::tree::Near;
 use crate::space::Space;
 
-/// The length of the first random step, as a share of the extension's length.
+/// The length of the first random step, as a share of the straight extension's length.
 const FIRST: f64 = 0.3;
 /// By what the length of the random steps is multiplied after a valid motion, and after a blocked one. With these two it
 /// neither grows nor shrinks where about two in five motions are valid.
@@ -10,13 +10,15 @@ const LONGER: f64 = 1.5;
 const SHORTER: f64 = 0.75;
 /// How many random steps are drawn for one motion, of which half and more lead away from where the extension is to lead.
 const DRAWS: u32 = 8;
-/// By how much a bent extension must come nearer, as a share of the extension's length.
+/// By how much a bent extension must come nearer, as a share of the straight one's length.
 const LEAST: f64 = 0.05;
+/// How long a bent extension may be, as a share of the straight one's length.
+const LONGEST: f64 = 1.5;
 
 impl GrowingSet<'_> {
     /// [`GrowingSet::extend_straight`], and where that is blocked the extension bent aside: from the same place to a
-    /// configuration nearer to `toward` that a straight motion of at most a step leads to, so that trees get on along
-    /// obstacles and through narrow places.
+    /// configuration nearer to `toward` that a straight motion of at most one and a half times its length leads to, so that trees
+    /// get on along obstacles and through narrow places.
     ///
     /// L. Zhang and D. Manocha (*An efficient retraction-based RRT planner*, ICRA 2008) retract the blocked configuration to
     /// the nearest one in contact, and follow the contact by its geometry. Here the same is looked for by trial, which needs
@@ -41,32 +43,34 @@ impl GrowingSet<'_> {
         let (mut best, mut left) = (start.clone(), from.distance);
         let mut length = FIRST * reach;
         for _ in 0..self.trials {
-            let valid = self.nearer([&start, &best, toward], left, length).filter(|(q, _)| {
-                self.cx.model.is_valid(q, self.scratch)
-                    && self.cx.model.motion(&start, q, 1, self.scratch).is_some()
-            });
+            let valid = self
+                .nearer([&start, &best, toward], [left, length, LONGEST * reach])
+                .filter(|(q, _)| {
+                    self.cx.model.is_valid(q, self.scratch)
+                        && self.cx.model.motion(&start, q, 1, self.scratch).is_some()
+                });
             length *= if valid.is_some() { LONGER } else { SHORTER };
             if let Some(found) = valid {
                 (best, left) = found;
             }
         }
-        (left <= from.distance - LEAST * reach).then_some(best)
+        let is_enough = left < from.distance && left <= from.distance - LEAST * reach;
+        is_enough.then_some(best)
     }
 
-    /// A configuration a random step of this length away from `best`, at most an extension's step away from `start`, whose distance
-    /// to `toward` is less than `left`; and that distance. `None` where several draws give none.
+    /// A configuration a random step of `length` away from `best` and at most `longest` away from `start`, whose distance to
+    /// `toward` is less than `left`; and that distance. `None` where several draws give none.
     fn nearer(
         &mut self,
         [start, best, toward]: [&[f64]; 3],
-        left: f64,
-        length: f64,
+        [left, length, longest]: [f64; 3],
     ) -> Option<(Vec<f64>, f64)> {
         let space: &Space = &self.cx.space;
         let mut q = best.to_vec();
         (0..DRAWS).find_map(|_| {
             space.step(best, length, &mut self.proposing, &mut q);
             let distance = space.distance(&q, toward);
-            let is_nearer = distance < left && space.distance(start, &q) <= self.step;
+            let is_nearer = distance < left && space.distance(start, &q) <= longest;
             is_nearer.then(|| (q.clone(), distance))
         })
     }
