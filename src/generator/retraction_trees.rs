@@ -26,6 +26,10 @@ const TRIALS_MAX: u32 = 1000;
 /// configuration in contact by the geometry of the contact, and S. Rodriguez, X. Tang, J.-M. Lien, N. M. Amato, *An obstacle-based
 /// rapidly-exploring random tree*, ICRA 2006, which extends along obstacles in random directions. What is tried here is
 /// drawn at random, as there, and kept if it comes nearer to q_rand, so that nothing needs to be known of the contact.
+///
+/// A part of the configurations q_rand is drawn from the box around the tree (`nearby`), for what a tree in a trap sees most of lies outside:
+/// that is the flaw which A. Yershova, L. Jaillet, T. Siméon and S. M. LaValle (*Dynamic-domain RRTs*, ICRA 2005) mend by a radius for every node
+/// that was blocked before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
 #[serde(deny_unknown_fields)]
 pub struct RetractionTrees {
@@ -33,9 +37,15 @@ pub struct RetractionTrees {
     /// space, found when the problem is read.
     #[serde(default)]
     pub step: Option<f64>,
-    /// The most motions tried to bend a blocked extension aside, in all sets but the first; with 0 the method is [`EndTrees`](super::EndTrees).
+    /// The most motions tried to bend a blocked extension aside, in all sets but the first; with 0, and `nearby` 0, the method is
+    /// [`EndTrees`](super::EndTrees).
     #[serde(default = "default_trials")]
     pub trials: u32,
+    /// Which share of the configurations that trees are extended toward is drawn from the box around the tree's nodes and a
+    /// step more, in all sets but the first; the others are drawn from the whole space. A tree in a trap is else mostly drawn to what lies
+    /// outside.
+    #[serde(default = "default_nearby")]
+    pub nearby: f64,
     /// The most extensions tried for one milestone before the rest of the set is drawn uniformly.
     #[serde(default = "default_attempts")]
     pub attempts: u64,
@@ -45,13 +55,22 @@ fn default_trials() -> u32 {
     12
 }
 
+fn default_nearby() -> f64 {
+    0.5
+}
+
 fn default_attempts() -> u64 {
     1000
 }
 
 impl Default for RetractionTrees {
     fn default() -> RetractionTrees {
-        RetractionTrees { step: None, trials: default_trials(), attempts: default_attempts() }
+        RetractionTrees {
+            step: None,
+            trials: default_trials(),
+            nearby: default_nearby(),
+            attempts: default_attempts(),
+        }
     }
 }
 
@@ -74,8 +93,9 @@ impl Generator for RetractionTrees {
         };
         let limits = (step_of(self.step, cx), self.attempts);
         let set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
-        let trials = if seed.ordinal() == Ordinal(0) { 0 } else { self.trials };
-        grow_or_draw(set.with_trials(trials), seed, query, count)
+        let is_first = seed.ordinal() == Ordinal(0);
+        let set = if is_first { set } else { set.with_bending(self.trials, self.nearby) };
+        grow_or_draw(set, seed, query, count)
     }
 
     fn reads_query(&self) -> bool {
@@ -87,10 +107,14 @@ impl Generator for RetractionTrees {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        let is_sound = self.trials <= TRIALS_MAX;
-        let of_trials = (!is_sound).then(|| Complaint::new("trials", self.trials, "0 to 1000"));
+        let of_trials =
+            (self.trials > TRIALS_MAX).then(|| Complaint::new("trials", self.trials, "0 to 1000"));
+        let is_share = (0.0..1.0).contains(&self.nearby);
+        let of_nearby =
+            (!is_share).then(|| Complaint::new("nearby", self.nearby, "at least 0, less than 1"));
         Complaints::of_step(self.step)
             .or(of_trials)
+            .or(of_nearby)
             .or_else(|| Complaint::of_attempts(self.attempts, ATTEMPTS_MAX))
     }
 

@@ -7,6 +7,7 @@
 
 mod directions;
 mod explore;
+mod extent;
 mod graph_neighbors;
 mod retraction;
 mod set;

@@ -1,3 +1,4 @@
+use super::extent::Extent;
 use super::tree::Near;
 use crate::context::Context;
 use crate::local::{self, Planner};
@@ -24,6 +25,8 @@ pub(in crate::generator) struct GrowingSet<'a> {
     pub(super) step: f64,
     /// How many motions are tried to bend one blocked extension aside.
     pub(super) trials: u32,
+    /// Which share of what extensions lead toward is drawn from the box around the tree.
+    pub(super) nearby: f64,
     /// Where trees begin that begin at no node.
     roots: Vec<&'a [f64]>,
     pub(super) proposing: Stream,
@@ -86,6 +89,7 @@ impl<'a> GrowingSet<'a> {
             count,
             step,
             trials: 0,
+            nearby: 0.0,
             roots: Vec::new(),
             proposing: seed.stream(Purpose::Sampling),
             deciding: seed.stream(Purpose::Accepting),
@@ -95,9 +99,10 @@ impl<'a> GrowingSet<'a> {
         }
     }
 
-    /// The same set, which tries so many motions to bend a blocked extension aside.
-    pub fn with_trials(self, trials: u32) -> GrowingSet<'a> {
-        GrowingSet { trials, ..self }
+    /// The same set, which tries so many motions to bend a blocked extension aside, and draws this share of what extensions
+    /// lead toward from the box around the tree.
+    pub fn with_bending(self, trials: u32, nearby: f64) -> GrowingSet<'a> {
+        GrowingSet { trials, nearby, ..self }
     }
 
     /// How many milestones it is to have, at least one.
@@ -126,6 +131,17 @@ impl<'a> GrowingSet<'a> {
     pub fn draw(&mut self) -> Vec<f64> {
         let mut q = vec![0.0; self.cx.space.len()];
         self.cx.space.sample_uniform(&mut self.proposing, &mut q);
+        q
+    }
+
+    /// A configuration, valid or not, drawn uniformly, or, for the share `nearby` of all draws, from the box around a tree and a
+    /// step more.
+    pub(super) fn draw_around(&mut self, extent: &Extent) -> Vec<f64> {
+        let is_nearby = self.nearby > 0.0 && self.decide(self.nearby);
+        let mut q = self.draw();
+        if is_nearby {
+            extent.shrink_into(&self.cx.space, self.step, &mut q);
+        }
         q
     }
 

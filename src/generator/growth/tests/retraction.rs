@@ -1,5 +1,6 @@
 //! Blocked extensions that are bent aside.
 
+use super::super::extent::Extent;
 use super::super::set::{Extension, GrowingSet};
 use super::super::tree::Near;
 use super::{PLANE, SPACE, grown, parse};
@@ -13,7 +14,7 @@ use std::sync::Arc;
 fn without_trials_the_trees_are_those_of_end_trees() {
     let grown = |generator: &str| grown(PLANE, generator, 30, 8).1.digest();
     let straight = grown("{ end-trees = { step = 0.5 } }");
-    assert_eq!(grown("{ retraction-trees = { step = 0.5, trials = 0 } }"), straight);
+    assert_eq!(grown("{ retraction-trees = { step = 0.5, trials = 0, nearby = 0.0 } }"), straight);
     assert_ne!(grown("{ retraction-trees = { step = 0.5 } }"), straight);
 }
 
@@ -43,7 +44,7 @@ fn a_blocked_extension_goes_on_along_the_obstacle() {
     let extended = |trials: u32, ordinal: u64| {
         let (seed, scratch) = (Seed::of_set(1, "it", Ordinal(ordinal)), &mut Scratch::new());
         let set = GrowingSet::new(&cx, &seed, scratch, None, 10, (0.5, 100));
-        let mut set = set.with_trials(trials);
+        let mut set = set.with_bending(trials, 0.0);
         let number = set.add(&at);
         let extension = set.extend(Near { number, distance }, &toward);
         (extension, extension.milestone().map(|new| set.config(new).to_vec()), set.made)
@@ -94,4 +95,27 @@ goal = [7.0, 5.0, 1.5]
     };
     let (bent, straight) = (sets("retraction-trees"), sets("end-trees"));
     assert!(2 * bent < straight, "{bent} and {straight} sets");
+}
+
+/// Of a draw from the whole space the part in the box is the same as of the box in the space, and the angle is left alone.
+#[test]
+fn what_is_drawn_nearby_lies_in_the_box_around_the_tree() {
+    let problem =
+        parse(&format!("{PLANE}[[strategies]]\nlabel = \"it\"\nsampler = {{ uniform = {{}} }}\n"));
+    let space = &problem.context().space;
+    let mut extent = Extent::default();
+    extent.cover(space, &[1.0, 2.0, 0.3]);
+    let mut more = Extent::default();
+    more.cover(space, &[3.0, 1.0, -0.3]);
+    extent.unite(&more);
+    let shrunk = |q: [f64; 3], margin: f64| {
+        let mut shrunk = q;
+        extent.shrink_into(space, margin, &mut shrunk);
+        shrunk
+    };
+    // The reals of the space are bounded by [0, 8] and [0, 6].
+    assert_eq!(shrunk([4.0, 3.0, 2.0], 0.0), [2.0, 1.5, 2.0]);
+    assert_eq!(shrunk([0.0, 6.0, -3.0], 0.0), [1.0, 2.0, -3.0]);
+    assert_eq!(shrunk([0.0, 6.0, -3.0], 0.5), [0.5, 2.5, -3.0]);
+    assert_eq!(shrunk([2.0, 1.5, 0.0], 1e9), [2.0, 1.5, 0.0]);
 }

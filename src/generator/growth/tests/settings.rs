@@ -77,6 +77,10 @@ fn settings_are_refused_with_what_is_expected() {
     refused(PLANE, "{ mrrg = { trials = 1001 } }", "trials = 1001 found; 1 to 1000 expected");
     let trials = "trials = 1001 found; 0 to 1000 expected";
     refused(PLANE, "{ retraction-trees = { trials = 1001 } }", trials);
+    for nearby in ["1.0", "-0.1", "nan"] {
+        let generator = format!("{{ retraction-trees = {{ nearby = {nearby} }} }}");
+        refused(PLANE, &generator, "found; at least 0, less than 1 expected");
+    }
     let sampler = "{ tree = { sampler = { gaussian = { deviation = -1.0 } } } }";
     refused(PLANE, sampler, "deviation");
     refused(PLANE, "{ tree = { sampler = { energy = { always = 0.0, never = 1.0 } } } }", "energy");
