@@ -29,7 +29,7 @@ const GOLDEN: [(&str, &str); 17] = [
     ("growth", "25cb129d26f41ad060ec97348a00723565168b538ea540f6c46e0e08ca1a30f7"),
     ("directions", "c4e945f41b7930a5c2e23e3686a22e746d460589559d61f6a102db3eb81baed8"),
     ("neighbors", "26facc6f51fd778c8a175fbb28807799b419d1aaeec6ee04436882e7d5f51553"),
-    ("retraction", "0000000000000000000000000000000000000000000000000000000000000000"),
+    ("retraction", "5381a3a0bfcf2a681111b9c6730bb57bd2a6101a51bf00362c1a076d10521b86"),
 ];
 
 fn problem(name: &str) -> Problem {

@@ -20,7 +20,7 @@ const TRIALS_MAX: u32 = 1000;
 /// An extension from the node q_near toward q_rand goes by a step, as there. If that motion is blocked, configurations are tried that a
 /// valid straight motion from q_near of at most one and a half times that length leads to, each nearer to q_rand than the last that was found;
 /// the last becomes the new node if by it the extension comes nearer to q_rand by at least a twentieth of its length.
-/// The first set extends straight only: it costs least where a query is solved in the open, and others follow.
+/// The first set extends straight only, and draws from the whole space: it costs least where a query is solved in the open, and others follow.
 ///
 /// After L. Zhang, D. Manocha, *An efficient retraction-based RRT planner*, ICRA 2008, which retracts q_rand to the nearest
 /// configuration in contact by the geometry of the contact, and S. Rodriguez, X. Tang, J.-M. Lien, N. M. Amato, *An obstacle-based

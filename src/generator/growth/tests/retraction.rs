@@ -4,11 +4,9 @@ use super::super::extent::Extent;
 use super::super::set::{Extension, GrowingSet};
 use super::super::tree::Near;
 use super::{PLANE, SPACE, grown, parse};
-use crate::img::{Setup, Stop, build};
 use crate::model::Scratch;
 use crate::numbers::Ordinal;
 use crate::seed::Seed;
-use std::sync::Arc;
 
 #[test]
 fn without_trials_the_trees_are_those_of_end_trees() {
@@ -58,43 +56,6 @@ fn a_blocked_extension_goes_on_along_the_obstacle() {
         assert!(q[1] > at[1], "{q:?} is further up");
         assert_eq!((made.configs.len(), made.edges.len()), (2, 1));
     }
-}
-
-/// A bar has to pass between two blocks with a tenth of its width to spare on either side.
-#[test]
-fn narrow_passages_take_fewer_sets() {
-    let scene = r#"
-[space]
-motion = "rigid-2d"
-min = [0, 0]
-max = [8, 6]
-bounds = "body"
-[robot]
-bodies = [{ shape = { box = { size = [1.0, 0.2, 1.0] } } }]
-[[obstacles]]
-shape = { box = { size = [1.5, 2.88, 1.0] } }
-position = [4.0, 1.44, 0.0]
-[[obstacles]]
-shape = { box = { size = [1.5, 2.88, 1.0] } }
-position = [4.0, 4.56, 0.0]
-[query]
-start = [1.0, 1.0, 0.0]
-goal = [7.0, 5.0, 1.5]
-"#;
-    let sets = |generator: &str| -> u64 {
-        let sets_with = |seed: u64| {
-            let problem = parse(&format!(
-                "{scene}[img]\nsets_per_round = 1\n[limits]\nsets = 60\n[[strategies]]\nlabel = \"it\"\n\
-                 generator = {{ {generator} = {{}} }}\namong = {{ until-joined = {{}} }}\n"
-            ));
-            let built = build(&Arc::new(Setup::new(problem.with_seed(seed))));
-            eprintln!("{generator} {seed}: {:?} {}", built.stop, built.roadmap.sets());
-            if built.stop == Stop::Satisfied { built.roadmap.sets() } else { 60 }
-        };
-        (1..=5).map(sets_with).sum()
-    };
-    let (bent, straight) = (sets("retraction-trees"), sets("end-trees"));
-    assert!(2 * bent < straight, "{bent} and {straight} sets");
 }
 
 /// Of a draw from the whole space the part in the box is the same as of the box in the space, and the angle is left alone.
