@@ -5,7 +5,8 @@
 builds problems/walls.toml to its criteria and, as one large roadmap, to NODES nodes, in FOLDER (or a folder that is removed), and
 prints a table: seconds from a run folder to arrays; the median of queries on a loaded roadmap, through the roadmap and between
 random configurations, with the first query apart; and by how much the memory of the process grows over 10 000 queries.
-Needs an installed roadmill. Every answer of a sample is compared with the program's, to the bit.
+Needs an installed roadmill. Every answer of a sample is compared with the program's, to the bit. Beside wall-clock times stand the
+seconds of the processor, which are what a machine with nothing else to do would take.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ import io
 import os
 import pathlib
 import resource
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -57,55 +57,73 @@ def by_program(roadmap: roadmill.Roadmap, ends: tuple[list[float], list[float]])
     return np.loadtxt(io.StringIO(told), delimiter=",", skiprows=1, ndmin=2).tobytes() if told else b""
 
 
-def measure(name: str, run: pathlib.Path, count: int, compared: int) -> None:
-    begun = time.perf_counter()
-    roadmap = roadmill.Roadmap(run)
-    size = len(roadmap)
-    loaded = time.perf_counter()
-    total = sum(float(array[-1].sum()) for array in (roadmap.nodes, roadmap.edges, roadmap.weights, roadmap.components))
-    assert np.isfinite(total)
-    arrays = time.perf_counter()
-    print(f"{name}: {size} nodes, {len(roadmap.edges)} edges")
-    print(f"  ledger read and checked       {loaded - begun:9.3f} s")
-    print(f"  arrays, once it is read       {arrays - loaded:9.3f} s")
+class Stopwatch:
+    """Wall-clock and processor seconds since it was made."""
 
-    asked = queries(roadmap, count)
-    own = time.perf_counter()
-    first = roadmap.query()
-    print(f"  first query                   {time.perf_counter() - own:9.3f} s")
-    assert first is not None
-    seconds, direct = [], 0
-    for start, goal in asked:
-        began = time.perf_counter()
-        path = roadmap.query(start, goal)
-        seconds.append(time.perf_counter() - began)
-        direct += path is not None and len(path) == 2
-    # The node index is made by the first few searches.
-    later = seconds[len(seconds) // 4 :]
-    print(f"  queries, median               {1e3 * statistics.median(later):9.3f} ms")
-    print(f"  queries, 90th percentile      {1e3 * float(np.percentile(later, 90)):9.3f} ms")
-    print(f"  of these answered by the direct motion {direct / count:.0%}")
-    again = []
-    for _ in range(max(5, count // 10)):
-        began = time.perf_counter()
-        roadmap.query()
-        again.append(time.perf_counter() - began)
-    print(f"  the problem's own, median     {1e3 * statistics.median(again):9.3f} ms")
-    for ends in asked[:compared]:
-        path = roadmap.query(*ends)
-        mine = b"" if path is None else path.configurations.tobytes()
-        assert mine == by_program(roadmap, ends), ends
+    def __init__(self) -> None:
+        self._begun = self._now()
+
+    @staticmethod
+    def _now() -> tuple[float, float]:
+        return time.perf_counter(), time.process_time()
+
+    def read(self) -> tuple[float, float]:
+        wall, processor = self._now()
+        return wall - self._begun[0], processor - self._begun[1]
+
+    def say(self, what: str) -> None:
+        wall, processor = self.read()
+        print(f"  {what:<42} {wall:9.3f} s {processor:9.3f} s of the processor", flush=True)
+
+
+def say_queries(what: str, taken: list[tuple[float, float]]) -> None:
+    """Median and 90th percentile of queries."""
+    for name, share in (("median", 50), ("90th percentile", 90)):
+        wall, processor = (1e3 * float(np.percentile(times, share)) for times in zip(*taken))
+        print(f"  {what + ', ' + name:<42} {wall:9.3f} ms {processor:8.3f} ms of the processor", flush=True)
+
+
+def asked(roadmap: roadmill.Roadmap, ends: tuple[list[float], list[float]] | None) -> tuple[float, float]:
+    """What a query takes."""
+    watch = Stopwatch()
+    roadmap.query(*ends) if ends else roadmap.query()
+    return watch.read()
+
+
+def measure(name: str, run: pathlib.Path, count: int, compared: int) -> None:
+    watch = Stopwatch()
+    roadmap = roadmill.Roadmap(run)
+    print(f"{name}: {len(roadmap)} nodes")
+    watch.say("ledger read and checked")
+    watch = Stopwatch()
+    arrays = (roadmap.nodes, roadmap.edges, roadmap.weights, roadmap.components)
+    assert np.isfinite(sum(float(array[-1].sum()) for array in arrays))
+    watch.say(f"arrays, {len(roadmap.edges)} edges among them")
+    watch = Stopwatch()
+    assert roadmap.query() is not None
+    watch.say("first query")
+    ends = queries(roadmap, count)
+    # The first searches make the index of the nodes.
+    watch = Stopwatch()
+    for each in ends[:20]:
+        roadmap.query(*each)
+    watch.say("the next 20 queries")
+    say_queries("between nodes drawn at random", [asked(roadmap, each) for each in ends[20:]])
+    say_queries("the problem's own", [asked(roadmap, None) for _ in range(max(10, count // 10))])
+    for each in ends[:compared]:
+        path = roadmap.query(*each)
+        assert (b"" if path is None else path.configurations.tobytes()) == by_program(roadmap, each), each
     print(f"  {compared} answers are the program's, to the bit")
 
 
 def leak(run: pathlib.Path) -> None:
     roadmap = roadmill.Roadmap(run)
-    asked = queries(roadmap, 100)
-    for ends in asked * 5:
+    drawn = queries(roadmap, 100)
+    for ends in drawn * 5:
         roadmap.query(*ends)
     before = resident()
     for index in range(LEAK_QUERIES):
-        roadmap.query(*asked[index % len(asked)])
+        roadmap.query(*drawn[index % len(drawn)])
     print(f"memory after {LEAK_QUERIES} queries: {(resident() - before) / 1024:+.0f} KiB of {before / 2**20:.0f} MiB")
 
 

@@ -2,13 +2,22 @@ use super::ways::{config_in, end_ids, first_failed};
 use super::{Answer, Attachment, EndError, Path, accepted, reach};
 use crate::context::Context;
 use crate::model::Scratch;
+use crate::numbers::NodeId;
 use crate::roadmap::bidirectional::{self, Buffers, Extended};
-use crate::roadmap::{Graph, Roadmap};
+use crate::roadmap::landmarks::{self, Landmarks, TooShort, Values};
+use crate::roadmap::{Edge, Graph, Roadmap, Route};
 use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, OnceLock};
 
+/// Roadmaps with fewer nodes are searched without landmarks, which would save little.
+const LANDMARKS_NODES: usize = if cfg!(test) { 40 } else { 20_000 };
+/// Landmarks are made once so many routes were searched, which together took about as long as making them.
+const LANDMARKS_SEARCHES: u32 = if cfg!(test) { 2 } else { 32 };
+
 /// A roadmap that many queries are asked of. What queries have in common, the graph of the roadmap's edges, is made once, when
-/// the first one needs it, and routes are searched from both ends. Answers are those of [`solve`](super::solve) and
+/// the first one needs it. Routes are searched from both ends, and, after some tens of queries of a large roadmap whose edges cost
+/// their lengths, toward the goal by landmarks, whose distances from all nodes are measured then. Answers are those of [`solve`](super::solve) and
 /// [`ask`](super::ask), to the bit, after far less work where the roadmap is large.
 ///
 /// ```
@@ -29,14 +38,25 @@ pub struct PreparedRoadmap {
     roadmap: Roadmap,
     /// The roadmap's edges; its nodes are the roadmap's, and two for the ends of a query.
     graph: OnceLock<Graph>,
+    landmarks: OnceLock<Landmarks>,
+    /// Number of routes that were searched.
+    searches: AtomicU32,
     /// Buffers that no search uses at present.
     buffers: Mutex<Vec<Buffers>>,
+    values: Mutex<Vec<Values>>,
 }
 
 impl PreparedRoadmap {
     /// Prepares a roadmap, which never changes any more.
     pub fn new(roadmap: Roadmap) -> PreparedRoadmap {
-        PreparedRoadmap { roadmap, graph: OnceLock::new(), buffers: Mutex::default() }
+        PreparedRoadmap {
+            roadmap,
+            graph: OnceLock::new(),
+            landmarks: OnceLock::new(),
+            searches: AtomicU32::new(0),
+            buffers: Mutex::default(),
+            values: Mutex::default(),
+        }
     }
 
     /// The roadmap.
@@ -87,12 +107,8 @@ impl PreparedRoadmap {
         };
         let config = config_in(roadmap, ends);
         let graph = self.graph.get_or_init(|| Graph::of(to.index() + 1, || roadmap.edges().iter()));
-        let extended = Extended::new(graph, &more);
-        let mut buffers = self.taken_buffers().unwrap_or_else(|| Buffers::new(graph.nodes()));
         let mut failed = BTreeSet::new();
-        while let Some(route) =
-            bidirectional::shortest(&extended, (from, to), &failed, &mut buffers)
-        {
+        while let Some(route) = self.route(graph, &more, (from, to), &failed) {
             match first_failed(cx, &route, (edge, &config), &mut passed, scratch) {
                 Some(index) => _ = failed.insert(index),
                 None => {
@@ -102,18 +118,59 @@ impl PreparedRoadmap {
             }
         }
         answer.dropped_edges = failed.len() as u64;
-        self.give_back(buffers);
         answer
     }
 
-    fn taken_buffers(&self) -> Option<Buffers> {
-        self.buffers.lock().ok()?.pop()
+    /// The shortest route through the roadmap's graph and the edges that attach the two ends, by edges that have not failed.
+    fn route(
+        &self,
+        graph: &Graph,
+        more: &[Edge],
+        ends: (NodeId, NodeId),
+        failed: &BTreeSet<u32>,
+    ) -> Option<Route> {
+        let extended = Extended::new(graph, more);
+        if let Some(landmarks) = self.landmarks(graph) {
+            let mut values = taken(&self.values).unwrap_or_else(|| Values::new(graph.nodes()));
+            let found =
+                landmarks::shortest((&extended, more), landmarks, ends, failed, &mut values);
+            give_back(&self.values, values);
+            match found {
+                Ok(route) => return route,
+                Err(TooShort) => (),
+            }
+        }
+        let mut buffers = taken(&self.buffers).unwrap_or_else(|| Buffers::new(graph.nodes()));
+        let route = bidirectional::shortest(&extended, ends, failed, &mut buffers);
+        give_back(&self.buffers, buffers);
+        route
     }
 
-    fn give_back(&self, buffers: Buffers) {
-        // After a panic elsewhere they are made anew.
-        if let Ok(mut free) = self.buffers.lock() {
-            free.push(buffers);
+    /// The landmarks, where it is time for them: they need edges that cost the same in both directions.
+    fn landmarks(&self, graph: &Graph) -> Option<&Landmarks> {
+        let roadmap = &self.roadmap;
+        if roadmap.configs().len() < LANDMARKS_NODES || roadmap.edges().is_directed() {
+            return None;
         }
+        if self.searches.fetch_add(1, Ordering::Relaxed) < LANDMARKS_SEARCHES {
+            return None;
+        }
+        // The largest component is where most routes are.
+        let members = |name: NodeId| roadmap.components().of_node(name).members.len();
+        let names = roadmap.components().iter().map(|component| component.name);
+        let first = names.max_by_key(|name| (members(*name), std::cmp::Reverse(*name)))?;
+        Some(self.landmarks.get_or_init(|| Landmarks::new(graph, first)))
+    }
+}
+
+/// What no search uses at present, if there is any.
+fn taken<T>(free: &Mutex<Vec<T>>) -> Option<T> {
+    free.lock().ok()?.pop()
+}
+
+fn give_back<T>(free: &Mutex<Vec<T>>, it: T) {
+    // After a panic elsewhere they are made anew.
+    if let Ok(mut free) = free.lock() {
+        free.push(it);
     }
 }

@@ -39,14 +39,14 @@ impl<'a> Extended<'a> {
     }
 
     /// The edges that lead away from a node, each with the node at its other end, in the order of the edges.
-    fn arcs_from(&self, node: NodeId) -> impl Iterator<Item = (NodeId, u32)> {
+    pub fn arcs_from(&self, node: NodeId) -> impl Iterator<Item = (NodeId, u32)> {
         let first = self.arcs.partition_point(|(from, _, _)| *from < node);
         let more = self.arcs[first..].iter().take_while(move |(from, _, _)| *from == node);
         self.graph.arcs_from(node).chain(more.map(|(_, to, edge)| (*to, *edge)))
     }
 
     /// What an edge costs from one of its ends to the other.
-    fn weight(&self, from: NodeId, to: NodeId, edge: u32) -> f64 {
+    pub fn weight(&self, from: NodeId, to: NodeId, edge: u32) -> f64 {
         match edge.checked_sub(self.graph.edges()) {
             None => self.graph.weight(from, to, edge),
             Some(index) => {

@@ -10,6 +10,7 @@ mod encoding;
 mod forest;
 mod increment;
 mod indices;
+pub(crate) mod landmarks;
 mod round;
 mod search;
 mod searches;
