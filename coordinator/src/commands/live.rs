@@ -5,7 +5,7 @@
 //! browser is given a private file that leads to the address. The `Host` of a request must be the server's own, so that no page
 //! from elsewhere reaches the server by a name that it has made to mean this machine (*DNS rebinding*).
 
-use super::view::{cannot_be_drawn, is_opened, seen};
+use super::view::{cannot_be_drawn, open, seen};
 use crate::cli::ViewArguments;
 use crate::exit::{Code, Failure};
 use crate::output::note;
@@ -16,7 +16,7 @@ use roadmill::export::Live;
 use rustix::event::{PollFd, PollFlags, poll};
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
-use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::os::fd::AsFd;
 use std::time::{Duration, Instant, SystemTime};
 use tempfile::NamedTempFile;
@@ -25,6 +25,8 @@ use tempfile::NamedTempFile;
 const HEAD_MAX: usize = 8 << 10;
 /// A request must have come whole within this time, and an answer is given up that is not taken for so long.
 const PATIENCE: Duration = Duration::from_secs(5);
+/// Who has its answer is waited for no longer than this to close the connection.
+const FAREWELL: Duration = Duration::from_millis(200);
 /// The run is read again at the earliest this long after it was read, and after so many times as long as that took.
 const REST: Duration = Duration::from_secs(1);
 const REST_FACTOR: u32 = 4;
@@ -39,7 +41,7 @@ pub(super) fn follow(arguments: &ViewArguments) -> Result<Code, Failure> {
     let token = token().map_err(Failure::system)?;
     let address = format!("http://127.0.0.1:{port}/{token}/");
     let way = way_to(&address).map_err(Failure::system)?;
-    let is_open = !arguments.no_open && is_opened(way.path());
+    let is_open = !arguments.no_open && open(way.path());
     let opened = if is_open { "opened in a browser" } else { "to be opened in a browser" };
     note(format_args!("{address}: {opened}; Ctrl-C ends it"));
     loop {
@@ -241,7 +243,17 @@ fn answer(stream: &mut TcpStream, status: &str, kind: &str, body: &str) -> io::R
         body.len()
     );
     stream.write_all(head.as_bytes())?;
-    stream.write_all(body.as_bytes())
+    stream.write_all(body.as_bytes())?;
+    // What was sent and not read would make the system reset the connection, and the answer be lost.
+    stream.shutdown(Shutdown::Write)?;
+    stream.set_read_timeout(Some(FAREWELL))?;
+    let mut rest = [0; HEAD_MAX];
+    for _ in 0..8 {
+        if stream.read(&mut rest)? == 0 {
+            break;
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

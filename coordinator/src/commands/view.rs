@@ -7,9 +7,9 @@ use crate::output::note;
 use crate::work::{Recorded, Run};
 use roadmill::export::{Live, NamedPath, Viewer};
 use roadmill::model::Scratch;
-use roadmill::query::{Path, shorten};
+use roadmill::query::shorten;
 use std::env;
-use std::path::{self, PathBuf};
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// How often a shortcut is tried on the path.
@@ -30,7 +30,7 @@ pub fn view(arguments: &ViewArguments) -> Result<Code, Failure> {
     let page = page.ok_or_else(|| cannot_be_drawn(arguments, &run))?;
     write_whole(&out, &page)?;
     let (found, megabytes) = (out.display(), page.len() as f64 / 1e6);
-    if !arguments.no_open && is_opened(&out) {
+    if !arguments.no_open && open(&out) {
         note(format_args!("{found}: {megabytes:.1} MB, opened in a browser"));
     } else {
         note(format_args!("{found}: {megabytes:.1} MB, to be opened in a browser"));
@@ -59,9 +59,13 @@ fn usual_place(arguments: &ViewArguments) -> Result<PathBuf, Failure> {
 pub(super) fn seen<T>(run: &Recorded, live: Option<Live>, with: impl Fn(Viewer) -> T) -> T {
     let found = run.path();
     let short = found.map(|path| shorten(run.context(), path, SHORTEN_TRIES, &mut Scratch::new()));
-    let named = |name, path: Option<&'_ Path>| path.map(|path| NamedPath { name, path });
-    let paths = [named("path shortened", short.as_ref()), named("path as found", found)];
-    let paths: Vec<NamedPath> = paths.into_iter().flatten().collect();
+    let mut paths = Vec::new();
+    if let Some(path) = &short {
+        paths.push(NamedPath { name: "path shortened", path });
+    }
+    if let Some(path) = found {
+        paths.push(NamedPath { name: "path as found", path });
+    }
     with(Viewer { problem: run.problem(), roadmap: run.roadmap(), paths: &paths, live })
 }
 
@@ -76,7 +80,7 @@ pub(super) fn cannot_be_drawn(arguments: &ViewArguments, run: &Recorded) -> Fail
 }
 
 /// Opens a page in the browser that the desktop has chosen; whether that was done.
-pub(super) fn is_opened(page: &path::Path) -> bool {
+pub(super) fn open(page: &Path) -> bool {
     let has_display = ["DISPLAY", "WAYLAND_DISPLAY"]
         .iter()
         .any(|name| env::var_os(name).is_some_and(|value| !value.is_empty()));
