@@ -171,7 +171,8 @@ impl Values {
 /// A search by lengths and bounds goes on until all nodes are looked at through which a way may be as short as the shortest, with
 /// a margin for rounding. The lengths of ways to them are then those of Dijkstra's algorithm, which takes nodes in the order of
 /// their lengths, then of their numbers, and keeps of equally long ways to a node the one that it finds first. So from the end
-/// back each node is reached from the first in this order from which the way is not longer, by the first of its edges.
+/// back each node is reached from the first in this order from which the way is not longer, by the first of its edges. The beginning
+/// is taken before all others.
 pub(crate) fn shortest(
     (graph, more): (&Extended, &[Edge]),
     landmarks: &Landmarks,
@@ -202,7 +203,8 @@ pub(crate) fn shortest(
                 continue;
             }
             let through = known + graph.weight(node, next, edge);
-            if through == known {
+            // The edges that attach the ends may have no length, where an end is a node.
+            if through == known && node != from && next != from && next != to {
                 return Err(TooShort);
             }
             values.offer(next, through, || bound(next));
@@ -217,7 +219,9 @@ pub(crate) fn shortest(
         let ways = arcs.filter(|(before, edge)| {
             value(*before) + graph.weight(*before, node, *edge) == value(node)
         });
-        let first = ways.min_by_key(|(before, edge)| (in_order(value(*before)), *before, *edge));
+        let first = ways.min_by_key(|(before, edge)| {
+            (in_order(value(*before)), *before != from, *before, *edge)
+        });
         let (before, edge) = first.expect("the node was reached");
         Reached { value: value(node), before, edge }
     };
@@ -249,7 +253,7 @@ mod tests {
 
     /// Edges that attach the two ends to nodes.
     fn attached() -> impl Strategy<Value = Vec<Edge>> {
-        let edge = (0..NODES, 0..2u32, 1..9u8).prop_map(|(node, end, weight)| {
+        let edge = (0..NODES, 0..2u32, 0..9u8).prop_map(|(node, end, weight)| {
             Edge::metric(NodeId(node), NodeId(NODES + end), 0, f64::from(weight) * 0.1)
         });
         proptest::collection::vec(edge, 0..12)
