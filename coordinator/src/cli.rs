@@ -8,6 +8,7 @@ mod orders;
 mod paths;
 mod replan;
 mod transition;
+mod view;
 
 pub use compare::CompareArguments;
 pub use fold::FoldArguments;
@@ -16,11 +17,12 @@ pub use orders::{FormationArguments, OrdersArguments};
 pub use paths::{FrameFormat, PathsArguments, RankBy, ReportArguments, SearchArguments};
 pub use replan::{KeptComponents, ReplanArguments};
 pub use transition::{ChainArguments, EndsArguments, TransitionArguments};
+pub use view::ViewArguments;
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use roadmill::BITS_VERSION;
-use roadmill::export::{FORMATS, RoadmapFormat};
+use roadmill::export::{Direction, FORMATS, RoadmapFormat};
 use roadmill::numbers::Ordinal;
 use roadmill::structure::{ResidueNumber, parse_range};
 use std::ops::Range;
@@ -67,6 +69,8 @@ pub enum Command {
     Report(ReportArguments),
     /// Compare strategies on a problem over several seeds: nodes, time, success, and how large a roadmap each needs
     Compare(CompareArguments),
+    /// Write a page in which a run can be walked around in, and open it
+    View(ViewArguments),
     /// Say what is wrong with a problem, or what it would build
     Check(CheckArguments),
     /// Write a problem, or a scene of another program, as a problem file with its meshes
@@ -429,6 +433,12 @@ pub struct ExportArguments {
     /// The file to be written, - for standard output; of csv the nodes, the edges go beside it into NAME.edges.csv
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    /// Shorten the path as `query --shorten` does
+    #[arg(long)]
+    pub shorten: bool,
+    /// Of svg in 3D: where the eye is, as degrees about the z axis and above the floor [default: -64,25]
+    #[arg(long, value_name = "AZIMUTH,ELEVATION", allow_hyphen_values = true)]
+    pub view: Option<Direction>,
 }
 
 /// The formats of `export`, each with what it is for.

@@ -63,6 +63,7 @@ fn run(command: cli::Command) -> Result<Code, Failure> {
         cli::Command::Orders(arguments) => commands::orders(&arguments),
         cli::Command::Report(arguments) => commands::report(&arguments),
         cli::Command::Compare(arguments) => commands::compare(&arguments),
+        cli::Command::View(arguments) => commands::view(&arguments),
         cli::Command::Check(arguments) => commands::check(&arguments),
         cli::Command::Import(arguments) => commands::import(&arguments),
         cli::Command::Export(arguments) => commands::export(&arguments),

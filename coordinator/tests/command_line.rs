@@ -182,7 +182,7 @@ fn a_build_that_has_ended_says_how_to_look_at_it() {
     let command = line.and_then(|line| line.split('`').nth(1)).expect("a command");
     let words: Vec<&str> = command.split(' ').skip(1).collect();
     scratch.run(&words).assert_code(0);
-    assert!(scratch.path("path.html").exists());
+    assert!(scratch.path("run-view.html").exists());
 }
 
 #[test]

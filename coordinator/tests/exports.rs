@@ -240,14 +240,18 @@ fn paths_are_shortened_and_played() {
     assert_eq!(path.lines().count(), 3 + count);
 
     let page = read(&scratch, "short.html");
-    assert!(!page.contains("http") && !page.contains("src="), "refers to other files");
+    for reference in ["http:", "https:", "src=", "url("] {
+        assert!(!page.contains(reference), "refers to other files: {reference}");
+    }
     let (_, data) = page.split_once("id=\"data\">").expect("data");
     let (data, _) = data.split_once("</script>").expect("their end");
     let data: Value = serde_json::from_str(data).expect("JSON");
-    let array = |key: &str| data[key].as_array().expect("a list").clone();
-    assert_eq!([array("frames").len(), array("configs").len(), array("way").len()], [301; 3]);
-    assert_eq!([array("links").len(), array("obstacles").len()], [1, 17]);
-    assert_eq!(array("frames")[0].as_array().map(Vec::len), Some(7));
+    let length = |list: &Value| list.as_array().expect("a list").len();
+    let path = &data["paths"][0];
+    assert_eq!(["frames", "configs", "way"].map(|key| length(&path[key])), [301; 3]);
+    assert_eq!(["links", "obstacles", "paths"].map(|key| length(&data[key])), [1, 17, 1]);
+    assert_eq!(length(&path["frames"][0]), 7);
+    assert!(data["roadmap"].is_null());
     assert_eq!(data["name"], "maze");
 }
 
@@ -273,7 +277,7 @@ fn linkages_and_meshes_are_played_and_drawn() {
         assert!(corners.len() % 3 == 0 && most as usize == vertices.len() / 3 - 1);
     }
     // Seven numbers a link.
-    assert_eq!(data["frames"][300].as_array().map(Vec::len), Some(35));
+    assert_eq!(data["paths"][0]["frames"][300].as_array().map(Vec::len), Some(35));
     let export = ["export", "run", "--format", "svg", "--out", "picture.svg"];
     scratch.run(&export).assert_code(0);
     let picture = read(&scratch, "picture.svg");

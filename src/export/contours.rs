@@ -59,13 +59,7 @@ impl Drawing<'_> {
     /// Draws contours, if the model has an energy over the plane: from the lowest energy to the highest that a
     /// milestone has, or, without milestones, to the middle one of all that the grid has.
     pub(super) fn contours(&mut self, roadmap: &Roadmap) {
-        let Some(grid) = Grid::of(self.figure) else { return };
-        let at_milestones = roadmap.configs().iter().filter_map(|q| {
-            let [x, y, _] = self.figure.marker(q);
-            self.figure.energy_at(x, y)
-        });
-        let highest = at_milestones.reduce(f64::max).unwrap_or_else(|| grid.middle());
-        let Some(levels) = Levels::between(grid.lowest(), highest) else { return };
+        let Some((grid, levels)) = grid_and_levels(self.figure, Some(roadmap)) else { return };
         for index in (levels.first..=levels.last).rev() {
             let share = (index - levels.first + 1) as f64 / (levels.last - levels.first + 2) as f64;
             let mut loops = String::new();
@@ -92,6 +86,50 @@ impl Drawing<'_> {
              fill-opacity=\"0.75\">{levels}</text>"
         ));
     }
+}
+
+/// An energy over the plane as a page shows it.
+pub(super) struct Relief {
+    /// Points of the grid from the least x to the largest.
+    pub columns: usize,
+    /// Row by row, from the least y to the largest.
+    pub energies: Vec<f64>,
+    /// Between two contours.
+    pub step: f64,
+    /// The lowest contour.
+    pub lowest: f64,
+    /// The highest contour.
+    pub highest: f64,
+}
+
+/// The energy of a model that has one over the plane, with the contours that a picture has; what is above the highest of
+/// them counts as one step above it.
+pub(super) fn relief(figure: &dyn Figure, roadmap: Option<&Roadmap>) -> Option<Relief> {
+    let (grid, levels) = grid_and_levels(figure, roadmap)?;
+    let highest = levels.at(levels.last);
+    let (width, height) = (grid.xs.len(), grid.ys.len());
+    let inner =
+        (1..height - 1).flat_map(|row| (1..width - 1).map(move |column| row * width + column));
+    Some(Relief {
+        columns: width - 2,
+        energies: inner.map(|at| grid.energies[at].min(highest + levels.step)).collect(),
+        step: levels.step,
+        lowest: levels.at(levels.first),
+        highest,
+    })
+}
+
+/// The energies of the plane, and the levels of contours from the lowest energy to the highest of a milestone.
+fn grid_and_levels(figure: &dyn Figure, roadmap: Option<&Roadmap>) -> Option<(Grid, Levels)> {
+    let grid = Grid::of(figure)?;
+    let at_milestones =
+        roadmap.into_iter().flat_map(|roadmap| roadmap.configs().iter()).filter_map(|q| {
+            let [x, y, _] = figure.marker(q);
+            figure.energy_at(x, y)
+        });
+    let highest = at_milestones.reduce(f64::max).unwrap_or_else(|| grid.middle());
+    let levels = Levels::between(grid.lowest(), highest)?;
+    Some((grid, levels))
 }
 
 /// Energies at the points of a grid, with a border of points that stand where their neighbours do and count as

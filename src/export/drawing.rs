@@ -1,5 +1,6 @@
 //! What every part of a picture is drawn with.
 
+use super::extent::Extent;
 use super::view::View;
 use crate::model::Figure;
 use crate::problem::Problem;
@@ -20,6 +21,8 @@ pub(super) struct Drawing<'a> {
     pub problem: &'a Problem,
     pub figure: &'a dyn Figure,
     pub view: View,
+    /// How much of the world is shown.
+    pub extent: Extent,
     pub planar: bool,
     pub out: String,
 }

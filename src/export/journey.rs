@@ -190,7 +190,7 @@ impl Drawing<'_> {
                 .map(|q| self.figure.marker(q))
                 .collect();
             // The path's shadow on the floor shows where in depth the path is.
-            let floor = self.figure.bounds()[0][2];
+            let floor = self.extent.floor[0][2];
             let shadow = self.line(way.iter().map(|p| [p[0], p[1], floor]));
             self.put(format_args!(
                 "<path class=\"shadow\" d=\"{shadow}\" fill=\"none\" stroke=\"{INK}\" \

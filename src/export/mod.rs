@@ -19,17 +19,19 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod animation;
 mod chimerax;
+mod coarse;
 mod contours;
 mod csv;
 mod dcd;
 mod drawing;
+mod extent;
 mod format;
 mod graphml;
 mod journey;
 mod markup;
 mod npz;
+mod page;
 mod paint_order;
 mod palette;
 mod parasol;
@@ -46,13 +48,13 @@ mod view;
 mod vtk;
 mod xtc;
 
-pub use animation::animation;
 pub use chimerax::chimerax;
 pub use csv::{edges_csv, nodes_csv};
 pub use dcd::dcd;
 pub use format::{CannotExport, ExportFile, Exported, RoadmapFormat};
 pub use graphml::graphml;
 pub use npz::npz;
+pub use page::{Live, NamedPath, Viewer, animation};
 pub use parasol::{parasol_map, parasol_path};
 pub use path_csv::path_csv;
 pub use pdb::pdb;
@@ -60,7 +62,8 @@ pub use pymol::pymol;
 pub use report::{
     ComparedBuild, ComparedStrategy, Comparison, Folding, Report, RoundOutcome, RoundValue, report,
 };
-pub use svg::{svg, svg_at};
+pub use svg::{svg, svg_at, svg_from};
+pub use view::Direction;
 pub use xtc::xtc;
 
 use crate::local::Planner;

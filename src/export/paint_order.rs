@@ -100,6 +100,7 @@ fn nearer(view: &View, a: &Solid, b: &Solid) -> f64 {
 mod tests {
     use super::*;
     use crate::export::solid::solids;
+    use crate::export::view::Direction;
     use crate::scene::{Body, Pose, Shape};
 
     fn block(size: [f64; 3], translation: [f64; 3], view: &View) -> Solid {
@@ -112,7 +113,7 @@ mod tests {
     /// upper face separates the two.
     #[test]
     fn a_block_on_a_plate_is_painted_after_the_plate() {
-        let view = View::new(false, &[[0.0; 3], [10.0; 3]]);
+        let view = View::new(Some(Direction::default()), &[[0.0; 3], [10.0; 3]]);
         let [x, y, _] = view.toward;
         let plate = block([20.0, 20.0, 0.1], [4.0 * x, 4.0 * y, -0.05], &view);
         let on_it = block([1.0; 3], [0.0, 0.0, 0.5], &view);
@@ -125,7 +126,7 @@ mod tests {
     /// Where nothing overlaps in the picture, the farther one is painted first.
     #[test]
     fn blocks_beside_each_other_are_painted_by_depth() {
-        let view = View::new(false, &[[0.0; 3], [10.0; 3]]);
+        let view = View::new(Some(Direction::default()), &[[0.0; 3], [10.0; 3]]);
         let place = |right: f64, toward: f64| {
             let at = [0, 1, 2].map(|i| right * view.right[i] + toward * view.toward[i]);
             block([1.0; 3], at, &view)

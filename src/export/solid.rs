@@ -1,13 +1,14 @@
 //! Bodies as they are drawn: flat patches and the edges between them.
 
+use super::coarse::coarser;
 use super::vector::{cross, dot, sub};
 use super::view::View;
 use crate::math;
-use crate::scene::{Body, Mesh, Pose, Shape, box_surface};
+use crate::scene::{Body, Pose, Shape, box_surface};
 use petgraph::unionfind::UnionFind;
 use std::collections::BTreeMap;
 
-/// Meshes of more triangles are drawn as their convex outline.
+/// Meshes of more triangles are drawn coarser.
 const TRIANGLES_MAX: usize = 4000;
 /// Corners of a drawn circle.
 const CIRCLE: usize = 40;
@@ -73,14 +74,19 @@ pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
             let (corners, triangles) = box_surface(*size);
             vec![polyhedron(&corners, &triangles, place, turn, view)]
         }
-        Shape::Mesh(mesh) if mesh.triangles.len() <= TRIANGLES_MAX => pieces(mesh)
-            .iter()
-            .map(|triangles| polyhedron(&mesh.vertices, triangles, place, turn, view))
-            .collect(),
+        Shape::Mesh(mesh) if mesh.triangles.len() <= TRIANGLES_MAX => {
+            let triangles: Vec<[u32; 3]> = mesh.faces().collect();
+            pieces(&triangles)
+                .iter()
+                .map(|triangles| polyhedron(&mesh.vertices, triangles, place, turn, view))
+                .collect()
+        }
         Shape::Mesh(mesh) => {
-            let (min, max) = mesh.bounding_box();
-            let points: Vec<_> = mesh.vertices.iter().map(|p| place(*p)).collect();
-            vec![silhouette(&points, (min, max), place, turn, view)]
+            let coarse = coarser(mesh, TRIANGLES_MAX);
+            pieces(&coarse.triangles)
+                .iter()
+                .map(|triangles| polyhedron(&coarse.vertices, triangles, place, turn, view))
+                .collect()
         }
         Shape::Point => vec![ball_like(&[[0.0; 3]], 0.0, place, turn, view)],
         Shape::Sphere { radius } => vec![ball_like(&[[0.0; 3]], *radius, place, turn, view)],
@@ -110,10 +116,9 @@ pub(super) fn solids(body: &Body, frame: &Pose, view: &View) -> Vec<Solid> {
 
 /// The triangles of each connected piece of a mesh. Two triangles are connected by an edge that they alone
 /// share: where more than two meet in an edge, pieces merely touch.
-fn pieces(mesh: &Mesh) -> Vec<Vec<[u32; 3]>> {
-    let triangles: Vec<[u32; 3]> = mesh.faces().collect();
+fn pieces(triangles: &[[u32; 3]]) -> Vec<Vec<[u32; 3]>> {
     let mut connected = UnionFind::new(triangles.len());
-    for sides in sides_of(&triangles).values() {
+    for sides in sides_of(triangles).values() {
         if let [one, other] = sides[..] {
             connected.union(one, other);
         }
@@ -121,7 +126,7 @@ fn pieces(mesh: &Mesh) -> Vec<Vec<[u32; 3]>> {
     let labels: Vec<usize> = connected.into_labeling();
     let mut pieces: Vec<Vec<[u32; 3]>> = Vec::new();
     let mut piece_of = BTreeMap::new();
-    for (corners, label) in triangles.into_iter().zip(labels) {
+    for (corners, label) in triangles.iter().copied().zip(labels) {
         let piece = *piece_of.entry(label).or_insert(pieces.len());
         if piece == pieces.len() {
             pieces.push(Vec::new());
@@ -173,7 +178,9 @@ fn polyhedron(
         .map(|[a, b, c]| {
             let normal = cross(sub(*b, *a), sub(*c, *a));
             let length = dot(normal, normal).sqrt();
-            let sign = if closed || dot(normal, view.toward) > 0.0 { outward } else { -outward };
+            // Of an open surface either side may be seen.
+            let sign =
+                if closed || dot(normal, view.toward) * outward > 0.0 { outward } else { -outward };
             normal.map(|value| value / length * sign)
         })
         .collect();
@@ -188,7 +195,7 @@ fn polyhedron(
             .entry(normal.map(|value| (value * 64.0).round() as i64))
             .or_insert_with(|| Patch { polygons: Vec::new(), normal })
             .polygons
-            .push(corners.to_vec());
+            .push(counter_clockwise(*corners, view));
     }
     let edges = sides_of
         .iter()
@@ -221,6 +228,13 @@ fn polyhedron(
         planes: planes((min, max), place, turn),
         is_box,
     }
+}
+
+/// The corners of a triangle in the order that is counter-clockwise in the picture: where front and back of an open surface
+/// come to lie in one path, they must not take each other away from what is filled.
+fn counter_clockwise([a, b, c]: [[f64; 3]; 3], view: &View) -> Vec<[f64; 3]> {
+    let is_front = dot(cross(sub(b, a), sub(c, a)), view.toward) >= 0.0;
+    if is_front { vec![a, b, c] } else { vec![a, c, b] }
 }
 
 /// The drawing of a convex body as its outline: the convex hull, in the picture, of points of the world's frame. The

@@ -1,13 +1,12 @@
 use super::drawing::{Drawing, FLOOR, INK, PAPER, RULE, WARM, blend, decimal};
+use super::extent::Extent;
 use super::format::{CannotExport, ExportFile, Exported, RoadmapFormat};
 use super::markup::escaped;
-use super::view::{MARGIN_PX, View};
-use crate::model::Figure;
+use super::view::{Direction, MARGIN_PX, View};
 use crate::numbers::NodeId;
 use crate::problem::Problem;
 use crate::query;
 use crate::roadmap::{Configs, Roadmap};
-use crate::scene::Pose;
 use std::collections::BTreeSet;
 
 /// See [`svg`].
@@ -50,19 +49,25 @@ const OTHERS: [&str; 8] =
 /// the others brighter ones. Of a large roadmap 2500 nodes are drawn, those of small components
 /// first and then the earliest, and of the edges between them the first 6000; the caption counts
 /// all. Along the path the robot is drawn at 18 poses, evenly by length in the metric, and in 3D
-/// what is nearer to the eye covers what it hides. Meshes of more than 4000 triangles are drawn as
-/// their convex outline. An energy over the plane is shown by contour lines.
+/// what is nearer to the eye covers what it hides. Meshes of more than 4000 triangles are drawn
+/// coarser. An energy over the plane is shown by contour lines.
 ///
 /// `None` where the problem's model cannot be drawn.
 pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> Option<String> {
-    let figure = problem.model.description().figure()?;
-    let planar = figure.is_planar();
-    let view = View::new(planar, &points_to_hold(problem, figure, path));
-    let mut drawing = Drawing { problem, figure, view, planar, out: String::new() };
-    drawing.head();
-    drawing.floor();
-    drawing.contours(roadmap);
-    if planar {
+    svg_from(problem, roadmap, path, Direction::default())
+}
+
+/// [`svg`] as seen from a direction; planar problems are seen from above all the same.
+///
+/// `None` where the problem's model cannot be drawn.
+pub fn svg_from(
+    problem: &Problem,
+    roadmap: &Roadmap,
+    path: Option<&query::Path>,
+    direction: Direction,
+) -> Option<String> {
+    let mut drawing = Drawing::begun(problem, Some(roadmap), path, direction)?;
+    if drawing.planar {
         drawing.obstacles();
         drawing.roadmap(roadmap);
         drawing.journey(path);
@@ -79,16 +84,11 @@ pub fn svg(problem: &Problem, roadmap: &Roadmap, path: Option<&query::Path>) -> 
 /// A picture of a problem's scene with the robot at the configuration `q`, valid or not, as [`svg`] draws it; `text` stands
 /// below it. `None` where the problem's model cannot be drawn.
 pub fn svg_at(problem: &Problem, q: &[f64], text: &str) -> Option<String> {
-    let figure = problem.model.description().figure()?;
-    let planar = figure.is_planar();
     let mut configs = Configs::new(q.len());
     configs.push(q);
     let alone = Some(query::Path { configs, length: 0.0 });
-    let view = View::new(planar, &points_to_hold(problem, figure, alone.as_ref()));
-    let mut drawing = Drawing { problem, figure, view, planar, out: String::new() };
-    drawing.head();
-    drawing.floor();
-    if planar {
+    let mut drawing = Drawing::begun(problem, None, alone.as_ref(), Direction::default())?;
+    if drawing.planar {
         drawing.obstacles();
         drawing.journey(alone.as_ref());
     } else {
@@ -99,41 +99,27 @@ pub fn svg_at(problem: &Problem, q: &[f64], text: &str) -> Option<String> {
     Some(drawing.out)
 }
 
-/// Points that must be in the picture: the corners of the bounds, and, where only the robot's reference point must
-/// stay within the bounds, what the robot reaches at every configuration of the path and of the query.
-fn points_to_hold(
-    problem: &Problem,
-    figure: &dyn Figure,
-    path: Option<&query::Path>,
-) -> Vec<[f64; 3]> {
-    let mut points = bounds_corners(figure).to_vec();
-    if !figure.is_held_by_bounds() {
-        let axes = if figure.is_planar() { 2 } else { 3 };
-        let ends = problem.query.iter().flat_map(|ends| [&ends.start[..], &ends.goal[..]]);
-        for q in ends.chain(path.iter().flat_map(|path| path.configs.iter())) {
-            for body in figure.bodies_at(q) {
-                let reach = body.shape.reach(&Pose::IDENTITY);
-                for axis in 0..axes {
-                    for side in [-reach, reach] {
-                        let mut point = body.pose.translation;
-                        point[axis] += side;
-                        points.push(point);
-                    }
-                }
-            }
+impl<'a> Drawing<'a> {
+    /// A picture with the floor and what lies on it; `None` where the problem's model cannot be drawn.
+    fn begun(
+        problem: &'a Problem,
+        roadmap: Option<&Roadmap>,
+        path: Option<&query::Path>,
+        direction: Direction,
+    ) -> Option<Drawing<'a>> {
+        let figure = problem.model.description().figure()?;
+        let planar = figure.is_planar();
+        let extent = Extent::of(problem, figure, roadmap, path.as_slice());
+        let view = View::new((!planar).then_some(direction), &extent.corners());
+        let mut drawing = Drawing { problem, figure, view, extent, planar, out: String::new() };
+        drawing.head();
+        drawing.floor();
+        if let Some(roadmap) = roadmap {
+            drawing.contours(roadmap);
         }
+        Some(drawing)
     }
-    points
-}
 
-/// Corners of the bounds; bit `axis` of the index chooses the largest value. Planar ones lie at
-/// z = 0.
-fn bounds_corners(figure: &dyn Figure) -> [[f64; 3]; 8] {
-    let corners = figure.bounds();
-    [0, 1, 2, 3, 4, 5, 6, 7].map(|i: usize| [0, 1, 2].map(|axis| corners[i >> axis & 1][axis]))
-}
-
-impl Drawing<'_> {
     fn head(&mut self) {
         let [width, height] = self.view.size_px;
         let height = height + CAPTION_PX;
@@ -148,7 +134,7 @@ impl Drawing<'_> {
     }
 
     fn floor(&mut self) {
-        let corners = bounds_corners(self.figure);
+        let corners = self.extent.floor_corners();
         let outline = self.line([0, 1, 3, 2].map(|i| corners[i]));
         self.put(format_args!(
             "<path class=\"bounds\" d=\"{outline}Z\" fill=\"{FLOOR}\" stroke=\"{INK}\" \

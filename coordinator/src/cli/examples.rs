@@ -14,7 +14,7 @@ const EXAMPLES: &[(&[&str], &[(&str, &str)])] = &[
                 "Grow a roadmap, in as many processes as there are cores",
                 "roadmill build problem.toml",
             ),
-            ("Look at its path in a browser", "roadmill query runs/walls --animate path.html"),
+            ("Look at it in a browser", "roadmill view runs/walls"),
             ("Check what was recorded", "roadmill verify runs/walls --all"),
         ],
     ),
@@ -107,6 +107,14 @@ const EXAMPLES: &[(&[&str], &[(&str, &str)])] = &[
     (&["orders"], &[("Which part of a protein forms first", "roadmill orders runs/g")]),
     (&["report"], &[("A page about a run", "roadmill report runs/a --out a.html")]),
     (
+        &["view"],
+        &[
+            ("Look at a run in a browser", "roadmill view runs/a"),
+            ("A page to be sent to others", "roadmill view runs/a --no-open --out a.html"),
+            ("Watch a build grow, until Ctrl-C", "roadmill view runs/a --live"),
+        ],
+    ),
+    (
         &["check"],
         &[
             ("What it would build", "roadmill check problem.toml"),
@@ -138,6 +146,10 @@ const EXAMPLES: &[(&[&str], &[(&str, &str)])] = &[
         &["export"],
         &[
             ("A picture", "roadmill export runs/a --format svg --out a.svg"),
+            (
+                "A picture from the front, with the path shortened",
+                "roadmill export runs/a --format svg --view -90,10 --shorten --out a.svg",
+            ),
             (
                 "For networkx and other libraries of graphs",
                 "roadmill export runs/a --format graphml --out a.graphml",

@@ -85,11 +85,10 @@ fn say_survey(problem: &Problem) {
 fn say_look(ended: &Ended) {
     let (name, run) = (Plain(ended.problem().name()), ended.run().folder().display());
     let description = ended.problem().model().description();
-    let look = match (ended.path(), description.figure(), description.molecule()) {
-        (Some(_), Some(_), _) => format!("roadmill query {run} --shorten --animate path.html"),
-        (None, Some(_), _) => format!("roadmill export {run} --format svg --out roadmap.svg"),
-        (_, None, Some(_)) => format!("roadmill report {run} --out report.html"),
-        (_, None, None) => return,
+    let look = match (description.figure(), description.molecule()) {
+        (Some(_), _) => format!("roadmill view {run}"),
+        (None, Some(_)) => format!("roadmill report {run} --out report.html"),
+        (None, None) => return,
     };
     note(format_args!("{name}: to look at it: `{look}`"));
 }

@@ -166,6 +166,9 @@ impl Scratch {
             .current_dir(self.folder.path())
             .env("TMPDIR", self.temporary())
             .env_remove("ROADMILL_FAULTS")
+            // No test opens a browser on somebody's desktop.
+            .env_remove("DISPLAY")
+            .env_remove("WAYLAND_DISPLAY")
             .stdin(Stdio::null())
             // Files take any amount without a reader.
             .stdout(file(&stdout))

@@ -1,0 +1,86 @@
+// Put before everything else of a page: notes every error, uses the controls as people do, and says what came of it in attributes
+// of the root element.
+const told = document.documentElement.dataset;
+told.errors = "";
+const note = (error) => { told.errors += error + "; "; };
+addEventListener("error", (event) => note(event.message));
+addEventListener("unhandledrejection", (event) => note(event.reason));
+addEventListener("securitypolicyviolation", (event) => note("refused: " + event.violatedDirective + " " + event.blockedURI));
+for (const kind of ["error", "warn"]) console[kind] = (...words) => note(words.join(" "));
+// What was drawn stays, so that it can be read.
+const context = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, options) {
+  return context.call(this, kind, kind === "webgl2" ? { ...options, preserveDrawingBuffer: true } : options);
+};
+let frames = 0;
+// Pictures come by the clock that the test advances, not by that of the screen.
+window.requestAnimationFrame = (call) => setTimeout(() => { frames++; call(performance.now()); }, 16);
+const later = () => new Promise((resolve) => setTimeout(resolve, 50));
+addEventListener("load", async () => {
+  const element = (id) => document.getElementById(id);
+  const view = element("view");
+  const coloured = () => {
+    const flat = document.createElement("canvas");
+    [flat.width, flat.height] = [view.width, view.height];
+    const drawn = flat.getContext("2d");
+    drawn.drawImage(view, 0, 0);
+    const pixels = drawn.getImageData(0, 0, flat.width, flat.height).data;
+    let count = 0;
+    for (let i = 0; i < pixels.length; i += 4) {
+      const [low, high] = [Math.min(...pixels.subarray(i, i + 3)), Math.max(...pixels.subarray(i, i + 3))];
+      if (high - low > 40) count++;
+    }
+    return count;
+  };
+  const point = (kind, x, y, more) => view.dispatchEvent(new PointerEvent(kind,
+    { pointerId: 1, clientX: x, clientY: y, bubbles: true, ...more }));
+  view.setPointerCapture = () => {};
+  const choose = (id, value) => { element(id).value = value; element(id).dispatchEvent(new Event(element(id).type === "range" ? "input" : "change")); };
+  try {
+    await later();
+    told.drawn = coloured();
+    // Points everywhere until a node is near.
+    const title = () => document.querySelector("#values h1").textContent;
+    let found = "";
+    for (let y = 40; y < innerHeight - 100 && !found; y += 17) for (let x = 20; x < innerWidth && !found; x += 17) {
+      point("pointermove", x, y);
+      if (title().startsWith("node ")) found = [x, y];
+    }
+    told.pointed = title();
+    await later();
+    told.robot = coloured();
+    point("pointerdown", ...found, { button: 0, buttons: 1 });
+    point("pointerup", ...found, { button: 0 });
+    point("pointermove", 1, 1);
+    told.clicked = title();
+    const counts = element("counts").textContent;
+    choose("stop", 0);
+    await later();
+    told.grown = element("counts").textContent !== counts;
+    told.first = coloured();
+    choose("stop", element("stop").max);
+    for (const option of [...element("colours").options]) {
+      choose("colours", option.value);
+      await later();
+    }
+    told.legend = element("least").textContent + " to " + element("most").textContent;
+    for (const id of ["show-robots", "show-edges", "show-nodes", "show-obstacles"]) element(id).click();
+    await later();
+    const unturned = view.toDataURL();
+    point("pointerdown", 300, 300, { button: 0, buttons: 1 });
+    point("pointermove", 340, 300, { buttons: 1 });
+    point("pointerup", 340, 300, { button: 0 });
+    await later();
+    told.turned = view.toDataURL() !== unturned;
+    element("home").click();
+    choose("slider", 100);
+    await later();
+    await later();
+    const before = frames;
+    for (let i = 0; i < 10; i++) await later();
+    told.idle = frames - before;
+    told.time = element("time").textContent;
+    told.wide = document.documentElement.scrollWidth > innerWidth;
+  } catch (error) { note(error.stack); }
+  told.done = "yes";
+});
