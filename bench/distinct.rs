@@ -1,10 +1,10 @@
 //! How many topologically different paths a graph has, by the number of directions in which its nodes are extended.
 //!
 //! ```text
-//! cargo bench --bench distinct -- [NODES [SEEDS]]
+//! cargo bench --bench distinct -- [NODES [SEEDS [M]]]
 //! ```
 //!
-//! An mRRG of NODES nodes (default 1000) grows in the cluttered plane of S. K. Nath's thesis (2013, §5.2.1), with m = 1 to 7 directions and
+//! An mRRG of NODES nodes (default 1000) grows in the cluttered plane of S. K. Nath's thesis (2013, §5.2.1), with m = 1 to 7 directions, or M alone, and
 //! for seeds 1 to SEEDS (default 10); the obstacles are others for every seed. Of the shortest routes of the 100 classes of
 //! paths whose shortest routes are the shortest (`pathways::distinct`, without shortcuts): how long the first, the tenth and the
 //! hundredth is, and how many are at most a twentieth and a tenth longer than the first; mean ± standard deviation. Where a graph does
@@ -28,11 +28,11 @@ fn main() {
     let mut words =
         std::env::args().skip(1).filter(|word| word != "--bench").map(|word| word.parse::<u64>());
     let mut number = |default| words.next().map_or(default, |word| word.expect("a number"));
-    let (nodes, seeds) = (number(1000), number(10));
+    let (nodes, seeds, alone) = (number(1000), number(10), number(0));
     println!("{nodes} nodes, seeds 1 to {seeds}, mean ± standard deviation\n");
     println!("| m | shortest | tenth | hundredth | within 5 % | within 10 % | edges | left out |");
     println!("|---|---|---|---|---|---|---|---|");
-    for directions in 1..=7 {
+    for directions in (1..=7).filter(|directions| [0, u64::from(*directions)].contains(&alone)) {
         let rows: Vec<Option<[f64; 6]>> =
             (1..=seeds).map(|seed| measure(seed, directions, nodes)).collect();
         let left_out = rows.iter().filter(|row| row.is_none()).count();

@@ -496,6 +496,8 @@ fn what_cannot_be_replanned_says_why() {
     assert!(refused(&before, &without, start).contains("no [query]"));
     let none = Replanning { neighbors: 0, ..usual };
     assert!(refused(&before, &after, none).contains("0 neighbors found"));
+    let many = Replanning { neighbors: Replanning::NEIGHBORS_MAX + 1, ..usual };
+    assert!(refused(&before, &after, many).contains("1001 neighbors found; 1 to 1000 expected"));
     let block = "[[obstacles]]\nshape = { box = { size = [20.0, 20.0, 20.0] } }\n";
     let (empty, full) = (without, problem(&(DISC.to_owned() + block)));
     let nothing = refused(&empty, &full, usual);

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use roadmill::img::{Setup, Stop, build_in_threads};
 use roadmill::model::bodies::foreign::{ForeignError, read_urdf};
-use roadmill::model::bodies::robot::{JointKind, Limits, Link, Robot};
+use roadmill::model::bodies::robot::{JointKind, Limits, Link, Mimic, Robot};
 use roadmill::problem::Problem;
 use roadmill::scene::{Pose, Shape};
 use roadmill::space::BaseJoint;
@@ -97,7 +97,27 @@ fn errors_name_file_line_and_joint() {
             "type=\"screw\"",
             "arm.urdf:12: joint `shoulder`: type `screw` found",
         ),
-        ("<axis", "<mimic joint=\"x\"/><axis", "arm.urdf:13: joint `shoulder`: <mimic> found"),
+        (
+            "<axis",
+            "<mimic joint=\"x\"/><axis",
+            "arm.urdf:13: joint `shoulder`: <mimic>: `x` found; the name of a joint expected",
+        ),
+        (
+            "<axis",
+            "\n<mimic joint=\"shoulder\"/><axis",
+            "arm.urdf:14: joint `shoulder`: <mimic>: it follows itself",
+        ),
+        (
+            "<axis",
+            "<mimic joint=\"free\"/><axis",
+            "arm.urdf:13: joint `shoulder`: <mimic>: `free` found; a joint that turns about",
+        ),
+        ("<axis", "<mimic/><axis", "arm.urdf:13: <mimic> without `joint` found"),
+        (
+            "<axis",
+            "<mimic joint=\"grip\" offset=\"nan\"/><axis",
+            "arm.urdf:13: offset = `nan` found; a finite number",
+        ),
         ("lower=\"-1\"", "lower=\"3\"", "arm.urdf:14: limits 3 to 2 found"),
         (
             " version=\"1.2\"",
@@ -247,6 +267,69 @@ fn what_is_not_read_may_lack_what_the_format_requires() {
         latin.replace("upper arm", "\u{e9}paule").chars().map(|c| c as u8).collect();
     let (links, _) = read(folder.path(), &latin).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(links[1].name, "épaule");
+}
+
+/// What a follower has of limits narrows the other joint's; one that is fixed follows none.
+#[test]
+fn followers_follow_the_joint_that_moves_by_itself() {
+    let folder = folder();
+    let wrist = "<joint name=\"wrist\" type=\"revolute\"><parent link=\"hand\"/><child link=\"ball\"/>\
+                 <axis xyz=\"1 0 0\"/><limit lower=\"0\" upper=\"3\"/><mimic joint=\"shoulder\" multiplier=\"2\" offset=\"0.5\"/></joint>";
+    let free = "<joint name=\"free\" type=\"spherical\"><parent link=\"hand\"/><child link=\"ball\"/></joint>";
+    let text = ARM.replace(free, wrist).replace(
+        "rpy=\"0 0 1.5707963267948966\"/>",
+        "rpy=\"0 0 1.5707963267948966\"/><mimic joint=\"shoulder\"/>",
+    );
+    let (links, notes) = read(folder.path(), text.as_bytes()).unwrap_or_else(|e| panic!("{e}"));
+    let kind = |index: usize| links[index].joint.as_ref().unwrap().kind;
+    let limits = Some(Limits { min: -0.25, max: 1.25 });
+    assert_eq!(kind(1), JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits });
+    assert_eq!(kind(2), JointKind::Fixed);
+    assert!(notes.iter().any(|note| note.starts_with("joint `grip` is fixed and follows none")));
+    assert!(
+        notes.iter().any(|note| note.contains("`shoulder` moves from -0.25 to 1.25")),
+        "{notes:?}"
+    );
+    let mimic = Mimic { value: 0, multiplier: 2.0, offset: 0.5 };
+    assert_eq!(kind(3), JointKind::RevoluteMimic { axis: [1.0, 0.0, 0.0], mimic });
+}
+
+/// Some files write "without end" as very large limits.
+#[test]
+fn limits_beyond_ten_turns_are_none() {
+    let folder = folder();
+    let text = ARM.replace("lower=\"-1\" upper=\"2\"", "lower=\"-1e16\" upper=\"1e16\"");
+    let (links, notes) = read(folder.path(), text.as_bytes()).unwrap_or_else(|e| panic!("{e}"));
+    let endless = JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits: None };
+    assert_eq!(links[1].joint.as_ref().unwrap().kind, endless);
+    assert!(notes.iter().any(|note| note.contains("`shoulder` turns on and on")), "{notes:?}");
+}
+
+/// A root that stands for the world is none of the robot's links.
+#[test]
+fn a_floating_joint_on_an_empty_root_moves_the_base() {
+    let folder = folder();
+    let world = "<link name=\"world\"/><joint name=\"fly\" type=\"floating\"><parent link=\"world\"/>\
+                 <child link=\"post\"/><origin xyz=\"0 0 1\"/></joint></robot>";
+    let text = ARM.replace("</robot>", world);
+    let path = folder.path().join("robots/arm/arm.urdf");
+    for (kind, expected) in [("floating", BaseJoint::Rigid3d), ("planar", BaseJoint::Rigid2d)] {
+        fs::write(&path, text.replace("\"floating\"", &format!("\"{kind}\""))).unwrap();
+        let robot = read_urdf(&path).unwrap_or_else(|error| panic!("{error}"));
+        let names: Vec<_> = robot.links.iter().map(|link| link.name.as_str()).collect();
+        assert_eq!(
+            (robot.base, &names[..]),
+            (expected, &["post", "upper arm", "hand", "ball"][..])
+        );
+        assert!(robot.notes.iter().any(|note| note.starts_with("joint `fly` moves the robot")));
+        let problem = Problem::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(problem.space().len(), expected.values() + 5);
+    }
+    // A root with a shape is a link of the robot.
+    let solid = "<link name=\"world\"><collision><geometry><sphere radius=\"1\"/></geometry></collision></link>";
+    let text = text.replace("<link name=\"world\"/>", solid);
+    let error = read(folder.path(), text.as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("arm.urdf:17: joint `fly`: type `floating` found"), "{error}");
 }
 
 #[test]

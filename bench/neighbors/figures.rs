@@ -11,6 +11,7 @@ use roadmill::numbers::{SetName, SetNumber};
 use roadmill::space::Space;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 const LIMITS: [(&str, &str); 5] = [
@@ -145,9 +146,12 @@ impl Column {
     }
 }
 
-pub fn run(nodes: u64, seeds: u64, wanted: &str) {
+pub fn run(nodes: u64, seeds: RangeInclusive<u64>, wanted: &str) {
     let in_set = 200.max(nodes / 20);
-    println!("{nodes} nodes in sets of {in_set}, seeds 1 to {seeds}, mean ± standard deviation\n");
+    let (first, last) = (seeds.start(), seeds.end());
+    println!(
+        "{nodes} nodes in sets of {in_set}, seeds {first} to {last}, mean ± standard deviation\n"
+    );
     println!(
         "| scene | neighbours | finding them, ms | motions to them, ms | attempts | success % | edges | same edges % |"
     );
@@ -155,7 +159,7 @@ pub fn run(nodes: u64, seeds: u64, wanted: &str) {
     for scene in Scene::ALL.into_iter().filter(|scene| scene.name().contains(wanted)) {
         let mut columns: Vec<[Column; 6]> = LIMITS.iter().map(|_| Default::default()).collect();
         let mut whole = Column::default();
-        for seed in 1..=seeds {
+        for seed in seeds.clone() {
             let step = scene.step();
             let tree = format!("{{ rrt = {{ step = {step}, goal_bias = 0 }} }}");
             let tree = grow(scene, seed, &tree, nodes, in_set);

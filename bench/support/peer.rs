@@ -3,7 +3,7 @@
 use roadmill::model::bodies::validity::BoundsMeaning;
 use roadmill::model::bodies::{BodiesSpec, BodySpec, ShapeSpec};
 use roadmill::problem::Problem;
-use roadmill::scene::{Body, Shape};
+use roadmill::scene::{Body, Shape, box_surface};
 use roadmill::space::BaseJoint;
 use std::fmt::Write;
 use std::path::Path;
@@ -29,23 +29,12 @@ pub fn empty(problem: &Problem) -> Problem {
     let surface = |body: BodySpec| match body.shape() {
         ShapeSpec::Triangles { .. } => body.solid(false),
         ShapeSpec::Box { size } => {
-            let shape = box_of_triangles(*size);
-            body.shaped(shape).solid(false)
+            let (corners, triangles) = box_surface(*size);
+            body.shaped(ShapeSpec::triangles(corners.to_vec(), triangles)).solid(false)
         }
         _ => body,
     };
     changed(problem, |bodies| bodies.change_each_body(surface))
-}
-
-/// The surface of a box, two triangles to a side.
-fn box_of_triangles(size: [f64; 3]) -> ShapeSpec {
-    // Corner i lies at the high end of axis x, y and z where bit 0, 1 and 2 of i is set.
-    let side = |i: usize, axis: usize| size[axis] * if i >> axis & 1 == 1 { 0.5 } else { -0.5 };
-    let vertices = (0..8).map(|i| [0, 1, 2].map(|axis| side(i, axis))).collect();
-    let sides =
-        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-    ShapeSpec::triangles(vertices, sides.into_iter().flat_map(halves).collect())
 }
 
 /// Whether the peer knows robots and obstacles of this kind: meshes, of which one moves freely.

@@ -147,6 +147,12 @@ pub struct ProblemArguments {
     /// Order of Denavit and Hartenberg's numbers in a Parasol robot [default: standard]
     #[arg(long, value_enum)]
     pub dh: Option<Dh>,
+    /// The .srdf file beside a URDF: its groups, states and pairs of links that may touch
+    #[arg(long, value_name = "FILE")]
+    pub srdf: Option<PathBuf>,
+    /// The group of the .srdf file whose joints move; all others are locked [default: all joints move]
+    #[arg(long, value_name = "NAME")]
+    pub group: Option<String>,
 }
 
 /// Whether insides are material.
@@ -407,6 +413,10 @@ pub struct CheckArguments {
     /// The answer about the configuration as a JSON object
     #[arg(long, requires = "at")]
     pub json: bool,
+    /// Say which links touch one another in all, or in none, of so many configurations drawn uniformly, as lines of a problem
+    /// file
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    pub touching: Option<u64>,
 }
 
 /// Of `import`.

@@ -19,6 +19,7 @@ pub mod run;
 pub mod signals;
 pub mod work;
 
+pub use progress::Report as ProgressReport;
 pub use work::{Ended, Growth, Run, Selection, Workers};
 
 use exit::{Code, Failure};

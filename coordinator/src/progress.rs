@@ -14,7 +14,7 @@ const JSON_PAUSE: Duration = Duration::from_secs(1);
 const FIRST_LINE: Duration = Duration::from_secs(2);
 const LINE_PAUSE_MAX: Duration = Duration::from_secs(60);
 
-/// How far a build is.
+/// How far a build is: what the line of progress says, as the JSON object of an event `progress`.
 #[derive(Debug, Serialize)]
 pub struct Report {
     event: &'static str,
@@ -29,6 +29,27 @@ pub struct Report {
     evaluators: Vec<EvaluatorValue>,
     workers_alive: usize,
     workers_wanted: usize,
+}
+
+impl Report {
+    /// What a build's status comes to, so many seconds after the build began.
+    pub fn of(status: &Status, seconds: f64) -> Report {
+        let Status { problem, progress, tally, .. } = status;
+        Report {
+            event: "progress",
+            seconds,
+            sets_generated: progress.sets_generated,
+            sets_joined: progress.sets_joined,
+            rounds: progress.rounds,
+            nodes: progress.nodes,
+            edges: tally.edges(),
+            components: tally.components(),
+            nodes_per_second: progress.nodes as f64 / seconds.max(1e-9),
+            evaluators: EvaluatorValue::all(problem, &progress.verdicts),
+            workers_alive: status.workers_alive,
+            workers_wanted: status.workers_wanted,
+        }
+    }
 }
 
 /// What decides when the build ends comes first: a narrow terminal cuts the rest of the line off.
@@ -83,26 +104,11 @@ impl Reporter {
 
     /// Reports if it is time.
     pub fn report(&mut self, status: &Status) {
-        let Status { problem, progress, tally, .. } = status;
         let now = Instant::now();
         if now < self.next {
             return;
         }
-        let seconds = self.seconds();
-        let report = Report {
-            event: "progress",
-            seconds,
-            sets_generated: progress.sets_generated,
-            sets_joined: progress.sets_joined,
-            rounds: progress.rounds,
-            nodes: progress.nodes,
-            edges: tally.edges(),
-            components: tally.components(),
-            nodes_per_second: progress.nodes as f64 / seconds.max(1e-9),
-            evaluators: EvaluatorValue::all(problem, &progress.verdicts),
-            workers_alive: status.workers_alive,
-            workers_wanted: status.workers_wanted,
-        };
+        let report = Report::of(status, self.seconds());
         let pause = match &mut self.kind {
             Kind::Terminal(bar) => {
                 bar.set_message(report.to_string());

@@ -115,8 +115,8 @@ fn unusable_problems_are_refused_at_their_line() {
         (START, "start = [1.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0]", "quaternion"),
         (START, "start = [nan, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "NaN"),
         (START, "start = [4.0, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "collides"),
-        (START, "start = [9.0, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "bounds"),
-        (START, "start = [0.1, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "leaves the bounds"),
+        (START, "start = [9.0, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "x is 9, 0 to 8 expected"),
+        (START, "start = [0.1, 2.0, 2.0, 1.0, 0.0, 0.0, 0.0]", "the robot reaches 0.15"),
         (START, "start = [1.0, 2.0, 2.0]", "7 expected: x y z qw qx qy qz"),
         // counts
         ("sets_per_round = 2", "sets_per_round = 0", "0 found"),
@@ -124,7 +124,48 @@ fn unusable_problems_are_refused_at_their_line() {
         ("attempts = 1000", "attempts = 0", "attempts = 0 found"),
         ("nodes = 30", "nodes = 1000000000000", "1000000000000 found"),
         ("nodes = 5000", "nodes = 1000000000000", "1000000000000 found"),
-        ("nodes = 30\n", "nodes = -1\n", "-1"),
+        // whole numbers
+        ("nodes = 30\n", "nodes = -1\n", "strategies[0].nodes: -1 found; a whole number from 0 to"),
+        (
+            "neighbors = 5",
+            "neighbors = -1",
+            "strategies[0].within.nearest.neighbors: -1 found; a whole number from 0 to 4294967295 expected",
+        ),
+        (
+            "attempts = 1000",
+            "attempts = -4",
+            "strategies[0].sampler.uniform.attempts: -4 found; a whole number from 0 to",
+        ),
+        (
+            "attempts = 1000",
+            "attempts = 2.5",
+            "strategies[0].sampler.uniform.attempts: 2.5 found; a whole number from 0 to",
+        ),
+        (
+            "attempts = 1000",
+            "attempts = \"many\"",
+            "strategies[0].sampler.uniform.attempts: \"many\" found; a whole number from 0 to",
+        ),
+        (
+            "within = { nearest = { neighbors = 5 } }",
+            "within = { neighbors = { finder = { randomised = { nearest = -1 } } } }",
+            "finder.randomised.nearest: -1 found; a whole number from 0 to 4294967295 expected",
+        ),
+        (
+            SAMPLER,
+            "generator = { rrg = { neighbors = { hop_limit = -1 } } }",
+            "rrg.neighbors.hop_limit: -1 found; a whole number from 0 to 4294967295 expected",
+        ),
+        (
+            SAMPLER,
+            "generator = { rrg = { neighbors = -1 } }",
+            "rrg.neighbors: -1 found; \"auto\" or a whole number from 0 to 4294967295, or a table",
+        ),
+        (
+            "sets_per_round = 2",
+            "sets_per_round = -2",
+            "img.sets_per_round: -2 found; a whole number from 0 to",
+        ),
     ];
     let scratch = Scratch::new();
     scratch.write("empty.obj", "v 0 0 0\nv 1 0 0\n");

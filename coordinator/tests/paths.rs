@@ -2,11 +2,12 @@
 
 mod support;
 
+use rustix::process::Signal;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use support::Scratch;
+use support::{Scratch, wait_until};
 
 /// A round hill in the middle of a plane, and two points on either side of it.
 const HILL: &str = "[landscape]\nmin = [-2, -2]\nmax = [2, 2]\ntolerance = 0.01\n\
@@ -149,6 +150,44 @@ fn the_ways_around_a_pillar_are_told_apart() {
     let done = scratch.run(&["paths", "hill", "--distinct"]);
     done.assert_code(2);
     done.assert_stderr(&["--distinct: this model knows of no obstacles, bodies expected"]);
+}
+
+/// Around a pillar there are ways without end.
+#[test]
+fn a_search_ends_with_the_time_or_a_signal_and_gives_what_it_has_found() {
+    let scratch = Scratch::new();
+    scratch.write("pillar.toml", &PILLAR.replace("nodes = 150", "nodes = 1500"));
+    scratch.build("run", &["pillar.toml"], 3);
+    let no_time = |arguments: &[&str]| {
+        scratch.run(&[&["paths", "run", "--max-time", "1e-9"], arguments].concat())
+    };
+    for arguments in [&["--count", "50"][..], &["--dissimilar", "0.2"]] {
+        let done = no_time(arguments);
+        // The best path is known at once; whether it passes the finer check is another matter.
+        match done.status.code() {
+            Some(0) => {
+                done.assert_stderr(&["the time was up before the search for paths was over"])
+            }
+            _ => done.assert_stderr(&["no path: the time was up"]),
+        }
+        assert!(done.stdout.lines().count() < 12, "{}", done.stdout);
+    }
+    let done = no_time(&["--distinct"]);
+    done.assert_code(3);
+    done.assert_stderr(&["no path: the time was up before one was found"]);
+
+    let search = ["paths", "run", "--distinct", "--count", "1000", "--shorten-tries", "100000"];
+    let running = scratch.start(&[&search[..], &["--out", "ways"]].concat());
+    wait_until("signals are listened to", || running.catches(Signal::INT) || !running.is_alive());
+    running.signal(Signal::INT);
+    let done = running.finish();
+    done.assert_code(6);
+    done.assert_stderr(&["a signal came"]);
+    // What was found is printed, and written.
+    let count = done.stderr.split("these ").nth(1).and_then(|rest| rest.split(' ').next());
+    if let Some(count) = count {
+        assert_eq!(table(&scratch.path("ways").join("paths.csv")).len().to_string(), count);
+    }
 }
 
 /// A Python that has mdtraj, unless there is none and none is required.

@@ -4,7 +4,7 @@ mod support;
 
 use rustix::process::Signal;
 use std::fs;
-use support::{ENDLESS, Scratch};
+use support::{ENDLESS, Scratch, wait_until};
 
 /// A wall has moved, the pillar has gone, and a ball has come.
 fn changed() -> String {
@@ -97,8 +97,88 @@ fn verify_needs_the_parent() {
     changed.assert_stderr(&["its ledger has the hash", "expected"]);
     verify(&["--parent", "new"]).assert_code(2);
     verify(&["--parent", "nowhere"]).assert_code(2);
-    // What is no such run needs none.
+    // What is no such run needs none, and takes none.
     scratch.run(&["verify", "elsewhere/old", "--all", "--threads", "2"]).assert_code(0);
+    for parent in ["nowhere", "new"] {
+        let done = scratch.run(&["verify", "elsewhere/old", "--parent", parent, "--threads", "1"]);
+        done.assert_code(2);
+        done.assert_stderr(&["elsewhere/old: replans no other run", "--parent", parent]);
+    }
+}
+
+/// Runs are reached by links, to the folder that they are in and to themselves, and by ways back through links.
+#[test]
+fn a_parent_is_found_again_by_whatever_links_it_was_reached() {
+    let scratch = scratch();
+    fs::create_dir_all(scratch.path("far/away/runs")).expect("a folder can be made");
+    std::os::unix::fs::symlink("far/away", scratch.path("link")).expect("a link can be made");
+    std::os::unix::fs::symlink("../../../old", scratch.path("far/away/runs/latest"))
+        .expect("a link");
+    for (old, out) in [
+        ("old", "link/new"),
+        ("link/runs/latest", "by-link"),
+        ("link/../../old", "link/runs/new"),
+        ("old", "link/runs/../other"),
+    ] {
+        let call = ["replan", old, "--with", "changed.toml", "--out", out, "--threads", "1"];
+        scratch.run(&[&call[..], &["--max-sets", "4"]].concat()).assert_code(0);
+        scratch.run(&["verify", out, "--threads", "1"]).assert_code(0);
+    }
+    // Without the links, too.
+    scratch.run(&["verify", "far/away/runs/new", "--threads", "1"]).assert_code(0);
+    fs::remove_file(scratch.path("link")).expect("it can be removed");
+    scratch.run(&["verify", "far/away/new", "--threads", "1"]).assert_code(0);
+}
+
+#[test]
+fn a_place_that_is_taken_is_told_before_anything_is_computed() {
+    let scratch = scratch();
+    fs::create_dir(scratch.path("mine")).expect("a folder can be made");
+    scratch.write("mine/notes.txt", "mine");
+    scratch.build("run", &["endless.toml", "--threads", "1", "--max-sets", "1"], 0);
+    for (arguments, said) in [
+        (&["--out", "run"][..], "run: exists already"),
+        (&["--out", "mine"], "mine: exists already"),
+        (&["--out", "mine", "--force"], "mine: holds no ledger"),
+        (&["--out", "changed.toml", "--force"], "changed.toml: not a folder"),
+        (&["--out", "mine", "--or-resume"], "mine: holds `notes.txt` but no ledger"),
+        (&["--out", "run/new"], "in the folder of the run"),
+    ] {
+        let done = scratch.run(&[&REPLAN[..], arguments].concat());
+        done.assert_code(2);
+        done.assert_stderr(&[said]);
+        assert_eq!(done.stdout, "", "{arguments:?}");
+        // `build` has the same words.
+        let build = scratch.run(&[&["build", "endless.toml"], arguments].concat());
+        build.assert_code(2);
+        build.assert_stderr(&[said]);
+    }
+}
+
+/// A roadmap with more ways than anybody waits for, of which all are looked for.
+#[test]
+fn the_search_for_old_paths_ends_with_the_time_or_a_signal() {
+    let scratch = Scratch::new();
+    scratch.write("endless.toml", ENDLESS);
+    scratch.build("old", &["endless.toml", "--threads", "1", "--max-sets", "200"], 0);
+    let query = "[query]\nstart = [1.0, 0.6, 1.0, 1.0, 0.0, 0.0, 0.0]\ngoal = [7.2, 3.0, 3.0, 1.0, 0.0, 0.0, 0.0]\n";
+    scratch.write("changed.toml", &(changed() + query));
+    let many = [&REPLAN[..], &["--paths", "1000", "--threads", "1", "--out", "new"]].concat();
+    // No time at all: the search is cut, and the one round that every build makes is made.
+    let done = scratch.run(&[&many[..], &["--max-time", "1e-9"]].concat());
+    assert!(matches!(done.status.code(), Some(0 | 3)), "{done:?}");
+    let cut = "the time was up before the search for them was over";
+    assert!(done.stdout.contains(cut), "{}", done.stdout);
+    scratch.run(&["verify", "new", "--threads", "1"]).assert_code(0);
+
+    fs::remove_dir_all(scratch.path("new")).expect("it can be removed");
+    let running = scratch.start(&many);
+    wait_until("signals are listened to", || running.catches(Signal::INT) || !running.is_alive());
+    running.signal(Signal::INT);
+    let done = running.finish();
+    done.assert_code(6);
+    done.assert_stderr(&["a signal came; no run is made"]);
+    assert!(!scratch.path("new").exists());
 }
 
 #[test]
@@ -222,7 +302,8 @@ fn what_cannot_be_replanned_is_said_and_leaves_nothing() {
     let query = DISC.find("[query]").expect("a query");
     let without = DISC[..query].to_owned() + &DISC[DISC.find("[img]").expect("a schedule")..];
     refused(&without, &["--components", "start"], &["with.toml: ", "[query]"]);
-    refused(DISC, &["--neighbors", "0"], &["--neighbors"]);
+    refused(DISC, &["--neighbors", "0"], &["--neighbors", "1..=1000"]);
+    refused(DISC, &["--neighbors", "4294967295"], &["--neighbors", "1..=1000"]);
     refused(DISC, &["--components", "some"], &["--components", "start, all"]);
     refused("nonsense", &[], &["with.toml:1"]);
     let closed = DISC.replace("size = [0.4, 3.0, 1.0]", "size = [0.4, 3.0, -1.0]");

@@ -272,3 +272,78 @@ fn verify_names_the_first_difference_and_diff_the_reason() {
     verify(&["--set", "one:11"]).assert_code(0);
     verify(&["--set", "one:1"]).assert_code(2);
 }
+
+/// A disc that passes a wall, by trees about the ends of its query and by sets that know nothing of it.
+const ABOUT_ENDS: &str = r#"
+evaluators = []
+[space]
+motion = "translation-2d"
+min = [0.0, 0.0]
+max = [8.0, 6.0]
+bounds = "body"
+[robot]
+bodies = [{ shape = { sphere = { radius = 0.2 } } }]
+[[obstacles]]
+shape = { box = { size = [0.4, 3.0, 1.0] } }
+position = [4.0, 3.0, 0.0]
+[query]
+start = [1.0, 3.0]
+goal = [7.0, 3.0]
+[img]
+sets_per_round = 2
+[[strategies]]
+label = "u"
+nodes = 10
+sampler = { uniform = {} }
+[[strategies]]
+label = "trees"
+nodes = 15
+generator = { rrt-connect = { step = 0.5 } }
+[limits]
+sets = 8
+"#;
+
+#[test]
+fn a_build_goes_on_with_another_query_and_each_set_is_verified_under_its_own() {
+    let scratch = Scratch::new();
+    let chapter = |label: &str, start: &str, sets: u32| {
+        let text = ABOUT_ENDS.replace("\"trees\"", &format!("{label:?}"));
+        let text = text.replace("start = [1.0, 3.0]", &format!("start = {start}"));
+        text.replace("sets = 8", &format!("sets = {sets}"))
+    };
+    scratch.write("one.toml", ABOUT_ENDS);
+    scratch.build("run", &["one.toml", "--threads", "1"], 0);
+    let resume = |text: &str| {
+        scratch.write("with.toml", text);
+        scratch.run(&["resume", "run", "--with", "with.toml", "--threads", "2"])
+    };
+    let before = scratch.ledger("run");
+    let same_label = resume(&chapter("trees", "[1.0, 5.0]", 16));
+    same_label.assert_code(2);
+    same_label.assert_stderr(&["the strategy `trees`", "one with a label of its own expected"]);
+    let query = "[query]\nstart = [1.0, 5.0]\ngoal = [7.0, 3.0]\n";
+    let without = chapter("u2", "[1.0, 5.0]", 16).replace(query, "");
+    let without =
+        without.replace("rrt-connect = { step = 0.5 }", "sample = { sampler = { uniform = {} } }");
+    let without = resume(&without);
+    without.assert_code(2);
+    without.assert_stderr(&["no [query] found, but the strategy `trees`"]);
+    assert!(scratch.ledger("run") == before, "the ledger has changed");
+
+    resume(&chapter("others", "[1.0, 5.0]", 16)).assert_code(0);
+    // Back to the first query, and on with it as before but for the limit.
+    resume(&chapter("back", "[1.0, 3.0]", 24)).assert_code(0);
+    resume(&chapter("back", "[1.0, 3.0]", 32)).assert_code(0);
+    for crew in [["--threads", "2"], ["--workers", "2"]] {
+        let all = scratch.run(&["verify", "run", "--all", crew[0], crew[1]]);
+        all.assert_code(0);
+        assert!(all.stdout.contains("32 of 32 sets"), "{}", all.stdout);
+    }
+    let named = ["--set", "trees:0", "--set", "others:1", "--set", "back:7"];
+    let some = scratch.run(&[&["verify", "run", "--threads", "1"], &named[..]].concat());
+    some.assert_code(0);
+    assert!(some.stdout.contains("3 of 32 sets"), "{}", some.stdout);
+    let missing = ["verify", "run", "--set", "trees:0", "--set", "trees:7", "--threads", "1"];
+    scratch.run(&missing).assert_code(2);
+    scratch.run(&["query", "run"]).assert_code(0);
+}

@@ -248,6 +248,7 @@ fn same_bits_for_trees_and_graphs_that_grow_by_steps() {
     processes_build_what_threads_build("growth");
     processes_end_as_threads("directions", 0);
     processes_build_what_threads_build("neighbors");
+    processes_build_what_threads_build("retraction");
 }
 
 #[test]

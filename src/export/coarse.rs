@@ -1,7 +1,6 @@
 //! Meshes with fewer triangles, for pictures.
 
-use super::tessellate::Surface;
-use crate::scene::Mesh;
+use crate::scene::{Mesh, Surface};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Cells of the finest grid along the longest side of a mesh.

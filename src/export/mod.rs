@@ -41,7 +41,6 @@ mod pymol;
 mod report;
 mod solid;
 mod svg;
-mod tessellate;
 mod union;
 mod vector;
 mod view;

@@ -24,7 +24,8 @@ impl RoadmapFormat for Npz {
     }
 }
 
-/// A roadmap as NumPy arrays in an `.npz` file, the same bytes for the same roadmap:
+/// A roadmap as NumPy arrays in an `.npz` file, the same bytes for the same roadmap. The arrays are not compressed, and their
+/// data begin at multiples of 64 bytes, so that the file can be mapped into memory and read in place.
 ///
 /// | array | shape and type | what |
 /// | --- | --- | --- |
@@ -80,6 +81,10 @@ pub fn npz(problem: &Problem, roadmap: &Roadmap) -> io::Result<Vec<u8>> {
     Ok(archive.0.finish()?.into_inner())
 }
 
+/// The arrays' data begin at multiples of this many bytes of the file, so that whoever maps the file into memory finds numbers
+/// where processors want them. NumPy fills the header of an array to the same multiple.
+const ALIGNMENT: u16 = 64;
+
 struct Archive(ZipWriter<Cursor<Vec<u8>>>);
 
 impl Archive {
@@ -96,12 +101,13 @@ impl Archive {
             .compression_method(CompressionMethod::Stored)
             .last_modified_time(DateTime::DEFAULT)
             .unix_permissions(0o644)
-            .large_file(true);
+            .large_file(true)
+            .with_alignment(ALIGNMENT);
         self.0.start_file(format!("{name}.npy"), options)?;
         let mut header =
             format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
-        // Magic, version, length and header together fill blocks of 64 bytes.
-        while (10 + header.len() + 1) % 64 != 0 {
+        // Magic, version, length and header together fill blocks.
+        while (10 + header.len() + 1) % usize::from(ALIGNMENT) != 0 {
             header.push(' ');
         }
         header.push('\n');

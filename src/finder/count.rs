@@ -33,18 +33,21 @@ enum AutoWord {
 
 impl<'de> Deserialize<'de> for NeighborCount {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<NeighborCount, D::Error> {
-        from.deserialize_any(CountVisitor)
+        from.deserialize_any(CountVisitor { or: "" })
     }
 }
 
-/// Reads a number of neighbours. An error names the key, which is that of all settings of this type.
-struct CountVisitor;
+/// Reads a number of neighbours.
+pub(crate) struct CountVisitor {
+    /// What else may stand in its place, for people.
+    pub or: &'static str,
+}
 
 impl Visitor<'_> for CountVisitor {
     type Value = NeighborCount;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "neighbors = \"auto\" or a whole number from 0 to {}", u32::MAX)
+        write!(f, "\"auto\" or a whole number from 0 to {}{}", u32::MAX, self.or)
     }
 
     fn visit_u64<E: de::Error>(self, count: u64) -> Result<NeighborCount, E> {

@@ -48,6 +48,7 @@ methods! {
 pub use approximate::Approximate;
 pub use brute_force::BruteForce;
 pub use ca_rmsd::CaRmsd;
+pub(crate) use count::CountVisitor;
 pub use count::NeighborCount;
 pub use k_nearest::KNearest;
 pub use metric_tree::MetricTree;

@@ -283,7 +283,7 @@ fn settings_are_refused_with_what_is_expected() {
         ("brute-force = { neighbors = 0 }", "neighbors = 0 found; \"auto\" or at least 1 expected"),
         (
             "metric-tree = { neighbors = \"all\" }",
-            "expected neighbors = \"auto\" or a whole number from 0",
+            "metric-tree.neighbors: \"all\" found; \"auto\" or a whole number from 0",
         ),
         (
             "approximate = { epsilon = -0.1 }",

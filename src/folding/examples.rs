@@ -40,7 +40,7 @@ pub fn examples(
                 node => roadmap.configs().get(node.index()),
             };
             tried += 1;
-            let path = Path::along(cx, &route, &tree.edges, config);
+            let path = Path::along(cx, &route, |index| tree.edges[index as usize], config);
             if let Some(pathway) = Pathway::of(cx, path, spacing, scratch)? {
                 found.push(pathway);
                 break;
@@ -49,7 +49,7 @@ pub fn examples(
         }
     }
     Ok(Pathways {
-        pairs: pairs(cx, &found),
+        pairs: pairs(cx, &found, cancel),
         connected: formation.pathways > 0,
         pathways: found,
         tried,

@@ -1,7 +1,7 @@
 use super::growth::{Complaints, GrowingSet, needs_query};
 use super::rrt_connect::grow_from_ends;
 use super::{ATTEMPTS_MAX, Generator, Reads};
-use crate::context::Context;
+use crate::context::{Context, Ends};
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::roadmap::{Increment, Roadmap};
@@ -10,7 +10,7 @@ use crate::seed::Seed;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
 
-/// The step of a problem that names none, as a share of the largest distance in the space. Of a fifth, a tenth, a twentieth and a
+/// The step of a problem that names none, of [`RetractionTrees`](super::RetractionTrees) as well, as a share of the largest distance in the space. Of a fifth, a tenth, a twentieth and a
 /// fiftieth it was never far from the best in `cargo bench --bench trees` (`docs/growth.md`).
 const STEP_SHARE: f64 = 0.05;
 
@@ -18,7 +18,7 @@ const STEP_SHARE: f64 = 0.05;
 const REST: u64 = 0;
 
 /// Trees from both ends of the query as [`RrtConnect`](super::RrtConnect) grows them, in shorter steps, for builds that are not to end
-/// where trees cannot grow: a problem with a query that names no strategies has this one beside uniform sampling.
+/// where trees cannot grow.
 ///
 /// When too many extensions in a row have come to nothing, because both ends lie in places that motions of a step do not leave, the
 /// rest of the set is drawn uniformly, as [`Uniform`] does, and left to the connection among sets. So a build with
@@ -46,10 +46,34 @@ impl Default for EndTrees {
     }
 }
 
-impl EndTrees {
-    fn step(&self, cx: &Context) -> f64 {
-        self.step.unwrap_or_else(|| STEP_SHARE * cx.space.diameter())
+/// The step of a method that names one or none.
+pub(super) fn step_of(step: Option<f64>, cx: &Context) -> f64 {
+    step.unwrap_or_else(|| STEP_SHARE * cx.space.diameter())
+}
+
+/// The step as it becomes part of a problem: always a number, unless all configurations of the space are one.
+pub(super) fn calibrated(step: Option<f64>, cx: &Context) -> Option<f64> {
+    step.or_else(|| Some(step_of(None, cx)).filter(|step| *step > 0.0))
+}
+
+/// Fills a set with what grows from both ends of a query, and, where nothing grows, with configurations drawn uniformly.
+///
+/// # Errors
+/// [`GaveUp`] where nothing can be drawn either.
+pub(super) fn grow_or_draw<'a>(
+    mut set: GrowingSet<'a>,
+    seed: &Seed,
+    query: &'a Ends,
+    count: usize,
+) -> Result<Increment, GaveUp> {
+    let grown = grow_from_ends(&mut set, seed, query);
+    let (cx, mut made) = (set.cx, set.made);
+    if grown.is_err() {
+        let left = count - made.configs.len();
+        let rest = &seed.part(REST);
+        Uniform::default().sample(cx, rest, left, set.scratch, &mut made.configs)?;
     }
+    Ok(made)
 }
 
 impl Generator for EndTrees {
@@ -69,16 +93,9 @@ impl Generator for EndTrees {
         let Some(query) = cx.query.as_ref().filter(|_| self.complaint().is_none()) else {
             return Err(GaveUp { attempts: 0 });
         };
-        let limits = (self.step(cx), self.attempts);
-        let mut set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
-        let grown = grow_from_ends(&mut set, seed, query);
-        let mut made = set.made;
-        if grown.is_err() {
-            let left = count - made.configs.len();
-            let rest = &seed.part(REST);
-            Uniform::default().sample(cx, rest, left, scratch, &mut made.configs)?;
-        }
-        Ok(made)
+        let limits = (step_of(self.step, cx), self.attempts);
+        let set = GrowingSet::new(cx, seed, scratch, frozen, count, limits);
+        grow_or_draw(set, seed, query, count)
     }
 
     fn reads_query(&self) -> bool {
@@ -86,8 +103,7 @@ impl Generator for EndTrees {
     }
 
     fn calibrate(&mut self, cx: &Context, _seed: &Seed) {
-        let chosen = Some(self.step(cx)).filter(|step| *step > 0.0);
-        self.step = self.step.or(chosen);
+        self.step = calibrated(self.step, cx);
     }
 
     fn complaint(&self) -> Option<Complaint> {

@@ -27,6 +27,7 @@ mod growth;
 mod interpolation;
 mod mrrg;
 mod parent;
+mod retraction_trees;
 mod reuse;
 mod rrg;
 mod rrt;
@@ -49,7 +50,8 @@ methods! {
         Tree(tree::Tree),
         RrtConnect(rrt_connect::RrtConnect),
         Survivors(survivors::Survivors),
-        EndTrees(end_trees::EndTrees), // new ones at the end, since ledgers know methods by number
+        EndTrees(end_trees::EndTrees),
+        RetractionTrees(retraction_trees::RetractionTrees), // new ones at the end, since ledgers know methods by number
     }
 }
 
@@ -61,6 +63,7 @@ pub use growth::{FoundNeighbors, GraphNeighbors};
 pub use interpolation::Interpolation;
 pub use mrrg::Mrrg;
 pub use parent::{NoRuns, Parent, ParentRoadmap, ParentRun, Runs};
+pub use retraction_trees::RetractionTrees;
 pub use reuse::Reuse;
 pub use rrg::Rrg;
 pub use rrt::Rrt;

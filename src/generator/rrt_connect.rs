@@ -115,11 +115,11 @@ fn meet<'a>(
 ) -> Result<GrowingTree<'a>, GaveUp> {
     while !set.is_full() {
         set.attempt()?;
-        let toward = set.draw();
+        let toward = one.draw(set);
         let near = one.nearest(set, &toward);
         let extended = near.and_then(|near| set.extend(near, &toward).milestone());
         if let Some(new) = extended {
-            one.add(new);
+            one.add(set, new);
             if connect(set, &mut other, new) {
                 one.unite(other);
                 break;
@@ -142,7 +142,7 @@ fn connect(set: &mut GrowingSet, tree: &mut GrowingTree, target: u32) -> bool {
             return false;
         }
         match set.extend(near, &q) {
-            Extension::Advanced(new) | Extension::Reached(new) => tree.add(new),
+            Extension::Advanced(new) | Extension::Reached(new) => tree.add(set, new),
             Extension::Trapped => return false,
         }
     }

@@ -68,7 +68,8 @@ impl Generator for Tree {
         let limits = (step_of(self.step, &cx.space), self.attempts);
         let mut set = GrowingSet::new(cx, &seed.part(GROWTH), scratch, None, count, limits);
         let mut tree = GrowingTree::empty();
-        tree.add(set.add(root.get(0)));
+        let root = set.add(root.get(0));
+        tree.add(&set, root);
         let plain = Exploration { neighbors: None, directions: 1, trials: 1 };
         explore(&mut set, &mut tree, None, &plain)?;
         Ok(set.made)

@@ -1,6 +1,7 @@
 use super::bodies::foreign::SceneOptions;
-use super::{Figure, Model, ModelKind, Molecule, NodeValue, SceneChange};
+use super::{Figure, Model, ModelKind, Molecule, NodeValue, PoseFound, PoseGoal, SceneChange};
 use crate::digest::SourceFile;
+use crate::seed::Seed;
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
 use std::collections::BTreeMap;
@@ -64,6 +65,20 @@ pub trait Description {
     /// The atoms of its configurations, of a molecule.
     fn molecule(&self) -> Option<&dyn Molecule> {
         None
+    }
+
+    /// Configurations at which a part of the model is at a pose, of a model that has parts with poses. `accept` brings a
+    /// configuration into stored form and says whether it counts; the seed determines where the search begins.
+    ///
+    /// # Errors
+    /// The key of the pose that is wrong, what was found and what is expected.
+    fn configurations_at(
+        &self,
+        goal: &PoseGoal,
+        _seed: &Seed,
+        _accept: &mut dyn FnMut(&mut [f64]) -> bool,
+    ) -> Result<PoseFound, (&'static str, String)> {
+        Err(("link", format!("`{}` found, but the model has no links; bodies expected", goal.link)))
     }
 
     /// How it is drawn, if it can be.

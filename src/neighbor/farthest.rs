@@ -1,10 +1,6 @@
+use super::margins::{MARGIN, ROTATION_MARGIN};
 use crate::space::{Configs, FactorKind, Space};
 use std::f64::consts::PI;
-
-/// Rounding margin of the bounds on distances: relative to the bound, and in addition per unit of a rotation's
-/// weight, since small angles of rotations are rounded to about 10⁻⁸.
-const MARGIN: f64 = 1e-12;
-const ROTATION_MARGIN: f64 = 1e-6;
 
 /// A pair of configurations far from one another.
 #[derive(Clone, Copy, Debug, PartialEq)]

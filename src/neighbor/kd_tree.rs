@@ -1,4 +1,5 @@
 use super::best::{Best, Neighbor};
+use super::margins::{MARGIN, ROTATION_MARGIN, TINY};
 use super::search_trees::{SearchTree, SearchTrees, TreeQuery};
 use crate::math;
 use crate::space::{Configs, FactorKind, Space};
@@ -6,13 +7,9 @@ use std::ops::Range;
 
 /// A cell with at most so many configurations is not cut any more.
 const LEAF: usize = 8;
-/// What rounding may take from a distance as it is computed: relative to it; besides, for every coordinate, relative to the largest
-/// one, since coordinates are rounded where they are multiplied by a weight; per unit of a rotation's weight, since small
-/// angles of rotations are rounded to about 10⁻⁸; and what squares lose that are too small to be numbers.
-const MARGIN: f64 = 1e-12;
+/// What rounding may take from a distance besides the shared margins: for every coordinate, relative to the largest one, since
+/// coordinates are rounded where they are multiplied by a weight.
 const COORDINATE_MARGIN: f64 = 1e-14;
-const ROTATION_MARGIN: f64 = 1e-6;
-const TINY: f64 = 1e-150;
 
 /// A k-d tree (J. L. Bentley 1975; J. H. Friedman, J. L. Bentley, R. A. Finkel 1977): cells are cut at the median of the axis along which
 /// their points spread most. Each cell knows the bounding box of its points, which is smaller than the cell.

@@ -1,17 +1,13 @@
 use super::best::{Best, Neighbor};
+use super::margins::{MARGIN, ROTATION_MARGIN, TINY};
 use super::search_trees::{SearchTree, SearchTrees, TreeQuery};
 use crate::space::{Configs, FactorKind, Space};
 use std::ops::Range;
 
 /// A ball with at most so many configurations is not divided any more.
 const LEAF: usize = 16;
-/// What rounding may take from the triangle inequality: relative to the distances, and besides per unit of the weights of
-/// angles, which wrap, and of rotations, whose small angles are rounded to about 10⁻⁸; and what squares lose that are too small to
-/// be numbers.
-const MARGIN: f64 = 1e-12;
+/// What rounding may take from the triangle inequality besides the shared margins: per unit of the weights of angles, which wrap.
 const ANGLE_MARGIN: f64 = 1e-11;
-const ROTATION_MARGIN: f64 = 1e-6;
-const TINY: f64 = 1e-150;
 
 /// A metric tree (J. K. Uhlmann, *Satisfying general proximity/similarity queries with metric trees*, Information Processing Letters 40,
 /// 1991; P. N. Yianilos, *Data structures and algorithms for nearest neighbor search in general metric spaces*, SODA 1993): configurations

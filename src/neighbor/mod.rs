@@ -18,6 +18,7 @@ mod index;
 mod k_nearest_graph;
 mod kd_tree;
 mod layout;
+mod margins;
 mod measure;
 mod metric_tree;
 mod radius;

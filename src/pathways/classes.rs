@@ -1,7 +1,9 @@
 //! The shortest route of each class of routes in the plane.
 
 use super::topology::{Crossing, Punctures, Word, append};
+use crate::cancel::Cancel;
 use crate::local::Planner;
+use crate::model::Scratch;
 use crate::numbers::NodeId;
 use crate::query::Ways;
 use crate::roadmap::Route;
@@ -65,18 +67,28 @@ impl EdgeCrossings {
     }
 }
 
-/// The shortest route of each of the `count` classes whose shortest routes are the shortest, in order of length; fewer where there
-/// are no more. Edges that have failed the finer check are left out.
+/// What [`shortest_of_classes`] finds.
+pub(super) struct Shortest {
+    /// The routes, all of whose edges pass the finer check, in order of length.
+    pub routes: Vec<Route>,
+    /// Whether the next route has an edge that fails it, which is one of [`Ways::failed`] now.
+    pub has_failed: bool,
+}
+
+/// The shortest route of each of the `count` classes whose shortest routes are the shortest; fewer where there are no more, where
+/// one fails the finer check, or where `cancel` ends the search. Edges that have failed the finer check are left out.
 ///
 /// It is Dijkstra's algorithm over pairs of a node and a word of crossings (S. Bhattacharya, M. Likhachev, V. Kumar 2012, who search such
 /// a graph with A*). At every node no more than the `count` words whose routes are the shortest are followed. That loses nothing: two routes
 /// to a node with different words, continued alike, end with different words, so whatever continues a later one has
 /// `count` classes before it. Equal lengths go to the lower node, then to what came first.
 pub(super) fn shortest_of_classes(
-    ways: &Ways,
+    ways: &mut Ways,
     crossings: &EdgeCrossings,
     count: usize,
-) -> Vec<Route> {
+    cancel: &Cancel,
+    scratch: &mut Scratch,
+) -> Shortest {
     let [from, to] = ways.ends();
     let mut words = Words::default();
     let mut states =
@@ -84,15 +96,19 @@ pub(super) fn shortest_of_classes(
     let mut open = BinaryHeap::from([Reverse((0u64, from, 0usize))]);
     let mut settled: BTreeSet<(NodeId, usize)> = BTreeSet::new();
     let mut at_node = vec![0usize; to.index() + 1];
-    let mut found = Vec::new();
-    while let Some(Reverse((_, node, index))) = open.pop() {
+    let mut routes = Vec::new();
+    while let Some(Reverse((_, node, index))) = open.pop().filter(|_| !cancel.is_cancelled()) {
         let State { word, length, .. } = states[index];
         if at_node[node.index()] == count || !settled.insert((node, word)) {
             continue;
         }
         at_node[node.index()] += 1;
         if node == to {
-            found.push(route(&states, index));
+            let route = route(&states, index);
+            if !ways.passes(&route, scratch) {
+                return Shortest { routes, has_failed: true };
+            }
+            routes.push(route);
             continue;
         }
         for (next, edge) in ways.graph.arcs_from(node) {
@@ -109,7 +125,7 @@ pub(super) fn shortest_of_classes(
             states.push(State { node: next, word, length, before: Some((index, edge)) });
         }
     }
-    found
+    Shortest { routes, has_failed: false }
 }
 
 fn route(states: &[State], last: usize) -> Route {

@@ -151,7 +151,7 @@ fn search(
     let is_cut = cancel.is_cancelled();
     let pathways: Vec<Pathway> = chosen.into_iter().map(|index| found[index].clone()).collect();
     let dropped_edges = ways.failed.len() as u64;
-    let pairs = pairs(cx, &pathways);
+    let pairs = pairs(cx, &pathways, cancel);
     Ok(Pathways { pairs, pathways, connected, tried: looked_at, dropped_edges, is_cut })
 }
 

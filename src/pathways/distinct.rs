@@ -1,4 +1,4 @@
-use super::classes::{EdgeCrossings, shortest_of_classes};
+use super::classes::{EdgeCrossings, Shortest, shortest_of_classes};
 use super::frames::expect_coarse;
 use super::topology::{PathClass, Topology};
 use super::via_nodes::{Tried, ViaNodes};
@@ -46,7 +46,8 @@ pub struct DistinctPathways {
 /// the class that it has come to, if it is the shortest there, but in the plane for none. Costs are lengths, or whatever
 /// the model's motions cost.
 ///
-/// The search ends when `cancel` says so, with what is found by then ([`Pathways::is_cut`]).
+/// The search ends when `cancel` says so, with what is found by then ([`Pathways::is_cut`]): routes that are not shortened yet are
+/// given as they are.
 ///
 /// # Errors
 /// A path would have too many frames.
@@ -74,12 +75,8 @@ pub fn distinct(
         None => in_space(&mut ways, asked, cancel, scratch),
     };
     let mut best: BTreeMap<PathClass, Pathway> = BTreeMap::new();
-    let mut tried = 0;
+    let tried = routes.len();
     for route in &routes {
-        if tried > 0 && cancel.is_cancelled() {
-            break;
-        }
-        tried += 1;
         let path = ways.path(route);
         let mut of_route = None;
         for form in forms(cx, path, asked, cancel, scratch) {
@@ -101,7 +98,7 @@ pub fn distinct(
     found.truncate(asked.count);
     let (classes, pathways): (Vec<PathClass>, Vec<Pathway>) = found.into_iter().unzip();
     let (dropped_edges, is_cut) = (ways.failed.len() as u64, cancel.is_cancelled());
-    let pairs = pairs(cx, &pathways);
+    let pairs = pairs(cx, &pathways, cancel);
     let pathways = Pathways { pathways, pairs, connected, tried, dropped_edges, is_cut };
     Ok(DistinctPathways { pathways, classes })
 }
@@ -136,10 +133,13 @@ fn in_plane(
 ) -> Vec<Route> {
     let mut passed = Vec::new();
     for _ in 0..=asked.tries {
-        let routes = shortest_of_classes(ways, crossings, asked.count);
-        let count = routes.len();
-        passed = routes.into_iter().take_while(|route| ways.passes(route, scratch)).collect();
-        if passed.len() == count || cancel.is_cancelled() {
+        let Shortest { routes, has_failed } =
+            shortest_of_classes(ways, crossings, asked.count, cancel, scratch);
+        // A search that is cut may come to fewer than the one before, whose routes have all passed.
+        if !cancel.is_cancelled() || routes.len() > passed.len() {
+            passed = routes;
+        }
+        if !has_failed || cancel.is_cancelled() {
             break;
         }
     }

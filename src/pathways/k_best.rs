@@ -1,5 +1,6 @@
 use super::frames::expect_coarse;
 use super::{Pathway, Pathways, TooFine, pairs};
+use crate::cancel::Cancel;
 use crate::context::{Context, Ends};
 use crate::model::Scratch;
 use crate::numbers::NodeId;
@@ -32,6 +33,9 @@ pub struct KBest {
 /// many would become the same. Where many nodes stand at the same configuration, so many routes can be the same that fewer paths
 /// are found than are asked for: at most 4 routes are looked at for each, and 20 more.
 ///
+/// The search ends when `cancel` says so, once the route that is being looked for is found, with what is found by then
+/// ([`Pathways::is_cut`]): the best one in any case, unless it fails the finer check.
+///
 /// # Errors
 /// A path would have too many frames.
 pub fn k_best(
@@ -40,12 +44,13 @@ pub fn k_best(
     ends: &Ends,
     attachment: &Attachment,
     asked: &KBest,
+    cancel: &Cancel,
     scratch: &mut Scratch,
 ) -> Result<Pathways, TooFine> {
     let configs = [&ends.start[..], &ends.goal];
     expect_coarse(cx, configs, asked.spacing, scratch)?;
     let mut ways = Ways::between(cx, roadmap, configs, attachment, scratch);
-    let mut parts = Parts::of(&ways, asked.rank);
+    let mut parts = Parts::of(&ways, asked.rank, cancel);
     let connected = !parts.found.is_empty();
     let mut pathways: Vec<Pathway> = Vec::new();
     let most = TRIED_BESIDE + TRIED_FOR_ONE * asked.count;
@@ -62,8 +67,9 @@ pub fn k_best(
     pathways.sort_by_key(|pathway| pathway.measured.key(asked.rank));
     let dropped_edges = ways.failed.len() as u64;
     let tried = parts.tried;
-    let pairs = pairs(cx, &pathways);
-    Ok(Pathways { pairs, pathways, connected, tried, dropped_edges, is_cut: false })
+    let pairs = pairs(cx, &pathways, cancel);
+    let is_cut = cancel.is_cancelled();
+    Ok(Pathways { pairs, pathways, connected, tried, dropped_edges, is_cut })
 }
 
 /// How many routes are looked at for each path that is asked for, and how many beside.
@@ -89,19 +95,24 @@ pub(super) struct Parts {
     found: BTreeMap<Place, (Part, Route)>,
     /// How many routes were looked at.
     tried: usize,
+    /// Ends the search once a route was looked at.
+    cancel: Cancel,
 }
 
 impl Parts {
     /// One part: all routes from the start to the goal.
-    pub fn of(ways: &Ways, rank: Rank) -> Parts {
-        let mut parts = Parts { rank, found: BTreeMap::new(), tried: 0 };
+    pub fn of(ways: &Ways, rank: Rank, cancel: &Cancel) -> Parts {
+        let cancel = cancel.clone();
+        let mut parts = Parts { rank, found: BTreeMap::new(), tried: 0, cancel };
         parts.offer(ways, Part::default());
         parts
     }
 
-    /// The best route that was not given before and whose edges all pass the finer check.
+    /// The best route that was not given before and whose edges all pass the finer check; none once the search is cancelled,
+    /// but for the first.
     pub fn next(&mut self, ways: &mut Ways, scratch: &mut Scratch) -> Option<Route> {
-        while let Some((_, (part, route))) = self.found.pop_first() {
+        while self.tried == 0 || !self.cancel.is_cancelled() {
+            let (_, (part, route)) = self.found.pop_first()?;
             self.tried += 1;
             let has_failed = route.edges.iter().any(|edge| ways.failed.contains(edge));
             if has_failed || !ways.passes(&route, scratch) {
@@ -146,9 +157,13 @@ impl Parts {
         self.found.insert(place, (part, Route { nodes, edges, length: whole.cost }));
     }
 
-    /// Divides what is left of a part without its best route by where routes leave that.
+    /// Divides what is left of a part without its best route by where routes leave that. Not to the end where the search is
+    /// cancelled, after which no route is given any more.
     fn divide(&mut self, ways: &Ways, part: &Part, route: &Route) {
         for kept in part.nodes.len()..route.edges.len() {
+            if self.cancel.is_cancelled() {
+                break;
+            }
             let mut closed = BTreeSet::from([route.nodes[kept + 1]]);
             if kept == part.nodes.len() {
                 closed.extend(&part.closed);

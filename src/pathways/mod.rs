@@ -11,7 +11,7 @@
 //!
 //! ```
 //! use roadmill::pathways::{self, KBest, Rank};
-//! use roadmill::{Build, model::Scratch, problem::Problem};
+//! use roadmill::{Build, Cancel, model::Scratch, problem::Problem};
 //!
 //! let problem = Problem::load("tests/problems/landscape.toml".as_ref())?;
 //! let built = Build::new(problem).run()?;
@@ -19,7 +19,8 @@
 //! let ends = cx.query().expect("the problem has a query");
 //! let asked = KBest { count: 3, rank: Rank::Barrier, spacing: 0.05 };
 //! let attachment = built.problem().attachment();
-//! let found = pathways::k_best(cx, built.roadmap(), ends, &attachment, &asked, scratch)?;
+//! let (roadmap, cancel) = (built.roadmap(), Cancel::new());
+//! let found = pathways::k_best(cx, roadmap, ends, &attachment, &asked, &cancel, scratch)?;
 //! for pathway in &found.pathways {
 //!     println!("{:?} {:?}", pathway.measured.there, pathway.measured.back);
 //! }
@@ -47,9 +48,11 @@ pub use frechet::{Decided, discrete_frechet, hausdorff};
 pub use k_best::{KBest, k_best};
 pub use measured::{Measured, OneWay};
 
+use crate::cancel::Cancel;
 use crate::context::Context;
 use crate::model::Scratch;
 use crate::query::Path;
+use rayon::prelude::*;
 
 /// One way from the start to the goal.
 #[derive(Clone, Debug)]
@@ -67,7 +70,8 @@ pub struct Pathway {
 pub struct Pathways {
     /// The pathways in their ranking.
     pub pathways: Vec<Pathway>,
-    /// How far each two of them are apart.
+    /// How far each two of them are apart, in the order of the second, then of the first. Where the search was cut, that is
+    /// certain of the first 20 pathways only: distances from others are missing as far as they were not measured by then.
     pub pairs: Vec<Pair>,
     /// Whether any route joins the ends, by the roadmap's edges as they are recorded.
     pub connected: bool,
@@ -106,17 +110,25 @@ impl Pathway {
     }
 }
 
-/// How far each two pathways are apart.
-pub(crate) fn pairs(cx: &Context, pathways: &[Pathway]) -> Vec<Pair> {
-    let mut pairs = Vec::new();
-    for (second, b) in pathways.iter().enumerate() {
-        for (first, a) in pathways[..second].iter().enumerate() {
-            let frechet = a.frames.frechet(&b.frames, &cx.space);
-            let hausdorff = a.frames.hausdorff(&b.frames, &cx.space);
-            pairs.push(Pair { first, second, frechet, hausdorff });
-        }
-    }
-    pairs
+/// So many pathways are compared with each other also once a search is cancelled.
+const COMPARED: usize = 20;
+
+/// How far each two pathways are apart. Once `cancel` says so, pathways after the first [`COMPARED`] are compared with none before
+/// them. Measured in several threads; the outcome does not depend on how many.
+pub(crate) fn pairs(cx: &Context, pathways: &[Pathway], cancel: &Cancel) -> Vec<Pair> {
+    let with_earlier = |second: usize| -> Vec<Pair> {
+        let is_over = second >= COMPARED && cancel.is_cancelled();
+        let earlier = &pathways[..if is_over { 0 } else { second }];
+        let frames = &pathways[second].frames;
+        let pair = |(first, one): (usize, &Pathway)| {
+            let frechet = one.frames.frechet(frames, &cx.space);
+            let hausdorff = one.frames.hausdorff(frames, &cx.space);
+            Pair { first, second, frechet, hausdorff }
+        };
+        earlier.iter().enumerate().map(pair).collect()
+    };
+    let all: Vec<Vec<Pair>> = (0..pathways.len()).into_par_iter().map(with_earlier).collect();
+    all.concat()
 }
 
 #[cfg(test)]

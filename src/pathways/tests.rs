@@ -61,7 +61,8 @@ impl Built {
         let (cx, scratch) = (&self.setup.cx, &mut Scratch::new());
         let asked = KBest { count, rank, spacing: 0.1 };
         let how = Attachment::default();
-        k_best(cx, &self.roadmap, self.ends(), &how, &asked, scratch).expect("few frames")
+        let cancel = Cancel::new();
+        k_best(cx, &self.roadmap, self.ends(), &how, &asked, &cancel, scratch).expect("few frames")
     }
 }
 
@@ -246,7 +247,8 @@ fn spacings_of_too_many_frames_are_refused() {
         let expected = TooFine { spacing, most: 10_000 };
         assert_eq!(search.err(), Some(expected));
         let asked = KBest { count: 1, rank: Rank::Barrier, spacing };
-        let search = k_best(cx, &built.roadmap, built.ends(), &how, &asked, scratch);
+        let search =
+            k_best(cx, &built.roadmap, built.ends(), &how, &asked, &Cancel::new(), scratch);
         assert_eq!(search.err(), Some(expected));
     }
     let problem = Problem::load("problems/peptide.toml".as_ref()).expect("it ships");
@@ -324,7 +326,7 @@ proptest! {
         for rank in [Rank::Cost, Rank::Barrier] {
             let ends = [&[-1.0, 0.5][..], &[1.0, 0.5]];
             let mut ways = Ways::of(cx, &roadmap, ends, edges.iter().copied(), [Vec::new(), Vec::new()], None);
-            let mut parts = Parts::of(&ways, rank);
+            let mut parts = Parts::of(&ways, rank, &Cancel::new());
             let (mut found, scratch) = (Vec::new(), &mut Scratch::new());
             while let Some(route) = parts.next(&mut ways, scratch) {
                 found.push(route.nodes.iter().map(|node| node.0).collect::<Vec<_>>());

@@ -1,7 +1,7 @@
 //! Problems from values: what a problem file says, said by a program.
 
 use super::file::{File, PolicyTable, QueryTable, ScheduleTable};
-use super::{Problem, ProblemError, StrategySpec, resolve};
+use super::{ConfigurationSpec, Problem, ProblemError, StrategySpec, resolve};
 use crate::evaluate::EvaluatorKind;
 use crate::generator::{NoRuns, Runs};
 use crate::model::ModelSpec;
@@ -108,12 +108,12 @@ impl ProblemBuilder {
         ProblemBuilder { folder: folder.into(), ..self }
     }
 
-    /// The configurations between which a path is wanted: one value per degree of freedom, in the order that
-    /// `docs/problems.md` says.
+    /// The configurations between which a path is wanted, each a [`ConfigurationSpec`]: one value per degree of freedom, in
+    /// the order that `docs/problems.md` says; the name of a state of the robot's SRDF; or values by names of joints.
     pub fn query(
         mut self,
-        start: impl Into<Vec<f64>>,
-        goal: impl Into<Vec<f64>>,
+        start: impl Into<ConfigurationSpec>,
+        goal: impl Into<ConfigurationSpec>,
     ) -> ProblemBuilder {
         self.file.query = Some(QueryTable { start: start.into(), goal: goal.into() });
         self

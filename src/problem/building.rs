@@ -129,8 +129,8 @@ pub(super) fn adaptive_of(source: &Source, file: &File) -> Result<Option<Adaptiv
 
 /// The strategies of a problem that names none, and which of them makes the sets of each round.
 ///
-/// Uniform sampling, and, if there is a query, in every fifth set trees from both its ends. Each of the two solves queries that
-/// the other is long about, and both together many sooner than either (`docs/performance.md`, "Time to solve").
+/// Uniform sampling, and, if there is a query, in every fifth set trees from both its ends whose blocked extensions are bent aside. Each of the
+/// two solves queries that the other is long about, and both together many sooner than either (`docs/performance.md`, "Time to solve").
 fn default_strategies(has_trees: bool) -> (Vec<StrategySpec>, Vec<StrategyIndex>) {
     let (uniform, growing) = (StrategyIndex(0), StrategyIndex(1));
     match has_trees {

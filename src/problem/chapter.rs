@@ -34,16 +34,8 @@ impl Problem {
         if let Some(difference) = self.scene_difference(changed) {
             return Err(difference);
         }
-        // Sets that were made about the ends of a query are only made again while that is the query.
-        let about_ends = |known: &&Strategy| known.generator.method().reads_query();
-        if self.query != changed.query
-            && let Some(known) = self.strategies.iter().find(about_ends)
-        {
-            return Err(format!(
-                "the strategy `{}` draws about the ends of the query, which are not what they were; the same query expected, or \
-                 `roadmill replan`, which takes the roadmap over into a run of its own",
-                known.label
-            ));
+        if self.query != changed.query {
+            self.expect_strategies_for(changed)?;
         }
         let mut strategies = self.strategies.clone();
         let mut index = Vec::new();
@@ -89,6 +81,29 @@ impl Problem {
             earlier,
             ..self.clone()
         })
+    }
+
+    /// Refuses strategies that would go on about the ends of another query: the first set of a label places the ends, and the others
+    /// grow from there. Sets that are there were made under the query of their chapter, and are made again under it.
+    fn expect_strategies_for(&self, changed: &Problem) -> Result<(), String> {
+        let about_ends = |known: &&Strategy| known.generator.method().reads_query();
+        let mut of_before = self.strategies.iter().filter(about_ends);
+        let is_named =
+            |known: &&Strategy| changed.strategies.iter().any(|new| new.label == known.label);
+        if let Some(known) = of_before.clone().find(is_named) {
+            return Err(format!(
+                "the strategy `{}` works about the ends of the query, which are not what they were; one with a label of its own \
+                 expected, or the same query, or `roadmill replan`, which takes the roadmap over into a run of its own",
+                known.label
+            ));
+        }
+        match of_before.next() {
+            Some(known) if changed.query.is_none() => Err(format!(
+                "no [query] found, but the strategy `{}` has sets about the ends of one; another query expected",
+                known.label
+            )),
+            _ => Ok(()),
+        }
     }
 
     /// What, of all that determines a set beside its strategy, differs in `other`.

@@ -1,7 +1,7 @@
 //! What a problem asks for, before anything is checked, but for its model: the tables of a problem file, or what a
 //! program gives a [`ProblemBuilder`](super::ProblemBuilder).
 
-use super::StrategySpec;
+use super::{ConfigurationSpec, StrategySpec};
 use crate::evaluate::EvaluatorKind;
 use crate::schedule::Adaptive;
 use serde::Deserialize;
@@ -27,8 +27,8 @@ pub(super) struct File {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct QueryTable {
-    pub start: Vec<f64>,
-    pub goal: Vec<f64>,
+    pub start: ConfigurationSpec,
+    pub goal: ConfigurationSpec,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]

@@ -44,8 +44,13 @@ pub enum Components {
 pub struct Replanning {
     /// Which components are kept; if nothing is said those with the start, or, in a problem without a query, all.
     pub components: Option<Components>,
-    /// With how many nearest nodes each is tried again where obstacles went.
+    /// With how many nearest nodes each is tried again where obstacles went: 1 to [`Replanning::NEIGHBORS_MAX`].
     pub neighbors: u32,
+}
+
+impl Replanning {
+    /// The most nearest nodes with which each is tried again. All pairs of nodes with these are held at once, 8 bytes each.
+    pub const NEIGHBORS_MAX: u32 = 1000;
 }
 
 impl Default for Replanning {
@@ -120,8 +125,9 @@ impl Problem {
         if old.roadmap.configs().is_empty() {
             return Err("the old roadmap has no nodes; at least 1 expected".to_owned());
         }
-        if asked.neighbors == 0 {
-            return Err("0 neighbors found; at least 1 expected".to_owned());
+        let most = Replanning::NEIGHBORS_MAX;
+        if !(1..=most).contains(&asked.neighbors) {
+            return Err(format!("{} neighbors found; 1 to {most} expected", asked.neighbors));
         }
         let start = match (asked.components, &self.query) {
             (Some(Components::WithStart), None) => {

@@ -2,8 +2,8 @@
 
 use super::building::{Sets, adaptive_of, evaluators_of, limits_of, sets_of};
 use super::file::{File, KEYS};
+use super::poses::ends_of;
 use super::{DEFAULT_SEED, Problem};
-use crate::context::Ends;
 use crate::generator::{Runs, Sample};
 use crate::internal::plain::plain;
 use crate::model::{ModelKind, ModelSpec};
@@ -96,11 +96,8 @@ fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {
 fn accepted(source: &Source, file: &File, mut problem: Problem) -> Result<Problem, ProblemError> {
     let mut cx = problem.context();
     if let Some(query) = &file.query {
-        let (mut start, mut goal) = (query.start.clone(), query.goal.clone());
-        for (key, q) in [("start", &mut start), ("goal", &mut goal)] {
-            cx.accept(q).map_err(|message| source.error(&[Key("query"), Key(key)], message))?;
-        }
-        problem.query = Some(Ends { start, goal });
+        let asked = [("start", &query.start), ("goal", &query.goal)];
+        problem.query = Some(ends_of(source, &cx, &mut problem, asked)?);
         cx.query.clone_from(&problem.query);
     }
     let seed = problem.seed;

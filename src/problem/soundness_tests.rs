@@ -3,7 +3,7 @@
 use super::*;
 use crate::model::Scratch;
 use crate::model::bodies::Bodies;
-use crate::model::bodies::robot::{Joint, JointKind, Limits as Range, Link};
+use crate::model::bodies::robot::{Joint, JointKind, Limits as Range, Link, Mimic};
 use crate::model::landscape::{Energy, Landscape, Term};
 use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::space::BaseJoint;
@@ -39,8 +39,16 @@ fn linkage() -> Problem {
     let axis = [0.0, 0.0, 1.0];
     let limits = Range { min: -1.0, max: 1.0 };
     let revolute = JointKind::Revolute { axis, limits: Some(limits) };
-    let kinds =
-        [revolute, JointKind::Prismatic { axis, limits }, JointKind::Spherical, JointKind::Fixed];
+    let follows = |value, multiplier| Mimic { value, multiplier, offset: 0.5 };
+    let kinds = [
+        revolute,
+        JointKind::Prismatic { axis, limits },
+        JointKind::Spherical,
+        JointKind::Fixed,
+        JointKind::RevoluteMimic { axis, mimic: follows(1, -0.5) },
+        JointKind::PrismaticMimic { axis, mimic: follows(0, 2.0) },
+        JointKind::Locked,
+    ];
     for (parent, kind) in kinds.into_iter().enumerate() {
         let ball = Shape::Sphere { radius: 0.1 };
         let ball = Body { shape: ball, pose: Pose::IDENTITY, solid: true };
@@ -76,6 +84,14 @@ fn bodies_that_no_file_could_give_are_refused() {
     fn kind(bodies: &mut Bodies, link: usize) -> &mut JointKind {
         &mut bodies.robot.links[link].joint.as_mut().unwrap().kind
     }
+    fn mimic(bodies: &mut Bodies, link: usize) -> &mut Mimic {
+        match kind(bodies, link) {
+            JointKind::RevoluteMimic { mimic, .. } | JointKind::PrismaticMimic { mimic, .. } => {
+                mimic
+            }
+            _ => unreachable!("it follows another"),
+        }
+    }
     let problem = linkage();
     assert_eq!(again(&problem).unwrap(), problem);
     let index = problem.model.bodies().unwrap().obstacles.len() - 1;
@@ -93,7 +109,27 @@ fn bodies_that_no_file_could_give_are_refused() {
         (|b| b.robot.links[2].joint = joint(2, JointKind::Fixed), "link 2.joint: parent 2 found"),
         (|b| b.robot.links[2].joint = joint(9, JointKind::Fixed), "link 2.joint: parent 9 found"),
         (|b| b.robot.links.iter_mut().for_each(|l| l.bodies.clear()), "robot.bodies: no bodies"),
-        (|b| b.robot.may_touch.push((1, 5)), "robot.may_touch: (1, 5) found"),
+        (|b| b.robot.may_touch.push((1, 8)), "robot.may_touch: (1, 8) found"),
+        (|b| mimic(b, 5).value = 2, "link 5.joint: follows the value 2"),
+        (|b| mimic(b, 5).value = 6, "link 5.joint: follows the value 6"),
+        (|b| mimic(b, 5).value = u32::MAX, "link 5.joint: follows the value"),
+        (
+            |b| mimic(b, 5).multiplier = f64::NAN,
+            "link 5.joint: follows a value of up to 1, times NaN",
+        ),
+        (|b| mimic(b, 6).offset = f64::INFINITY, "link 6.joint: follows a value of up to 1"),
+        (|b| mimic(b, 5).offset = 100.0, "plus 100: 100.5 found"),
+        (
+            |b| *kind(b, 1) = JointKind::Revolute { axis: [0.0, 0.0, 1.0], limits: None },
+            "link 6.joint: follows a joint that turns on and on",
+        ),
+        (
+            |b| match kind(b, 5) {
+                JointKind::RevoluteMimic { axis, .. } => axis[0] = 2.0,
+                _ => unreachable!("it is one that turns"),
+            },
+            "link 5.joint: axis",
+        ),
         (|b| b.robot.base.rotation = [1e200; 4], "robot.base: orientation"),
         (|b| b.robot.base.translation[1] = f64::NAN, "robot.base: position"),
         (|b| b.obstacles[3].pose.rotation = [0.0; 4], "obstacles[3]: orientation"),

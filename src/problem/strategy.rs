@@ -1,5 +1,5 @@
 use crate::connect::{AmongKind, UntilJoined, WithinKind};
-use crate::generator::{EndTrees, GeneratorKind, Sample};
+use crate::generator::{GeneratorKind, RetractionTrees, Sample};
 use crate::sampler::SamplerKind;
 use crate::strategy::Strategy;
 use serde::Deserialize;
@@ -149,7 +149,8 @@ impl StrategySpec {
     /// The second strategy of a problem with a query that names none: trees from both ends. What they grow hangs at the ends
     /// already, so that it is joined to other components only.
     pub(super) fn from_both_ends() -> StrategySpec {
-        StrategySpec::generated("rrt-connect", GeneratorKind::EndTrees(EndTrees::default()))
+        let trees = GeneratorKind::RetractionTrees(RetractionTrees::default());
+        StrategySpec::generated("rrt-connect", trees)
             .among(AmongKind::UntilJoined(UntilJoined::default()))
     }
 

@@ -47,5 +47,5 @@ pub(super) fn is_shortest(edge: &Edge) -> bool {
 pub(super) fn path(cx: &Context, ends: [&[f64]; 2], edge: Edge) -> Path {
     let nodes = vec![edge.low, edge.high];
     let route = Route { nodes, edges: vec![0], length: edge.cost.forward() };
-    Path::along(cx, &route, &[edge], |node| ends[usize::from(node == edge.high)])
+    Path::along(cx, &route, |_| edge, |node| ends[usize::from(node == edge.high)])
 }

@@ -17,11 +17,13 @@
 mod attach;
 mod direct;
 mod path;
+mod prepared;
 mod shorten;
 mod ways;
 
 pub(crate) use attach::{attach, attach_for_good, once_nearest};
 pub use path::Path;
+pub use prepared::PreparedRoadmap;
 pub use shorten::{shorten, shorten_within};
 pub(crate) use ways::Ways;
 
@@ -78,6 +80,33 @@ pub struct Answer {
     pub dropped_edges: u64,
 }
 
+impl Answer {
+    /// Why there is no path, for people; only for answers that have none.
+    pub fn why_no_path(&self) -> &'static str {
+        let [start, goal] = self.attached;
+        match (start, goal, self.connected) {
+            (0, _, _) => "the start connects to no node of the roadmap",
+            (_, 0, _) => "the goal connects to no node of the roadmap",
+            (_, _, false) => "start and goal connect to different components",
+            (_, _, true) => "every path between them has an edge that fails the finer check",
+        }
+    }
+
+    /// The answer as long as there is no path: how many nodes either end is attached to, and whether the two are joined.
+    fn without_path(roadmap: &Roadmap, attached: &AttachedEdges, direct: Option<Edge>) -> Answer {
+        let reached = |edges: &[Edge]| -> BTreeSet<NodeId> {
+            edges.iter().map(|edge| roadmap.components().of_node(edge.low).name).collect()
+        };
+        let [from_start, from_goal] = attached;
+        Answer {
+            attached: [from_start.len() as u32, from_goal.len() as u32],
+            connected: direct.is_some() || !reached(from_start).is_disjoint(&reached(from_goal)),
+            path: None,
+            dropped_edges: 0,
+        }
+    }
+}
+
 /// Looks for a shortest path from `start` to `goal`, both valid, whose edges all pass a check at a
 /// [`PATH_REFINEMENT`]th of the resolution.
 ///
@@ -93,18 +122,39 @@ pub fn solve(
     attachment: &Attachment,
     scratch: &mut Scratch,
 ) -> Answer {
-    let [from, to] = end_ids(roadmap);
     let ends = [start, goal];
+    let (attached, direct) = match reach(cx, roadmap, ends, attachment, scratch) {
+        Ok(reached) => reached,
+        Err(answer) => return *answer,
+    };
+    let [from, to] = end_ids(roadmap);
+    let search = Search { cx, roadmap, ends, attached, direct };
+    let shortest = |graph: &Graph, failed: &BTreeSet<u32>| graph.shortest(from, to, failed);
+    search.answer(shortest, scratch)
+}
+
+/// The edges that attach start and goal.
+type AttachedEdges = [Vec<Edge>; 2];
+
+/// The edges that attach two ends to a roadmap, and the direct motion between them, if there is one that has passed the finer
+/// check; or the answer, where that motion is.
+fn reach(
+    cx: &Context,
+    roadmap: &Roadmap,
+    ends: [&[f64]; 2],
+    attachment: &Attachment,
+    scratch: &mut Scratch,
+) -> Result<(AttachedEdges, Option<Edge>), Box<Answer>> {
+    let [from, to] = end_ids(roadmap);
     let direct = direct::edge(cx, ends, from, attachment, scratch);
     if let Some(edge) = direct.filter(direct::is_shortest) {
         let path = Some(direct::path(cx, ends, edge));
-        return Answer { attached: [0, 0], connected: true, path, dropped_edges: 0 };
+        let answer = Answer { attached: [0, 0], connected: true, path, dropped_edges: 0 };
+        return Err(Box::new(answer));
     }
-    let from_start = attach(cx, roadmap, start, from, attachment, scratch);
-    let from_goal = attach(cx, roadmap, goal, to, attachment, scratch);
-    let search = Search { cx, roadmap, ends, attached: [from_start, from_goal], direct };
-    let shortest = |graph: &Graph, failed: &BTreeSet<u32>| graph.shortest(from, to, failed);
-    search.answer(shortest, scratch)
+    let from_start = attach(cx, roadmap, ends[0], from, attachment, scratch);
+    let from_goal = attach(cx, roadmap, ends[1], to, attachment, scratch);
+    Ok(([from_start, from_goal], direct))
 }
 
 /// Why a configuration cannot be the end of a query.
@@ -128,13 +178,18 @@ pub fn ask(
     attachment: &Attachment,
     scratch: &mut Scratch,
 ) -> Result<Answer, EndError> {
+    let [start, goal] = accepted(cx, (start, goal))?;
+    Ok(solve(cx, roadmap, (&start, &goal), attachment, scratch))
+}
+
+/// The ends of a query that come from outside, in stored form.
+fn accepted(cx: &Context, (start, goal): (&[f64], &[f64])) -> Result<[Vec<f64>; 2], EndError> {
     let accept = |end, q: &[f64]| {
         let mut q = q.to_vec();
         cx.accept(&mut q).map_err(|reason| EndError { end, reason })?;
         Ok(q)
     };
-    let (start, goal) = (accept("start", start)?, accept("goal", goal)?);
-    Ok(solve(cx, roadmap, (&start, &goal), attachment, scratch))
+    Ok([accept("start", start)?, accept("goal", goal)?])
 }
 
 /// The lowest barrier between `start` and `goal`, both valid, in a model with energies, and the shortest path, by the
@@ -218,16 +273,7 @@ impl Search<'_> {
         scratch: &mut Scratch,
     ) -> Answer {
         let Search { cx, roadmap, ends, attached, direct } = self;
-        let reached = |edges: &[Edge]| -> BTreeSet<NodeId> {
-            edges.iter().map(|edge| roadmap.components().of_node(edge.low).name).collect()
-        };
-        let [from_start, from_goal] = &attached;
-        let mut answer = Answer {
-            attached: [from_start.len() as u32, from_goal.len() as u32],
-            connected: direct.is_some() || !reached(from_start).is_disjoint(&reached(from_goal)),
-            path: None,
-            dropped_edges: 0,
-        };
+        let mut answer = Answer::without_path(roadmap, &attached, direct);
         if !answer.connected {
             return answer;
         }

@@ -15,13 +15,13 @@ pub struct Path {
 }
 
 impl Path {
-    /// The path along a route: each edge's own motion, turned around where it is walked from its
+    /// The path along a route, whose edges `edge` gives by their indices: each edge's own motion, turned around where it is walked from its
     /// higher end. Where one configuration follows itself, since an end of the query is a node, say, or a motion turns
     /// where it begins, it stands once.
     pub(crate) fn along<'a>(
         cx: &Context,
         route: &Route,
-        edges: &[Edge],
+        edge: impl Fn(u32) -> Edge,
         config: impl Fn(NodeId) -> &'a [f64],
     ) -> Path {
         let mut configs = Configs::new(cx.space.len());
@@ -30,8 +30,8 @@ impl Path {
             false => configs.push(q),
         };
         push(config(route.nodes[0]));
-        for (node, edge) in route.nodes.iter().zip(&route.edges) {
-            let edge = &edges[*edge as usize];
+        for (node, index) in route.nodes.iter().zip(&route.edges) {
+            let edge = edge(*index);
             let planner = Planner::from_tag(edge.planner).expect("edges carry known planners");
             let motion = planner.motion(cx, config(edge.low), config(edge.high));
             let forwards = *node == edge.low;

@@ -75,34 +75,58 @@ impl<'a> Ways<'a> {
 
     /// The configuration of a node, or of one of the ends.
     pub fn config(&self, node: NodeId) -> &'a [f64] {
-        let [from, to] = end_ids(self.roadmap);
-        match node {
-            node if node == from => self.ends[0],
-            node if node == to => self.ends[1],
-            node => self.roadmap.configs().get(node.index()),
-        }
+        config_in(self.roadmap, self.ends)(node)
     }
 
     /// Whether all edges of a route pass the finer check. The first that does not becomes one of [`Ways::failed`].
     pub fn passes(&mut self, route: &Route, scratch: &mut Scratch) -> bool {
-        for index in &route.edges {
-            if self.passed.contains(index) {
-                continue;
-            }
-            let edge = &self.edges[*index as usize];
-            let ends = (self.config(edge.low), self.config(edge.high));
-            let planner = Planner::from_tag(edge.planner).into_iter().collect::<Vec<_>>();
-            if local::connect(self.cx, &planner, ends, PATH_REFINEMENT, scratch).is_none() {
-                self.failed.insert(*index);
-                return false;
-            }
-            self.passed.insert(*index);
-        }
-        true
+        let (cx, roadmap, ends) = (self.cx, self.roadmap, self.ends);
+        let edge = |index: u32| self.edges[index as usize];
+        let failed =
+            first_failed(cx, route, (edge, config_in(roadmap, ends)), &mut self.passed, scratch);
+        self.failed.extend(failed);
+        failed.is_none()
     }
 
     /// The path along a route.
     pub fn path(&self, route: &Route) -> Path {
-        Path::along(self.cx, route, &self.edges, |node| self.config(node))
+        Path::along(self.cx, route, |index| self.edges[index as usize], |node| self.config(node))
     }
+}
+
+/// The configurations of a roadmap's nodes, and those of a start and a goal under the ids of [`end_ids`].
+pub(super) fn config_in<'a>(
+    roadmap: &'a Roadmap,
+    ends: [&'a [f64]; 2],
+) -> impl Fn(NodeId) -> &'a [f64] {
+    let [from, to] = end_ids(roadmap);
+    move |node| match node {
+        node if node == from => ends[0],
+        node if node == to => ends[1],
+        node => roadmap.configs().get(node.index()),
+    }
+}
+
+/// The index of the first edge of a route that fails the finer check. Edges are looked up by their indices, the configurations
+/// of their ends by their nodes; those in `passed` have passed before, and what passes is added to them.
+pub(super) fn first_failed<'a>(
+    cx: &Context,
+    route: &Route,
+    (edge, config): (impl Fn(u32) -> Edge, impl Fn(NodeId) -> &'a [f64]),
+    passed: &mut BTreeSet<u32>,
+    scratch: &mut Scratch,
+) -> Option<u32> {
+    for index in &route.edges {
+        if passed.contains(index) {
+            continue;
+        }
+        let edge = edge(*index);
+        let ends = (config(edge.low), config(edge.high));
+        let planner = Planner::from_tag(edge.planner).into_iter().collect::<Vec<_>>();
+        if local::connect(cx, &planner, ends, PATH_REFINEMENT, scratch).is_none() {
+            return Some(*index);
+        }
+        passed.insert(*index);
+    }
+    None
 }

@@ -1,5 +1,6 @@
 //! Roadmaps: configurations, edges, connected components, and the fold that grows them.
 
+pub(crate) mod bidirectional;
 mod centre;
 mod component;
 mod components;
@@ -9,6 +10,7 @@ mod encoding;
 mod forest;
 mod increment;
 mod indices;
+pub(crate) mod landmarks;
 mod round;
 mod search;
 mod searches;

@@ -28,14 +28,14 @@ struct Arc {
 }
 
 /// How a search has reached a node so far.
-#[derive(Clone, Copy)]
-struct Reached {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reached {
     /// What a way there comes to.
-    value: f64,
+    pub value: f64,
     /// The node before it on that way.
-    before: NodeId,
+    pub before: NodeId,
     /// Index of the edge from there; [`u32::MAX`] at the beginning.
-    edge: u32,
+    pub edge: u32,
 }
 
 /// A route: nodes and the edges between them.
@@ -53,8 +53,13 @@ impl Graph {
     /// The graph of `nodes` nodes with these edges, each of which can be walked in both directions. Either all
     /// of them or none have directed costs.
     pub fn new(nodes: usize, edges: &[Edge]) -> Graph {
+        Graph::of(nodes, || edges.iter().copied())
+    }
+
+    /// [`Graph::new`] of edges that are gone through several times, instead of standing in a row.
+    pub(crate) fn of<I: Iterator<Item = Edge>>(nodes: usize, edges: impl Fn() -> I) -> Graph {
         let mut start = vec![0u32; nodes + 1];
-        for edge in edges {
+        for edge in edges() {
             start[edge.low.index() + 1] += 1;
             start[edge.high.index() + 1] += 1;
         }
@@ -62,18 +67,18 @@ impl Graph {
             start[node + 1] += start[node];
         }
         let mut next = start.clone();
-        let mut arcs = vec![Arc::default(); 2 * edges.len()];
-        for (index, edge) in edges.iter().enumerate() {
+        let mut arcs = vec![Arc::default(); start[nodes] as usize];
+        for (index, edge) in edges().enumerate() {
             for (from, to) in [(edge.low, edge.high), (edge.high, edge.low)] {
                 arcs[next[from.index()] as usize] = Arc { to, edge: index as u32 };
                 next[from.index()] += 1;
             }
         }
-        let directed = || edges.iter().filter_map(|edge| edge.cost.directed());
+        let directed = || edges().filter_map(|edge| edge.cost.directed());
         Graph {
             start,
             arcs,
-            weights: edges.iter().map(Edge::weight).collect(),
+            weights: edges().map(|edge| edge.weight()).collect(),
             back: directed().map(|cost| cost.backward).collect(),
             peaks: directed().map(|cost| cost.peak).collect(),
         }
@@ -147,8 +152,13 @@ impl Graph {
     }
 
     /// The number of nodes.
-    pub(super) fn nodes(&self) -> usize {
+    pub(crate) fn nodes(&self) -> usize {
         self.start.len() - 1
+    }
+
+    /// The number of edges.
+    pub(super) fn edges(&self) -> u32 {
+        self.weights.len() as u32
     }
 
     /// The highest energy on an edge; below every energy where edges have none.
@@ -179,7 +189,9 @@ impl Graph {
                 unreachable!("it was opened")
             };
             if node == to {
-                return Some((value, self.trace(from, to, &best)));
+                let reached = |node: NodeId| best[node.index()].expect("settled");
+                let weight = |from, to, edge| self.weight(from, to, edge);
+                return Some((value, traced(from, to, reached, weight)));
             }
             for (next, edge) in self.arcs_from(node) {
                 let Some(through) = through(value, node, next, edge) else { continue };
@@ -198,23 +210,28 @@ impl Graph {
         let weights = if from < to || self.back.is_empty() { &self.weights } else { &self.back };
         weights[edge as usize]
     }
+}
 
-    fn trace(&self, from: NodeId, to: NodeId, best: &[Option<Reached>]) -> Route {
-        let (mut nodes, mut edges, mut node) = (vec![to], Vec::new(), to);
-        while node != from {
-            let Some(Reached { before, edge, .. }) = best[node.index()] else {
-                unreachable!("settled")
-            };
-            nodes.push(before);
-            edges.push(edge);
-            node = before;
-        }
-        nodes.reverse();
-        edges.reverse();
-        let ends = nodes.iter().zip(nodes.iter().skip(1));
-        let weights = ends.zip(&edges).map(|((from, to), edge)| self.weight(*from, *to, *edge));
-        Route { length: weights.fold(0.0, |length, weight| length + weight), nodes, edges }
+/// The route from `from` to `to` by the ways in which a search has reached the nodes; `weight` is what an edge costs from one
+/// node to another.
+pub(super) fn traced(
+    from: NodeId,
+    to: NodeId,
+    reached: impl Fn(NodeId) -> Reached,
+    weight: impl Fn(NodeId, NodeId, u32) -> f64,
+) -> Route {
+    let (mut nodes, mut edges, mut node) = (vec![to], Vec::new(), to);
+    while node != from {
+        let Reached { before, edge, .. } = reached(node);
+        nodes.push(before);
+        edges.push(edge);
+        node = before;
     }
+    nodes.reverse();
+    edges.reverse();
+    let ends = nodes.iter().zip(nodes.iter().skip(1));
+    let weights = ends.zip(&edges).map(|((from, to), edge)| weight(*from, *to, *edge));
+    Route { length: weights.fold(0.0, |length, weight| length + weight), nodes, edges }
 }
 
 /// The bits of a number, changed so that they are in the order of the numbers.

@@ -2,7 +2,7 @@
 
 use bincode::{Decode, Encode};
 use petgraph::unionfind::UnionFind;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// A triangle mesh: welded vertices, and triangles. No two triangles have the same corners, but for walls with material
 /// on either side, which are there twice, once for each side, so that the surface is closed.
@@ -37,6 +37,18 @@ impl Mesh {
     /// A point of each connected piece of the surface: its first vertex. Pieces are connected by vertices
     /// in common.
     pub(crate) fn witnesses(&self) -> Vec<[f64; 3]> {
+        let mut witnesses = Vec::new();
+        for (vertex, piece) in self.vertices.iter().zip(self.pieces()) {
+            if piece == Some(witnesses.len()) {
+                witnesses.push(*vertex);
+            }
+        }
+        witnesses
+    }
+
+    /// Per vertex the number of the connected piece of the surface that it belongs to, in the order of the pieces' first
+    /// vertices; `None` of one that no triangle has.
+    pub(crate) fn pieces(&self) -> Vec<Option<usize>> {
         let mut pieces = UnionFind::new(self.vertices.len());
         let mut used = vec![false; self.vertices.len()];
         for corners in &self.triangles {
@@ -47,12 +59,13 @@ impl Mesh {
                 used[corner] = true;
             }
         }
-        let mut seen = BTreeSet::new();
+        let mut numbers = BTreeMap::new();
         let labels: Vec<usize> = pieces.into_labeling();
-        (0..self.vertices.len())
-            .filter(|i| used[*i] && seen.insert(labels[*i]))
-            .map(|i| self.vertices[i])
-            .collect()
+        let number = |(label, used): (usize, bool)| {
+            let next = numbers.len();
+            used.then(|| *numbers.entry(label).or_insert(next))
+        };
+        labels.into_iter().zip(used).map(number).collect()
     }
 
     /// The diagonal of the box around the triangles, a length; 0 if there are none.

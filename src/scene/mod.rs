@@ -16,6 +16,7 @@ mod raw;
 mod read;
 mod shape;
 mod stl;
+mod tessellate;
 mod weld;
 #[cfg(test)]
 mod weld_tests;
@@ -24,8 +25,8 @@ pub use mesh::Mesh;
 pub use pose::Pose;
 pub use raw::{MESH_ITEMS_MAX, MeshError, UpAxis};
 pub use read::{Centre, MeshOptions, ReadMesh, Up, is_mesh_file, read_mesh, read_mesh_with};
-pub use shape::Shape;
-pub(crate) use shape::box_surface;
+pub use shape::{Shape, box_surface};
+pub(crate) use tessellate::{Surface, tessellate};
 pub use weld::{WELD_SHARE, Weld};
 
 use bincode::{Decode, Encode};

@@ -125,9 +125,9 @@ impl Shape {
     }
 }
 
-/// The corners of a box centred on the origin, and the triangles of its sides, seen from outside
-/// counter-clockwise.
-pub(crate) fn box_surface(size: [f64; 3]) -> ([[f64; 3]; 8], Vec<[u32; 3]>) {
+/// The corners of a box centred on the origin with these edge lengths along x, y and z, and the triangles of its sides as indices of
+/// corners, seen from outside counter-clockwise.
+pub fn box_surface(size: [f64; 3]) -> ([[f64; 3]; 8], Vec<[u32; 3]>) {
     let corner =
         |i: usize| [0, 1, 2].map(|axis| size[axis] * if i >> axis & 1 == 1 { 0.5 } else { -0.5 });
     let sides =

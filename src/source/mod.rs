@@ -5,6 +5,7 @@ mod error;
 mod file;
 mod names;
 mod text;
+mod whole_number;
 mod xml;
 
 pub use error::ProblemError;
@@ -17,6 +18,7 @@ use crate::digest::SourceFile;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 use toml::ser::ValueSerializer;
@@ -35,6 +37,55 @@ pub(crate) struct Source<'a> {
     file: Option<File<'a>>,
     /// The files read so far, first the problem's own.
     pub files: RefCell<Vec<SourceFile>>,
+    /// The configurations that files of the model give names to, for the query to use.
+    pub states: RefCell<Vec<NamedState>>,
+}
+
+/// A configuration, or some of its values, under a name.
+pub(crate) struct NamedState {
+    /// Its name, unique within its group.
+    pub name: String,
+    /// The group of values that it is about; empty if none is named.
+    pub group: String,
+    /// Whether that is the group for which is planned.
+    pub is_planned: bool,
+    /// Values by the names of degrees of freedom, or of joints that have none.
+    pub values: BTreeMap<String, f64>,
+}
+
+impl NamedState {
+    /// What tells it from states of other groups.
+    fn whole_name(&self) -> String {
+        let NamedState { name, group, .. } = self;
+        if group.is_empty() { name.clone() } else { format!("{group}/{name}") }
+    }
+}
+
+/// The state that is meant by `NAME` or `GROUP/NAME`: of several of one name that of the group for which is planned.
+///
+/// # Errors
+/// Says what was found and what is expected.
+pub(crate) fn state_of<'s>(states: &'s [NamedState], name: &str) -> Result<&'s NamedState, String> {
+    let is_meant = |state: &&NamedState| state.name == name || state.whole_name() == name;
+    let mut meant: Vec<&NamedState> = states.iter().filter(is_meant).collect();
+    if meant.iter().any(|state| state.is_planned) {
+        meant.retain(|state| state.is_planned);
+    }
+    let listed = |states: &mut dyn Iterator<Item = &NamedState>| {
+        let names: Vec<String> = states.map(NamedState::whole_name).collect();
+        if names.is_empty() { "none, as no SRDF names any".to_owned() } else { names.join(", ") }
+    };
+    match meant[..] {
+        [state] => Ok(state),
+        [] => Err(format!(
+            "`{name}` found; the name of a state expected: {}",
+            listed(&mut states.iter())
+        )),
+        _ => Err(format!(
+            "`{name}` found, which several groups have; one of them expected: {}",
+            listed(&mut meant.into_iter())
+        )),
+    }
 }
 
 /// A problem file.
@@ -51,21 +102,23 @@ impl<'a> Source<'a> {
         let files = RefCell::new(vec![SourceFile::named(path, text.as_bytes())]);
         let folder = path.parent().unwrap_or(Path::new(""));
         let file = Some(File { path, text, tree: tree.into_inner() });
-        Ok(Source { folder, file, files })
+        Ok(Source { folder, file, files, states: RefCell::default() })
     }
 
     /// A program that gives values, and no problem file.
     pub fn of_values(folder: &'a Path) -> Source<'a> {
-        Source { folder, file: None, files: RefCell::new(Vec::new()) }
+        Source { folder, file: None, files: RefCell::default(), states: RefCell::default() }
     }
 
     /// Reads the tables of the file that `T` describes; others are not looked at.
     pub fn tables<T: DeserializeOwned>(&self) -> Result<T, ProblemError> {
-        let (path, text) = match &self.file {
-            Some(file) => (file.path, file.text),
-            None => (Path::new(""), ""),
+        let Some(File { path, text, tree }) = &self.file else {
+            return toml::from_str("").map_err(|error| syntax_error(Path::new(""), "", &error));
         };
-        toml::from_str(text).map_err(|error| syntax_error(path, text, &error))
+        toml::from_str(text).map_err(|error| match whole_number::complaint(tree, &error) {
+            Some((offset, message)) => ProblemError::line(path, line_of(text, offset), message),
+            None => syntax_error(path, text, &error),
+        })
     }
 
     /// The name of the file without folder and extension; empty where there is no file.

@@ -40,6 +40,35 @@ impl Space {
         let square = factors.iter().flatten().map(|component| component * component).sum::<f64>();
         Direction { factors, size: square.sqrt() }
     }
+
+    /// The configuration that `q` becomes when it moves along a vector tangent to the space there, in the factors' own units:
+    /// per real factor and angle one number, per rotation the three of a rotation vector in the frame of `q`, in the order of
+    /// the factors, [`Space::cube_dimensions`] in all. `out` is in stored form but may lie out of bounds.
+    pub fn moved(&self, q: &[f64], by: &[f64], out: &mut [f64]) {
+        let mut numbers = by.iter().copied();
+        let mut next = || numbers.next().unwrap_or(0.0);
+        for factor in &self.factors {
+            let at = factor.at;
+            match factor.kind {
+                FactorKind::Real { .. } => out[at] = q[at] + next() + 0.0,
+                FactorKind::Angle => out[at] = math::wrap_angle(q[at] + next()),
+                FactorKind::Rotation => {
+                    let from = [q[at], q[at + 1], q[at + 2], q[at + 3]];
+                    let by = [next(), next(), next()];
+                    out[at..at + 4].copy_from_slice(&quaternion::turned(from, by));
+                }
+            }
+        }
+    }
+
+    /// Moves real values that are out of their intervals to the nearer end.
+    pub fn clamp(&self, q: &mut [f64]) {
+        for factor in &self.factors {
+            if let FactorKind::Real { min, max } = factor.kind {
+                q[factor.at] = q[factor.at].clamp(min, max);
+            }
+        }
+    }
 }
 
 impl Direction {

@@ -30,6 +30,30 @@ proptest! {
         }
     }
 
+    /// In plain units of the factors, it is what [`Space::along`] is in those of the metric.
+    #[test]
+    fn moved_goes_where_along_goes(ordinal in any::<u64>(), length in 0.0f64..2.0) {
+        for space in spaces() {
+            let q = draw(&space, ordinal);
+            let mut stream = Seed::of_set(3, "moved", Ordinal(ordinal)).stream(Purpose::Sampling);
+            let direction = space.direction(&mut stream);
+            let by: Vec<f64> = space.factors().iter().zip(&direction.factors).flat_map(|(factor, components)| {
+                let count = if factor.kind == FactorKind::Rotation { 3 } else { 1 };
+                let share = length / direction.size / factor.weight;
+                components.iter().take(count).map(move |component| component * share).collect::<Vec<_>>()
+            }).collect();
+            prop_assert_eq!(by.len(), space.cube_dimensions());
+            let (mut along, mut moved) = (q.clone(), q.clone());
+            space.along(&q, &direction, length, &mut along);
+            space.moved(&q, &by, &mut moved);
+            for (a, b) in along.iter().zip(&moved) {
+                prop_assert!((a - b).abs() < 1e-12);
+            }
+            space.clamp(&mut moved);
+            prop_assert!(space.within_bounds(&moved));
+        }
+    }
+
     #[test]
     fn distance_is_a_metric(ordinal in 0..u64::MAX - 3) {
         for space in spaces() {

@@ -69,6 +69,9 @@ pub struct PathsArguments {
     /// space those that come up among --tries candidates
     #[arg(long, conflicts_with_all = ["dissimilar", "by"])]
     pub distinct: bool,
+    /// Look for paths no longer than this: seconds, or with a unit (90s, 10m, 2h); what was found by then is given
+    #[arg(long, value_name = "TIME", value_parser = seconds)]
+    pub max_time: Option<f64>,
     /// A folder for files of the paths, new or empty
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,

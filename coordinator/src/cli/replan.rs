@@ -2,6 +2,7 @@
 
 use super::GrowthArguments;
 use clap::{Args, ValueEnum};
+use roadmill::problem::Replanning;
 use std::path::PathBuf;
 
 /// Of `replan`.
@@ -19,7 +20,7 @@ pub struct ReplanArguments {
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub paths: u32,
     /// With how many nearest nodes each is tried again where obstacles went
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=i64::from(Replanning::NEIGHBORS_MAX)))]
     pub neighbors: u32,
     /// Base seed, instead of the problem's
     #[arg(long, value_name = "SEED")]

@@ -22,6 +22,7 @@ pub fn build(arguments: &BuildArguments) -> Result<Code, Failure> {
     // Listened to from here on, so that a signal never leaves half a folder unexplained.
     let signals = Arc::new(Signals::listen().map_err(Failure::system)?);
     let begun = Run::begin(problem).workers(&workers).signals(&signals).import(imports);
+    let begun = begun.max_seconds(growth.max_time);
     let place = (arguments.out.as_deref(), arguments.force, arguments.or_resume);
     grow_in(begun, place, growth, cpu)
 }
@@ -41,7 +42,8 @@ pub(super) fn bounded_problem(
     Ok((problem, workers(&growth.crew)?))
 }
 
-/// Grows a roadmap in a run folder: where, whether what is there is replaced, and whether the build goes on that is there.
+/// Grows a roadmap in a run folder: where, whether what is there is replaced, and whether the build goes on that is there. How
+/// long it may take `begun` knows.
 pub(super) fn grow_in(
     mut begun: Growth,
     (out, force, or_resume): (Option<&Path>, bool, bool),
@@ -57,6 +59,5 @@ pub(super) fn grow_in(
     if or_resume {
         begun = begun.or_resume();
     }
-    let begun = begun.max_seconds(growth.max_time).max_memory(growth.max_memory);
-    grow(begun.clock(cpu), growth.json)
+    grow(begun.max_memory(growth.max_memory).clock(cpu), growth.json)
 }

@@ -17,6 +17,13 @@ pub fn check(arguments: &CheckArguments) -> Result<Code, Failure> {
     if let Some(text) = &arguments.at {
         return check_at(&problem, text, arguments);
     }
+    if let Some(samples) = arguments.touching {
+        let Some(bodies) = problem.model().bodies() else {
+            return Err(Failure::usage("--touching found; a robot of links expected"));
+        };
+        lines(bodies.may_touch_lines(samples, problem.seed()).trim_end());
+        return Ok(Code::Done);
+    }
     lines(problem.describe().trim_end());
     let survey = Survey::new(&problem.context(), DRAWS);
     line(format_args!("draws            {survey}"));

@@ -114,6 +114,7 @@ impl<'a> Job<'a> {
         let ended = load_file(&file).and_then(|problem| {
             let (problem, workers) = bounded_problem(problem, growth)?;
             let growing = Run::begin(problem).workers(&workers).signals(&signals);
+            let growing = growing.max_seconds(growth.max_time);
             grow_in(growing, (Some(&out), *force, *or_resume), growth, cpu)
         });
         let code = ended.as_ref().map_or_else(|failure| failure.code, |code| *code);

@@ -41,6 +41,8 @@ pub(super) fn load(arguments: &ProblemArguments) -> Result<Problem, Failure> {
             Dh::Standard => foreign::DhOrder::Standard,
             Dh::Modified => foreign::DhOrder::Modified,
         }),
+        srdf: arguments.srdf.as_deref(),
+        group: arguments.group.as_deref(),
     };
     Problem::load_with(&arguments.file, &options, &Ledgers).map_err(Failure::usage)
 }

@@ -1,8 +1,10 @@
+use super::bounded::bounded;
 use super::search::Asked;
 use crate::cli::{FrameFormat, PathsArguments};
 use crate::exit::{Code, Failure};
 use crate::files::{make_empty, write_whole};
 use crate::output::{line, note};
+use crate::signals::Signals;
 use crate::work::Run;
 use roadmill::Cancel;
 use roadmill::export::{CannotExport, chimerax, dcd, path_csv, pdb, pymol, xtc};
@@ -12,7 +14,8 @@ use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
 
-/// Finds several ways through the roadmap of a run, prints what each comes to and how far they are apart, and writes them.
+/// Finds several ways through the roadmap of a run, prints what each comes to and how far they are apart, and writes them. A signal or
+/// a limit of time ends the search; what was found by then is printed and written all the same.
 pub fn paths(arguments: &PathsArguments) -> Result<Code, Failure> {
     let run = Run::at(&arguments.run).read()?;
     match run.stopped() {
@@ -24,11 +27,14 @@ pub fn paths(arguments: &PathsArguments) -> Result<Code, Failure> {
     if let Some(folder) = &arguments.out {
         make_empty(folder)?;
     }
+    // Until here a signal ends the process at once, as nothing is found yet.
+    let signals = Signals::listen().map_err(Failure::system)?;
     let begun = Instant::now();
-    let (found, classes) = match arguments.distinct {
-        true => asked.find_distinct(&Cancel::new())?,
-        false => (asked.find(arguments.dissimilar, &Cancel::new())?, Vec::new()),
+    let search = |cancel: &Cancel| match arguments.distinct {
+        true => asked.find_distinct(cancel),
+        false => asked.find(arguments.dissimilar, cancel).map(|found| (found, Vec::new())),
     };
+    let (found, classes) = bounded(&signals, arguments.max_time, search)??;
     let seconds = begun.elapsed().as_secs_f64();
     if found.dropped_edges > 0 {
         note(format_args!(
@@ -37,23 +43,36 @@ pub fn paths(arguments: &PathsArguments) -> Result<Code, Failure> {
         ));
     }
     if found.pathways.is_empty() {
-        let why = match found.connected {
-            true => {
-                "every path between the ends that was tried has an edge that fails the finer check"
-            }
-            false => "nothing joins start and goal: neither the roadmap nor the direct motion",
+        let (code, why) = match (signals.came(), found.is_cut, found.connected) {
+            (true, ..) => (Code::Interrupted, "a signal came before one was found"),
+            (_, _, false) => (
+                Code::NoSuccess,
+                "nothing joins start and goal: neither the roadmap nor the direct motion",
+            ),
+            (_, true, _) => (Code::NoSuccess, "the time was up before one was found"),
+            _ => (
+                Code::NoSuccess,
+                "every path between the ends that was tried has an edge that fails the finer check",
+            ),
         };
-        return Err(Failure::new(Code::NoSuccess, format!("no path: {why} ({seconds:.3} s)")));
+        return Err(Failure::new(code, format!("no path: {why} ({seconds:.3} s)")));
     }
     print(&asked, &found, &classes);
     if let Some(folder) = &arguments.out {
         write(&asked, &found, &classes, arguments, folder)?;
     }
-    let count = found.pathways.len();
+    let (count, wanted) = (found.pathways.len(), arguments.search.count);
     note(format_args!(
-        "{count} of {} paths, from {} candidates, in {seconds:.3} s",
-        arguments.search.count, found.tried
+        "{count} of {wanted} paths, from {} candidates, in {seconds:.3} s",
+        found.tried
     ));
+    if signals.came() {
+        let message = format!("a signal came; these {count} paths were found by then");
+        return Err(Failure::new(Code::Interrupted, message));
+    }
+    if found.is_cut {
+        note("the time was up before the search for paths was over");
+    }
     Ok(Code::Done)
 }
 

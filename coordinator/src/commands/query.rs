@@ -8,7 +8,7 @@ use crate::output::{self, note};
 use crate::work::{Recorded, Run};
 use roadmill::export::animation;
 use roadmill::problem::configuration;
-use roadmill::query::{Answer, PATH_REFINEMENT};
+use roadmill::query::PATH_REFINEMENT;
 
 /// Answers one query from the roadmap of a run, or, with `--queries`, all queries of a file.
 pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
@@ -35,7 +35,7 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
         ));
     }
     let Some(path) = &answer.path else {
-        let why = why_not(&answer);
+        let why = answer.why_no_path();
         return Err(Failure::new(Code::NoSuccess, format!("no path: {why} ({seconds:.3} s)")));
     };
     let text = asker.text(path);
@@ -77,15 +77,4 @@ pub(super) fn ends(
     };
     let start = end("start", start, given.map(|query| &query.start))?;
     Ok((start, end("goal", goal, given.map(|query| &query.goal))?))
-}
-
-/// Why there is no path.
-fn why_not(answer: &Answer) -> &'static str {
-    let [start, goal] = answer.attached;
-    match (start, goal, answer.connected) {
-        (0, _, _) => "the start connects to no node of the roadmap",
-        (_, 0, _) => "the goal connects to no node of the roadmap",
-        (_, _, false) => "start and goal connect to different components",
-        (_, _, true) => "every path between them has an edge that fails the finer check",
-    }
 }

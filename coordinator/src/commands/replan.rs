@@ -1,3 +1,4 @@
+use super::bounded::bounded;
 use super::build::{bounded_problem, grow_in};
 use super::load::load_file;
 use super::search::{TRIES, usual_distance, usual_spacing};
@@ -5,15 +6,16 @@ use crate::cli::{KeptComponents, ReplanArguments};
 use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
 use crate::output::{note, told};
+use crate::run::RunFolder;
 use crate::signals::Signals;
 use crate::work::{Recorded, Run};
-use roadmill::Cancel;
 use roadmill::model::{SceneChange, Scratch};
-use roadmill::pathways::{Dissimilar, Pathway, Rank, dissimilar_unshortened};
+use roadmill::pathways::{Dissimilar, Pathways, Rank, dissimilar_unshortened};
 use roadmill::problem::{Components, OldRun, Problem, Replanned, Replanning};
 use roadmill::replan::Revalidation;
-use roadmill::{Context, Ends};
+use roadmill::{Cancel, Context, Ends};
 use std::fs;
+use std::io;
 use std::path::{Component, Path, PathBuf, absolute};
 use std::sync::Arc;
 use std::time::Instant;
@@ -24,13 +26,19 @@ const RUNS: &str = "runs";
 /// Goes on with the roadmap of a run after obstacles have come, moved or gone: says which of its paths are valid still and
 /// what is left of it, and grows it on.
 pub fn replan(arguments: &ReplanArguments) -> Result<Code, Failure> {
-    let cpu = CpuClock::start();
+    let (cpu, begun) = (CpuClock::start(), Instant::now());
     let ReplanArguments { run, with, seed, out, force, or_resume, growth, .. } = arguments;
     let problem = load_file(with)?;
     let problem = problem.clone().with_seed(seed.unwrap_or(problem.seed()));
     // What cannot be used of the command line is said before anything is looked at.
     let (problem, workers) = bounded_problem(problem, growth)?;
     stays(run, out.as_deref())?;
+    if let Some(out) = out {
+        RunFolder::check(out, *force, *or_resume)?;
+    }
+    // A limit of time is one of this whole call: what the search for paths takes of it the growth does not have.
+    let max_time = problem.limits().seconds;
+    let left = || max_time.map(|whole| (whole - begun.elapsed().as_secs_f64()).max(0.0));
     let old = Run::at(run).read()?;
     match old.stopped() {
         None => note("the build has not ended; its complete rounds are gone on with"),
@@ -47,8 +55,10 @@ pub fn replan(arguments: &ReplanArguments) -> Result<Code, Failure> {
     let change = old.problem().model().description().change(problem.model()).map_err(refuse)?;
     let say = |text: String| told(text, growth.json);
     say_change(&change, say);
-    say_paths(&old, &problem, &change, arguments.paths, say)?;
-    let begun = Instant::now();
+    // Until here a signal ends the process at once, as nothing is made yet.
+    let signals = Arc::new(Signals::listen().map_err(Failure::system)?);
+    say_paths(&old, &problem, &change, arguments.paths, (&signals, left()), say)?;
+    let revalidated = Instant::now();
     let asked = Replanning {
         components: arguments.components.map(|components| match components {
             KeptComponents::Start => Components::WithStart,
@@ -58,10 +68,10 @@ pub fn replan(arguments: &ReplanArguments) -> Result<Code, Failure> {
     };
     let replanned = problem.replanned(&old_run, &asked);
     let replanned = replanned.map_err(|error| refuse(error.to_string()))?;
-    let seconds = begun.elapsed().as_secs_f64();
-    say_survivors(&old, &replanned, seconds, say);
-    let signals = Arc::new(Signals::listen().map_err(Failure::system)?);
+    say_survivors(&old, &replanned, revalidated.elapsed().as_secs_f64(), say);
+    expect_none_came(&signals)?;
     let growing = Run::begin(replanned.problem).workers(&workers).signals(&signals);
+    let growing = growing.max_seconds(left());
     grow_in(growing, (out.as_deref(), *force, *or_resume), growth, cpu)
 }
 
@@ -77,28 +87,50 @@ fn stays(old: &Path, out: Option<&Path>) -> Result<(), Failure> {
     }
 }
 
-/// The run `old` as a path from the folder of the run that is made: what does not change when both are moved together.
+/// Ends the command once a signal has come. No folder is made yet.
+///
+/// # Errors
+/// Exit code 6: one has come.
+fn expect_none_came(signals: &Signals) -> Result<(), Failure> {
+    match signals.came() {
+        true => Err(Failure::new(Code::Interrupted, "a signal came; no run is made")),
+        false => Ok(()),
+    }
+}
+
+/// The run `old` as a path from the folder of the run that is made: from where the one is to where the other is, with links
+/// followed. It leads there by whatever links either is reached, and does not change when both are moved together.
+///
+/// # Errors
+/// Exit code 2: the folder in which the program runs has no path.
 fn place_from(out: Option<&Path>, old: &Path) -> Result<PathBuf, Failure> {
-    let plain = |path: &Path| {
-        let path = absolute(path).map_err(|error| Failure::usage(error.to_string()))?;
-        // What links lead to is not asked: both are named as they are on the command line.
-        let mut parts: Vec<Component> = Vec::new();
-        for part in path.components() {
-            match part {
-                Component::ParentDir => {
-                    parts.pop();
-                }
-                part => parts.push(part),
-            }
-        }
-        Ok(parts.iter().collect::<PathBuf>())
-    };
     // A run without a name for its folder gets one beside others; which, does not matter here.
-    let from = plain(out.unwrap_or(&Path::new(RUNS).join("it")))?;
-    let to = plain(old)?;
+    let out = out.map_or_else(|| Path::new(RUNS).join("it"), Path::to_owned);
+    let place = |path: &Path| {
+        place_of(path).map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
+    };
+    let (from, to) = (place(&out)?, place(old)?);
     let common = from.components().zip(to.components()).take_while(|(a, b)| a == b).count();
     let up = from.components().skip(common).map(|_| Component::ParentDir);
     Ok(up.chain(to.components().skip(common)).collect())
+}
+
+/// Where a folder is, or will be once it is made, without links on the way.
+fn place_of(path: &Path) -> io::Result<PathBuf> {
+    let mut place = PathBuf::new();
+    for part in absolute(path)?.components() {
+        match part {
+            Component::ParentDir => {
+                place.pop();
+            }
+            part => {
+                place.push(part);
+                // What is not there yet is no link.
+                place = fs::canonicalize(&place).unwrap_or(place);
+            }
+        }
+    }
+    Ok(place)
 }
 
 fn say_change(change: &SceneChange, say: impl Fn(String)) {
@@ -116,12 +148,17 @@ fn say_change(change: &SceneChange, say: impl Fn(String)) {
     }
 }
 
-/// Says which of the dissimilar paths of the old roadmap are valid still.
+/// Says which of the dissimilar paths of the old roadmap are valid still. The search for them ends once a signal has come, or so many
+/// seconds are over; of the latter it says so, and goes on with the paths that were found by then.
+///
+/// # Errors
+/// Exit code 2: a path would have too many frames; 6: a signal has come.
 fn say_paths(
     old: &Recorded,
     problem: &Problem,
     change: &SceneChange,
     count: u32,
+    (signals, seconds): (&Signals, Option<f64>),
     say: impl Fn(String),
 ) -> Result<(), Failure> {
     let Some(ends) = problem.query().filter(|_| count > 0) else { return Ok(()) };
@@ -132,11 +169,13 @@ fn say_paths(
         }
     }
     let (begun, scratch) = (Instant::now(), &mut Scratch::new());
-    let pathways = old_paths(old, problem, ends, count, scratch)?;
+    let look = |cancel: &Cancel| old_paths(old, problem, ends, count, cancel, scratch);
+    let found = bounded(signals, seconds, look)??;
     let cx = problem.context();
     let mut revalidation = Revalidation::new(&cx, change);
     let mut valid = Vec::new();
-    for (index, pathway) in pathways.iter().enumerate() {
+    for (index, pathway) in found.pathways.iter().enumerate() {
+        expect_none_came(signals)?;
         let is_valid = revalidation.keeps_path(&pathway.path, scratch);
         if is_valid {
             valid.push(index + 1);
@@ -144,8 +183,12 @@ fn say_paths(
         let word = if is_valid { "valid still" } else { "blocked" };
         say(format!("path {:<3} length {:.6}, {word}", index + 1, pathway.path.length));
     }
+    expect_none_came(signals)?;
+    if found.is_cut {
+        say("paths    the time was up before the search for them was over".to_owned());
+    }
     let seconds = begun.elapsed().as_secs_f64();
-    say(match (pathways.len(), &valid[..]) {
+    say(match (found.pathways.len(), &valid[..]) {
         (0, _) => format!("paths    none in the old roadmap ({seconds:.3} s)"),
         (count, []) => format!("paths    none of {count} is valid still ({seconds:.3} s)"),
         (count, [best, ..]) => format!(
@@ -163,8 +206,9 @@ fn old_paths(
     problem: &Problem,
     ends: &Ends,
     count: u32,
+    cancel: &Cancel,
     scratch: &mut Scratch,
-) -> Result<Vec<Pathway>, Failure> {
+) -> Result<Pathways, Failure> {
     let cx: &Context = old.context();
     let asked = Dissimilar {
         count: count as usize,
@@ -175,9 +219,8 @@ fn old_paths(
         shortcuts: 0,
     };
     let (roadmap, attachment) = (old.roadmap(), problem.attachment());
-    let found =
-        dissimilar_unshortened(cx, roadmap, ends, &attachment, &asked, &Cancel::new(), scratch);
-    Ok(found.map_err(|error| Failure::usage(format!("paths: {error}")))?.pathways)
+    let found = dissimilar_unshortened(cx, roadmap, ends, &attachment, &asked, cancel, scratch);
+    found.map_err(|error| Failure::usage(format!("paths: {error}")))
 }
 
 fn say_survivors(old: &Recorded, replanned: &Replanned, seconds: f64, say: impl Fn(String)) {

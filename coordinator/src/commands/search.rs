@@ -83,7 +83,7 @@ impl<'a> Asked<'a> {
         if self.length == "Å" { DISTANCE } else { usual_distance(self.run.context()) }
     }
 
-    /// The best paths, however alike; or, with a distance or `Some(None)` for the usual one, dissimilar ones, of which those
+    /// The best paths, however alike; or, with a distance or `Some(None)` for the usual one, dissimilar ones. Of either those
     /// that are found by then where `cancel` ends the search.
     ///
     /// # Errors
@@ -100,7 +100,7 @@ impl<'a> Asked<'a> {
         let too_fine = |error| Failure::usage(format!("--spacing: {error}"));
         let Some(distance) = distance else {
             let asked = KBest { count, rank, spacing };
-            let found = k_best(cx, roadmap, ends, &attachment, &asked, scratch);
+            let found = k_best(cx, roadmap, ends, &attachment, &asked, cancel, scratch);
             return found.map_err(too_fine);
         };
         let asked = Dissimilar {
@@ -115,7 +115,8 @@ impl<'a> Asked<'a> {
         found.map_err(too_fine)
     }
 
-    /// The shortest path of each class of paths that pass the obstacles alike, and the classes as people read them.
+    /// The shortest path of each class of paths that pass the obstacles alike, and the classes as people read them; those that are
+    /// found by then where `cancel` ends the search.
     ///
     /// # Errors
     /// Exit code 2: the model has no obstacles, or a path would have too many frames.
@@ -130,7 +131,7 @@ impl<'a> Asked<'a> {
         let left_out = topology.punctures().map_or(0, |punctures| punctures.left_out());
         if left_out > 0 {
             note(format_args!(
-                "{left_out} obstacles, or pieces of them, do not count: the robot's reference point can be where they are"
+                "{left_out} obstacles, or parts of them, do not count: the robot's reference point can be where they are"
             ));
         }
         let asked = Distinct {

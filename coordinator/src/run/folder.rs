@@ -104,6 +104,26 @@ impl RunFolder {
         }
     }
 
+    /// Refuses what is at `path` as [`RunFolder::make`] would, or [`RunFolder::make_or_take`] where a run is to go on if
+    /// there is one: for work that takes its time before the folder is made. Nothing is made, and nothing stays held.
+    ///
+    /// # Errors
+    /// Exit code 2: as these two.
+    pub fn check(path: &Path, force: bool, or_resume: bool) -> Result<(), Failure> {
+        outside_of_runs(path)?;
+        tidy(path);
+        if force {
+            return hold(path).map(drop);
+        }
+        let is_there = fs::symlink_metadata(path).is_ok();
+        match or_resume {
+            _ if !is_there => Ok(()),
+            true if path.join(LEDGER).is_file() => Ok(()),
+            true => expect_beginning(path),
+            false => Err(exists(path)),
+        }
+    }
+
     /// Makes the folder `path`, or takes one in which there is nothing, or only what a build leaves that
     /// was killed before it began its ledger.
     ///
@@ -115,14 +135,7 @@ impl RunFolder {
         make_parents(path)?;
         match fs::create_dir(path) {
             Ok(()) => {}
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-                if let Some(name) = beyond_a_beginning(path)? {
-                    return Err(Failure::usage(format!(
-                        "{}: holds `{name}` but no ledger; a run or a new folder expected",
-                        path.display(),
-                    )));
-                }
-            }
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => expect_beginning(path)?,
             Err(error) => return Err(cannot_make(path, &error)),
         }
         Ok(RunFolder { reserve, ..RunFolder::of(path) })
@@ -271,6 +284,17 @@ fn beyond_a_beginning(path: &Path) -> Result<Option<String>, Failure> {
         }
     }
     Ok(None)
+}
+
+/// Refuses a folder that holds something else than what a build leaves that was killed before it began its ledger.
+fn expect_beginning(path: &Path) -> Result<(), Failure> {
+    match beyond_a_beginning(path)? {
+        None => Ok(()),
+        Some(name) => Err(Failure::usage(format!(
+            "{}: holds `{name}` but no ledger; a run or a new folder expected",
+            path.display(),
+        ))),
+    }
 }
 
 /// Gives the folder `new` the name of the folder at `path`; where that is then. In one step, if the file system can.

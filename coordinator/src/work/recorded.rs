@@ -3,25 +3,33 @@ use roadmill::Context;
 use roadmill::export::RoundOutcome;
 use roadmill::model::Scratch;
 use roadmill::problem::Problem;
-use roadmill::query::{self, Answer, Attachment, EndError, Path};
+use roadmill::query::{Answer, Attachment, EndError, Path, PreparedRoadmap};
 use roadmill::roadmap::{Digest, Roadmap};
 
 /// A run as it is recorded: the roadmap, and the way to paths through it.
 pub struct Recorded {
-    ledger: Ledger,
+    problem: Problem,
+    roadmap: PreparedRoadmap,
+    path: Option<Path>,
+    stopped: Option<Stopped>,
+    rounds: Vec<RoundOutcome>,
+    program: (String, u32),
+    hash: Digest,
     cx: Context,
     attachment: Attachment,
 }
 
 impl Recorded {
     pub(super) fn new(ledger: Ledger) -> Recorded {
-        let (cx, attachment) = (ledger.problem.context(), ledger.problem.attachment());
-        Recorded { ledger, cx, attachment }
+        let Ledger { hash, problem, roadmap, path, stopped, rounds, program } = ledger;
+        let (cx, attachment) = (problem.context(), problem.attachment());
+        let roadmap = PreparedRoadmap::new(roadmap);
+        Recorded { problem, roadmap, path, stopped, rounds, program, hash, cx, attachment }
     }
 
     /// The problem, all chapters taken together.
     pub fn problem(&self) -> &Problem {
-        &self.ledger.problem
+        &self.problem
     }
 
     /// The problem made ready for work: its space and its model.
@@ -31,52 +39,51 @@ impl Recorded {
 
     /// The roadmap of the complete rounds.
     pub fn roadmap(&self) -> &Roadmap {
-        &self.ledger.roadmap
+        self.roadmap.roadmap()
     }
 
     /// The roadmap's digest.
     pub fn digest(&self) -> Digest {
-        self.ledger.roadmap.digest()
+        self.roadmap().digest()
     }
 
     /// The hash of the ledger up to the last complete round.
     pub fn ledger(&self) -> Digest {
-        self.ledger.hash
+        self.hash
     }
 
     /// The path of the problem's own query, if the last judgement found one.
     pub fn path(&self) -> Option<&Path> {
-        self.ledger.path.as_ref()
+        self.path.as_ref()
     }
 
     /// Why the build stopped; `None` while it runs or where it was killed.
     pub fn stopped(&self) -> Option<&Stopped> {
-        self.ledger.stopped.as_ref()
+        self.stopped.as_ref()
     }
 
     /// What the build came to at the end of every complete round, in their order.
     pub fn rounds(&self) -> &[RoundOutcome] {
-        &self.ledger.rounds
+        &self.rounds
     }
 
     /// The program that wrote the run, as `status` says it: `roadmill 0.1.0, bits 3`.
     pub fn program(&self) -> String {
-        let (version, bits) = &self.ledger.program;
+        let (version, bits) = &self.program;
         format!("roadmill {version}, bits {bits}")
     }
 
     /// Looks for a path between two configurations, attached to the roadmap as the problem's first evaluator does it
-    /// that attaches any.
+    /// that attaches any. The first query prepares what later ones need too, so that these take far less time.
     ///
     /// # Errors
     /// When `start` or `goal` is no valid configuration.
     pub fn query(&self, start: &[f64], goal: &[f64]) -> Result<Answer, EndError> {
-        let (roadmap, scratch) = (&self.ledger.roadmap, &mut Scratch::new());
-        query::ask(&self.cx, roadmap, (start, goal), &self.attachment, scratch)
+        self.roadmap.ask(&self.cx, (start, goal), &self.attachment, &mut Scratch::new())
     }
 
     /// [`Recorded::query`] for ends that were checked before.
     pub(crate) fn solve(&self, ends: (&[f64], &[f64]), scratch: &mut Scratch) -> Answer {
-        query::solve(&self.cx, &self.ledger.roadmap, ends, &self.attachment, scratch)
+        self.roadmap.solve(&self.cx, ends, &self.attachment, scratch)
     }
 }

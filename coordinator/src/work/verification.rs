@@ -16,8 +16,9 @@ use roadmill::model::Scratch;
 use roadmill::numbers::{Ordinal, RoundNumber, SetNumber};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Roadmap};
-use roadmill::{BITS_VERSION, Cancel};
+use roadmill::{BITS_VERSION, Cancel, Strategy};
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -82,7 +83,7 @@ impl Verification {
     }
 
     /// Of a run that replans another: where that other run's folder is, if it is no longer where it was, from this run's
-    /// own folder.
+    /// own folder. A run that replans none has no use for it, and is refused.
     pub fn parent(self, folder: impl Into<PathBuf>) -> Verification {
         Verification { parent: Some(folder.into()), ..self }
     }
@@ -103,46 +104,62 @@ impl Verification {
     ///
     /// # Errors
     /// Exit code 7: something is not as it is recorded, which the message names; 2: there is no run, a run that it replans
-    /// is not found, or a set that is not in it was asked for; 4: the run is damaged; 1: the system refuses; 5: the workers are lost; 6: it was
+    /// is not found, it replans none and is given one, or a set that is not in it was asked for; 4: the run is damaged; 1: the system refuses; 5: the workers are lost; 6: it was
     /// ended before.
     pub fn check(self) -> Result<Verified, Failure> {
         let Verification { folder, selection, parent, workers, interrupt } = self;
         workers.check()?;
         let scan = Scan::read(&folder)?;
         let problem = scan.problem()?;
-        if problem.survivors().is_some() {
-            check_parent(&folder, &scan.problem_of(0)?, parent.as_deref())?;
+        match (problem.survivors(), &parent) {
+            (Some(_), parent) => check_parent(&folder, &scan.problem_of(0)?, parent.as_deref())?,
+            (None, Some(parent)) => {
+                return Err(Failure::usage(format!(
+                    "{}: replans no other run; --parent {} found, none expected",
+                    folder.display(),
+                    parent.display()
+                )));
+            }
+            (None, None) => {}
         }
         let choice = Choice::new(&selection, &scan, &problem)?;
-        let setup = Arc::new(Setup::new(problem));
-        let check = Check {
-            scan: &scan,
-            setup: &setup,
-            choice,
-            interrupt: &interrupt,
-            ahead: AHEAD_PER_WORKER * workers.count,
-            at_work: BTreeMap::new(),
-            difference: None,
-            counts: Counts::default(),
-        };
-        let counts = match &workers.kind {
-            Kind::Threads => {
-                let threads = Threads::start(setup.clone(), workers.count).map_err(|error| {
-                    Failure::system(format!("cannot start the threads: {error}"))
-                })?;
-                check.run(&mut { threads })?
-            }
-            Kind::Processes(program) => {
-                let mut dispatcher =
-                    start(&setup, workers.count, program.as_ref()).map_err(Failure::system)?;
-                if let Some(signals) = &interrupt.signals {
-                    dispatcher = dispatcher.with_signals(signals.clone());
+        let mut counts = Counts::default();
+        for stretch in stretches(&scan, problem)? {
+            let setup = Arc::new(Setup::new(stretch.problem));
+            let check = Check {
+                scan: &scan,
+                setup: &setup,
+                chapters: stretch.chapters,
+                choice: &choice,
+                interrupt: &interrupt,
+                ahead: AHEAD_PER_WORKER * workers.count,
+                at_work: BTreeMap::new(),
+                difference: None,
+                counts,
+            };
+            counts = match &workers.kind {
+                Kind::Threads => {
+                    let threads = Threads::start(setup.clone(), workers.count);
+                    let mut threads = threads.map_err(|error| {
+                        Failure::system(format!("cannot start the threads: {error}"))
+                    })?;
+                    check.run(&mut threads)?
                 }
-                let counts = check.run(&mut dispatcher);
-                dispatcher.close().map_err(Failure::system)?;
-                counts?
-            }
-        };
+                Kind::Processes(program) => {
+                    let mut dispatcher =
+                        start(&setup, workers.count, program.as_ref()).map_err(Failure::system)?;
+                    if let Some(signals) = &interrupt.signals {
+                        dispatcher = dispatcher.with_signals(signals.clone());
+                    }
+                    let counts = check.run(&mut dispatcher);
+                    dispatcher.close().map_err(Failure::system)?;
+                    counts?
+                }
+            };
+        }
+        if choice.has_more_sets_than(counts.sets) {
+            return Err(Failure::usage("--set: not every set that is named is in the run"));
+        }
         let sets_recorded = scan.last_round.as_ref().map_or(0, |end| end.sets);
         let digest = scan.last_round.as_ref().map(|end| end.roadmap);
         Ok(Verified {
@@ -153,6 +170,32 @@ impl Verification {
             digest,
         })
     }
+}
+
+/// Chapters whose sets are recomputed under one problem, that of the last of them.
+struct Stretch {
+    chapters: Range<usize>,
+    problem: Problem,
+}
+
+/// The chapters of a run, whose last problem is `problem`, in stretches: the sets of a chapter are recomputed under the query that the
+/// build then had. All chapters are one stretch where no set depends on the query.
+fn stretches(scan: &Scan, problem: Problem) -> Result<Vec<Stretch>, Failure> {
+    let mut stretches = vec![Stretch { chapters: 0..scan.chapters.len(), problem }];
+    let reads = |known: &Strategy| known.generator().method().reads_query();
+    if !stretches[0].problem.strategies().iter().any(reads) {
+        return Ok(stretches);
+    }
+    // From the last to the first, of which each becomes one of its own where the query is another.
+    for chapter in (0..scan.chapters.len() - 1).rev() {
+        let problem = scan.problem_of(chapter)?;
+        let later = &mut stretches[0];
+        if problem.query() != later.problem.query() {
+            later.chapters.start = chapter + 1;
+            stretches.insert(0, Stretch { chapters: 0..chapter + 1, problem });
+        }
+    }
+    Ok(stretches)
 }
 
 /// What is recomputed of a run.
@@ -207,6 +250,11 @@ impl Choice {
         }
     }
 
+    /// Whether more sets are named than these.
+    fn has_more_sets_than(&self, sets: u64) -> bool {
+        matches!(self, Choice::Named(names) if sets < names.len() as u64)
+    }
+
     /// Whether any judgement may be recomputed.
     fn has_judgements(&self) -> bool {
         matches!(self, Choice::All | Choice::Share(..))
@@ -237,10 +285,14 @@ struct Counts {
     without_direct_motion: u64,
 }
 
+/// The sets and judgements of a stretch are recomputed; those before it are read, since what comes later depends on them.
 struct Check<'a> {
     scan: &'a Scan,
+    /// The problem of the stretch.
     setup: &'a Setup,
-    choice: Choice,
+    /// The chapters of the stretch.
+    chapters: Range<usize>,
+    choice: &'a Choice,
     interrupt: &'a Interrupt,
     ahead: usize,
     at_work: BTreeMap<Job, Recorded>,
@@ -284,7 +336,7 @@ enum Part {
 
 impl Check<'_> {
     fn run(mut self, executor: &mut impl Executor) -> Result<Counts, Failure> {
-        let mut replay = Replay::new(self.scan, self.setup.problem())?;
+        let mut replay = Replay::new(self.scan, self.setup.problem())?.to_end_of(self.chapters.end);
         // The problem of the chapter in which the build was judged last, and what was said.
         let mut judge: Option<(usize, Setup)> = None;
         let mut verdicts = Vec::new();
@@ -292,13 +344,16 @@ impl Check<'_> {
         // For the judgements; sets are recomputed by those who have a roadmap of their own.
         let mut roadmap = self.choice.has_judgements().then(|| Roadmap::new(space));
         while let Some(told) = replay.read()? {
+            let chapter = replay.chapter();
+            let is_own = self.chapters.contains(&chapter);
             match told {
                 Told::Round(round, digest) => {
                     verdicts.clear();
-                    let chapter = replay.chapter();
                     for set in &round.sets {
                         executor.publish(&set.increment);
-                        self.hand_out(set, chapter, executor)?;
+                        if is_own {
+                            self.hand_out(set, chapter, executor)?;
+                        }
                     }
                     // A fold takes away what these jobs read.
                     while self.readers() > 0 || self.at_work.len() > self.ahead {
@@ -311,18 +366,18 @@ impl Check<'_> {
                     }
                 }
                 Told::Judged(judged) => {
-                    if self.choice.has_judgement(judged.round) {
-                        let chapter = self.chapter(replay.chapter(), &mut judge)?;
+                    if is_own && self.choice.has_judgement(judged.round) {
+                        let setup = self.chapter(chapter, &mut judge)?;
                         if let Some(roadmap) = &roadmap {
-                            self.judge(&judged, chapter, replay.chapter(), roadmap)?;
+                            self.judge(&judged, setup, chapter, roadmap)?;
                         }
                     }
                     verdicts = judged.verdicts;
                 }
                 Told::Stopped(stopped) => {
-                    if let (Choice::All, Some(roadmap)) = (&self.choice, &roadmap) {
-                        needs_bits("the stop", &self.scan.chapters[replay.chapter()])?;
-                        let setup = self.chapter(replay.chapter(), &mut judge)?;
+                    if let (true, Choice::All, Some(roadmap)) = (is_own, self.choice, &roadmap) {
+                        needs_bits("the stop", &self.scan.chapters[chapter])?;
+                        let setup = self.chapter(chapter, &mut judge)?;
                         let last_round = replay.last_round();
                         let standing = Standing { setup, last_round, verdicts: &verdicts, roadmap };
                         if let Some(what) = standing.difference(&stopped) {
@@ -339,15 +394,12 @@ impl Check<'_> {
         while !self.at_work.is_empty() {
             self.take(executor)?;
         }
-        match (self.difference, self.choice) {
-            (Some(Difference { what, .. }), _) => {
+        match self.difference {
+            Some(Difference { what, .. }) => {
                 let run = self.scan.folder().display();
                 Err(Failure::new(Code::Differs, format!("{run}: {what}")))
             }
-            (None, Choice::Named(names)) if self.counts.sets < names.len() as u64 => {
-                Err(Failure::usage("--set: not every set that is named is in the run"))
-            }
-            (None, _) => Ok(self.counts),
+            None => Ok(self.counts),
         }
     }
 

@@ -2,11 +2,11 @@
 
 use super::json::{list, number, numbers};
 use crate::export::markup::quoted;
-use crate::export::tessellate::tessellate;
+
 use crate::model::Figure;
 use crate::problem::Problem;
 use crate::query::Path;
-use crate::scene::{Body, Pose};
+use crate::scene::{Body, Pose, tessellate};
 
 /// Poses along a path, both ends included.
 const FRAMES: usize = 301;

@@ -64,7 +64,7 @@ pub(in crate::generator) fn explore(
     while !set.is_full() {
         set.attempt()?;
         let toward_goal = aim.filter(|aim| set.decide(aim.bias));
-        let mut toward = toward_goal.map_or_else(|| set.draw(), |aim| aim.goal.to_vec());
+        let mut toward = toward_goal.map_or_else(|| tree.draw(set), |aim| aim.goal.to_vec());
         let Some(mut near) = tree.nearest(set, &toward) else {
             return Err(GaveUp { attempts: 0 });
         };
@@ -113,6 +113,6 @@ impl Exploration {
                 }
             }
         }
-        tree.add(new);
+        tree.add(set, new);
     }
 }

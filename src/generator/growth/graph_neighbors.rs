@@ -2,10 +2,10 @@ use super::directions::Adjacency;
 use super::set::GrowingSet;
 use super::tree::GrowingTree;
 use crate::context::Context;
-use crate::finder::{FinderKind, KNearest, NeighborCount};
+use crate::finder::{CountVisitor, FinderKind, KNearest, NeighborCount};
 use crate::methods::Complaint;
 use bincode::{Decode, Encode};
-use serde::de::{MapAccess, Unexpected, Visitor, value::MapAccessDeserializer};
+use serde::de::{MapAccess, Visitor, value::MapAccessDeserializer};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
@@ -74,32 +74,26 @@ impl<'de> Deserialize<'de> for GraphNeighbors {
 
 struct GraphNeighborsVisitor;
 
+/// Reads what is no table.
+const COUNT: CountVisitor = CountVisitor { or: ", or a table with finder and hop_limit" };
+
 impl<'de> Visitor<'de> for GraphNeighborsVisitor {
     type Value = GraphNeighbors;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let most = u32::MAX;
-        write!(
-            f,
-            "neighbors = \"auto\" or a whole number from 0 to {most}, or a table with finder and hop_limit"
-        )
+        COUNT.expecting(f)
     }
 
     fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<GraphNeighbors, E> {
-        match word {
-            "auto" => Ok(GraphNeighbors::Auto),
-            _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
-        }
+        COUNT.visit_str(word).map(GraphNeighbors::from)
     }
 
     fn visit_u64<E: serde::de::Error>(self, count: u64) -> Result<GraphNeighbors, E> {
-        let fits = u32::try_from(count).map(GraphNeighbors::Fixed);
-        fits.map_err(|_| E::invalid_value(Unexpected::Unsigned(count), &self))
+        COUNT.visit_u64(count).map(GraphNeighbors::from)
     }
 
     fn visit_i64<E: serde::de::Error>(self, count: i64) -> Result<GraphNeighbors, E> {
-        let fits = u32::try_from(count).map(GraphNeighbors::Fixed);
-        fits.map_err(|_| E::invalid_value(Unexpected::Signed(count), &self))
+        COUNT.visit_i64(count).map(GraphNeighbors::from)
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<GraphNeighbors, A::Error> {

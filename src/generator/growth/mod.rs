@@ -1,12 +1,15 @@
 //! What the generators have in common that grow trees and graphs by steps toward configurations.
 //!
 //! [`set`] is the node set that grows, [`tree`] what it grows from, [`explore`] the growth toward random configurations,
-//! [`directions`] which directions are dispersed, [`graph_neighbors`] which nodes a new one is tried with, [`settings`] what several of the methods can be told. The methods
-//! themselves stand in files of their own: `rrt.rs`, `rrg.rs`, `mrrg.rs`, `tree.rs` and `rrt_connect.rs`.
+//! [`directions`] which directions are dispersed, [`graph_neighbors`] which nodes a new one is tried with, [`retraction`] how blocked extensions are bent aside, [`settings`] what several of the methods can be told. The methods
+//! themselves stand in files of their own: `rrt.rs`, `rrg.rs`, `mrrg.rs`, `tree.rs`,
+//! `rrt_connect.rs`, `end_trees.rs` and `retraction_trees.rs`.
 
 mod directions;
 mod explore;
+mod extent;
 mod graph_neighbors;
+mod retraction;
 mod set;
 mod settings;
 mod tree;

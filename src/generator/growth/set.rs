@@ -1,3 +1,4 @@
+use super::extent::Extent;
 use super::tree::Near;
 use crate::context::Context;
 use crate::local::{self, Planner};
@@ -21,10 +22,14 @@ pub(in crate::generator) struct GrowingSet<'a> {
     /// How many milestones the set is to have.
     count: usize,
     /// The most by which an extension moves, in the space's metric.
-    step: f64,
+    pub(super) step: f64,
+    /// How many motions are tried to bend one blocked extension aside.
+    pub(super) trials: u32,
+    /// Which share of what extensions lead toward is drawn from the box around the tree.
+    pub(super) nearby: f64,
     /// Where trees begin that begin at no node.
     roots: Vec<&'a [f64]>,
-    proposing: Stream,
+    pub(super) proposing: Stream,
     deciding: Stream,
     /// For what neighbour finders leave to chance.
     pub(super) connecting: Stream,
@@ -83,6 +88,8 @@ impl<'a> GrowingSet<'a> {
             made: Increment::empty(cx.space.len()),
             count,
             step,
+            trials: 0,
+            nearby: 0.0,
             roots: Vec::new(),
             proposing: seed.stream(Purpose::Sampling),
             deciding: seed.stream(Purpose::Accepting),
@@ -90,6 +97,12 @@ impl<'a> GrowingSet<'a> {
             attempts,
             tried: 0,
         }
+    }
+
+    /// The same set, which tries so many motions to bend a blocked extension aside, and draws this share of what extensions
+    /// lead toward from the box around the tree.
+    pub fn with_bending(self, trials: u32, nearby: f64) -> GrowingSet<'a> {
+        GrowingSet { trials, nearby, ..self }
     }
 
     /// How many milestones it is to have, at least one.
@@ -118,6 +131,17 @@ impl<'a> GrowingSet<'a> {
     pub fn draw(&mut self) -> Vec<f64> {
         let mut q = vec![0.0; self.cx.space.len()];
         self.cx.space.sample_uniform(&mut self.proposing, &mut q);
+        q
+    }
+
+    /// A configuration, valid or not, drawn uniformly, or, for the share `nearby` of all draws, from the box around a tree and a
+    /// step more.
+    pub(super) fn draw_around(&mut self, extent: &Extent) -> Vec<f64> {
+        let is_nearby = self.nearby > 0.0 && self.decide(self.nearby);
+        let mut q = self.draw();
+        if is_nearby {
+            extent.shrink_into(&self.cx.space, self.step, &mut q);
+        }
         q
     }
 
@@ -177,9 +201,9 @@ impl<'a> GrowingSet<'a> {
         self.number(node)
     }
 
-    /// Goes from a place toward a configuration by at most a step: the milestone at the end of a valid motion, with an
+    /// Goes from a place straight toward a configuration by at most a step: the milestone at the end of a valid motion, with an
     /// edge to where it came from. Of a root that is no node the milestone gets no edge.
-    pub fn extend(&mut self, from: Near, toward: &[f64]) -> Extension {
+    pub(super) fn extend_straight(&mut self, from: Near, toward: &[f64]) -> Extension {
         let start = self.config(from.number);
         if start == toward {
             return Extension::Trapped;
@@ -198,12 +222,17 @@ impl<'a> GrowingSet<'a> {
         if !self.cx.model.is_valid(&q, self.scratch) {
             return Extension::Trapped;
         }
-        let new = NodeId(self.made.configs.len() as u32);
-        if !self.try_edge(from.number, new, &q) {
-            return Extension::Trapped;
+        match self.add_reached_from(from, &q) {
+            None => Extension::Trapped,
+            Some(number) if is_there => Extension::Reached(number),
+            Some(number) => Extension::Advanced(number),
         }
-        let number = self.add(&q);
-        if is_there { Extension::Reached(number) } else { Extension::Advanced(number) }
+    }
+
+    /// Makes a valid configuration a milestone, with an edge to a place, if the motion from there is valid.
+    pub(super) fn add_reached_from(&mut self, from: Near, q: &[f64]) -> Option<u32> {
+        let new = NodeId(self.made.configs.len() as u32);
+        self.try_edge(from.number, new, q).then(|| self.add(q))
     }
 
     /// Joins two places, one of which is a milestone of the set, if the motion between them is valid, and says whether it is.

@@ -1,3 +1,4 @@
+use super::extent::Extent;
 use super::set::GrowingSet;
 use crate::finder::{Finder, Milestones};
 use crate::neighbor::{Best, Neighbor, Ranked, Subset};
@@ -11,6 +12,8 @@ pub(in crate::generator) struct GrowingTree<'a> {
     components: Vec<&'a Component>,
     /// Numbers of the roots that are no nodes, and of milestones of the set, ascending.
     own: Vec<u32>,
+    /// What its places cover, where the set draws from the box around it.
+    extent: Extent,
 }
 
 /// A place near a configuration.
@@ -25,7 +28,7 @@ pub(in crate::generator) struct Near {
 impl<'a> GrowingTree<'a> {
     /// A tree of nothing.
     pub fn empty() -> GrowingTree<'a> {
-        GrowingTree { components: Vec::new(), own: Vec::new() }
+        GrowingTree { components: Vec::new(), own: Vec::new(), extent: Extent::default() }
     }
 
     /// The trees of configurations, each the component of the roadmap that contains the configuration as a node, the one
@@ -40,7 +43,7 @@ impl<'a> GrowingTree<'a> {
         seed: &Seed,
         configurations: [&'a [f64]; N],
     ) -> [GrowingTree<'a>; N] {
-        let mut trees = [const { GrowingTree { components: Vec::new(), own: Vec::new() } }; N];
+        let mut trees: [GrowingTree<'a>; N] = std::array::from_fn(|_| GrowingTree::empty());
         let mut milestones = Vec::new();
         for (index, (tree, q)) in trees.iter_mut().zip(configurations).enumerate() {
             let node = set.frozen.and_then(|frozen| frozen.configs().iter().position(|at| at == q));
@@ -55,12 +58,31 @@ impl<'a> GrowingTree<'a> {
         for index in milestones {
             trees[index].own.push(set.add(configurations[index]));
         }
+        trees.iter_mut().for_each(|tree| tree.cover_all(set));
         trees
     }
 
+    /// Finds what its places cover, if that is going to be asked for.
+    fn cover_all(&mut self, set: &GrowingSet) {
+        if set.nearby > 0.0 {
+            let old = self.components.iter().flat_map(|component| component.members.iter());
+            for number in old.chain(&self.own) {
+                self.extent.cover(&set.cx.space, set.config(*number));
+            }
+        }
+    }
+
     /// Takes a milestone of the set in.
-    pub fn add(&mut self, number: u32) {
+    pub fn add(&mut self, set: &GrowingSet, number: u32) {
         self.own.push(number);
+        if set.nearby > 0.0 {
+            self.extent.cover(&set.cx.space, set.config(number));
+        }
+    }
+
+    /// A configuration, valid or not, toward which it is to be extended.
+    pub fn draw(&self, set: &mut GrowingSet) -> Vec<f64> {
+        set.draw_around(&self.extent)
     }
 
     /// Takes another tree in.
@@ -68,6 +90,7 @@ impl<'a> GrowingTree<'a> {
         self.components.extend(other.components);
         self.own.extend(other.own);
         self.own.sort_unstable();
+        self.extent.unite(&other.extent);
     }
 
     /// Whether both grow from the same component.

@@ -1,7 +1,7 @@
 //! From a checked description back to what asks for it.
 
 use super::Bodies;
-use super::robot::{Joint, JointKind, Limits, Link};
+use super::robot::{Joint, JointKind, Limits, Link, Mimic};
 use super::spec::{
     BodiesSpec, BodySpec, FrameSpec, JointSpec, LinkSpec, RobotSpec, ShapeSpec, SpaceSpec,
 };
@@ -27,7 +27,13 @@ pub(super) fn spec_of(bodies: &Bodies) -> BodiesSpec {
     for link in &robot.links[1..] {
         let Link { name: own, bodies, joint } = link;
         let joint = joint.as_ref().expect("every link but the base hangs on a joint");
-        let hung = LinkSpec::new(own, joint_spec(joint, name(joint.parent)));
+        let mut hang = joint_spec(joint, name(joint.parent));
+        if let Some(Mimic { value, multiplier, offset }) = joint.kind.mimic()
+            && let Some(followed) = robot.link_of_value(*value)
+        {
+            hang = hang.mimic(name(followed as u32), *multiplier, *offset);
+        }
+        let hung = LinkSpec::new(own, hang);
         spec = spec.link(bodies.iter().map(body).fold(hung, LinkSpec::body));
     }
     for (first, second) in &robot.may_touch {
@@ -40,7 +46,11 @@ fn joint_spec(joint: &Joint, parent: &str) -> JointSpec {
     let spec = match joint.kind {
         JointKind::Fixed => JointSpec::fixed(),
         JointKind::Spherical => JointSpec::spherical(),
-        JointKind::Revolute { axis, limits: None } => JointSpec::revolute(axis),
+        JointKind::Locked => JointSpec::locked(),
+        JointKind::PrismaticMimic { axis, .. } => JointSpec::prismatic_mimic(axis),
+        JointKind::Revolute { axis, limits: None } | JointKind::RevoluteMimic { axis, .. } => {
+            JointSpec::revolute(axis)
+        }
         JointKind::Revolute { axis, limits: Some(Limits { min, max }) } => {
             JointSpec::revolute_in_radians(axis, [min, max])
         }

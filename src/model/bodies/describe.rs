@@ -1,7 +1,7 @@
 //! What `check` says of bodies.
 
 use super::Bodies;
-use super::robot::{JointKind, Limits};
+use super::robot::{JointKind, Limits, Mimic};
 use super::validity::{BoundsMeaning, MotionChecking, TOLERANCE};
 use crate::internal::plain::plain;
 use crate::model::Description;
@@ -13,11 +13,7 @@ use std::fmt::Write;
 fn joint_names(bodies: &Bodies) -> Vec<String> {
     let space = bodies.space();
     let joints = bodies.robot.links.iter().filter_map(|link| link.joint.as_ref());
-    let values = joints.map(|joint| match joint.kind {
-        JointKind::Fixed => 0,
-        JointKind::Revolute { .. } | JointKind::Prismatic { .. } => 1,
-        JointKind::Spherical => 4,
-    });
+    let values = joints.map(|joint| joint.kind.values());
     let values: Vec<usize> = values.filter(|values| *values > 0).collect();
     let mut at = space.len() - values.iter().sum::<usize>();
     let mut names = Vec::new();
@@ -41,14 +37,35 @@ pub(super) fn describe(bodies: &Bodies, out: &mut String) -> std::fmt::Result {
         BaseJoint::Rigid3d => "x y z qw qx qy qz: the base's pose; a unit quaternion, w first",
     };
     writeln!(out, "                 {base}, its frame in the world's")?;
-    let mut names = joint_names(bodies).into_iter();
+    let given = joint_names(bodies);
+    let mut names = given.iter();
+    // The names of values, by their indices.
+    let mut of_values: Vec<&str> = Vec::new();
     for joint in bodies.robot.links.iter().filter_map(|link| link.joint.as_ref()) {
-        let name = match joint.kind {
-            JointKind::Fixed => String::new(),
-            _ => plain(&names.next().unwrap_or_default()).into_owned(),
+        if joint.kind.values() > 0 {
+            let name = names.next().map_or("", String::as_str);
+            of_values.extend(std::iter::repeat_n(name, joint.kind.values()));
+        }
+    }
+    let mut names = given.iter();
+    let mut locked = Vec::new();
+    for joint in bodies.robot.links.iter().filter_map(|link| link.joint.as_ref()) {
+        let name = match joint.kind.values() {
+            0 => plain(&joint.name).into_owned(),
+            _ => plain(names.next().map_or("", String::as_str)).into_owned(),
         };
         match joint.kind {
             JointKind::Fixed => {}
+            JointKind::Locked => locked.push(name),
+            JointKind::RevoluteMimic { mimic, .. } | JointKind::PrismaticMimic { mimic, .. } => {
+                let other = plain(of_values[mimic.value as usize]);
+                let Mimic { multiplier, offset, .. } = mimic;
+                writeln!(
+                    out,
+                    "                 {name} has no value: it follows {other}, times {multiplier}, plus \
+                     {offset}"
+                )?;
+            }
             JointKind::Revolute { limits: None, .. } => {
                 writeln!(out, "                 {name}: turns on and on; radians, in [-pi, pi)")?;
             }
@@ -62,6 +79,9 @@ pub(super) fn describe(bodies: &Bodies, out: &mut String) -> std::fmt::Result {
                 writeln!(out, "                 {name}: slides from {min} to {max}")?;
             }
         }
+    }
+    if !locked.is_empty() {
+        writeln!(out, "                 locked: {}", locked.join(", "))?;
     }
     let pairs = bodies.robot.self_pairs().count();
     if bodies.robot.links.len() > 1 {

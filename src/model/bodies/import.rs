@@ -3,17 +3,22 @@
 use super::Bodies;
 use super::foreign::{
     Base, ForeignBody, ForeignJoint, ForeignJointKind, ForeignLink, ForeignScene, SceneKind,
-    SceneOptions, UrdfRobot, read_ompl, read_parasol, read_urdf,
+    SceneOptions, read_ompl, read_parasol,
 };
 use super::linkage::{fitting_names, moves};
-use super::resolve::{default_resolution, default_rotation_length, diagonal_of, too_far};
+use super::locks::{Locks, lock_joints};
+use super::resolve::{
+    bounds_of_reach, default_resolution, default_rotation_length, diagonal_of, too_far,
+};
 use super::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, Robot};
-use super::validity::{Bounds, BoundsMeaning, MotionChecking};
+use super::robot_files::{ReadRobot, RobotFiles, read_robot};
+use super::validity::{Bounds, MotionChecking};
 use crate::digest::SourceFile;
 use crate::model::{ForeignProblem, ModelKind};
-use crate::scene::{Body, LENGTH_MAX, Pose};
+use crate::scene::{Body, Pose};
 use crate::source::{ProblemError, fitting_name};
 use crate::space::BaseJoint;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Reads a scene of OMPL.app or Parasol, or a robot in URDF, told apart by the extension; `None` for any
@@ -33,7 +38,7 @@ pub fn import(path: &Path, options: &SceneOptions) -> Option<Result<ForeignProbl
     let scene = match kind {
         SceneKind::Ompl => read_ompl(path, options),
         SceneKind::Parasol => read_parasol(path, options),
-        SceneKind::Urdf => return Some(from_urdf(path)),
+        SceneKind::Urdf => return Some(from_urdf(path, options)),
         SceneKind::Problem => return None,
     };
     let scene = scene.map_err(|error| ProblemError::pathless(error.to_string()));
@@ -41,26 +46,30 @@ pub fn import(path: &Path, options: &SceneOptions) -> Option<Result<ForeignProbl
 }
 
 /// A robot alone, in a box as large as it can reach.
-fn from_urdf(path: &Path) -> Result<ForeignProblem, ProblemError> {
-    let UrdfRobot { links, mut notes, sources } =
-        read_urdf(path).map_err(|error| ProblemError::pathless(error.to_string()))?;
-    let links = fitting_names(links);
-    let motion = if links.iter().any(moves) { BaseJoint::Fixed } else { BaseJoint::Rigid3d };
-    let robot = Robot { motion, base: Pose::IDENTITY, links, may_touch: Vec::new() };
-    let reach = robot.reach();
-    if reach > LENGTH_MAX {
-        let message = format!("a reach of {reach:e} found; at most {LENGTH_MAX:e} expected");
-        return Err(ProblemError::file(path, message));
-    }
+fn from_urdf(path: &Path, options: &SceneOptions) -> Result<ForeignProblem, ProblemError> {
+    let files = RobotFiles { urdf: path, srdf: options.srdf, group: options.group };
+    let read = read_robot(&files).map_err(|(key, message)| match key {
+        "group" => ProblemError::file(path, format!("--group: {message}")),
+        // The message names the file.
+        _ => ProblemError::pathless(message),
+    })?;
+    let ReadRobot { mut links, motion, may_touch, states, group, mut notes, sources } = read;
+    let locks = Locks { lock: &BTreeMap::new(), rest: &[], group: group.as_ref() };
+    lock_joints(&mut links, &locks, &states, &mut notes)
+        .map_err(|(_, message)| ProblemError::file(path, message))?;
+    let stands = motion == BaseJoint::Fixed;
+    let motion = if stands && !links.iter().any(moves) { BaseJoint::Rigid3d } else { motion };
+    let robot = Robot { motion, base: Pose::IDENTITY, links, may_touch };
+    let (bounds, note) =
+        bounds_of_reach(&robot).map_err(|message| ProblemError::file(path, message))?;
     notes.push("a robot without a scene: no obstacles, no query".to_owned());
-    notes.push(match motion {
-        BaseJoint::Fixed => "the base stands still at the origin".to_owned(),
-        _ => "no joint moves, so the robot does".to_owned(),
-    });
-    notes.push(format!("the bounds reach as far as the robot, {reach}"));
+    if motion == BaseJoint::Fixed {
+        notes.push("the base stands still at the origin".to_owned());
+    } else if stands {
+        notes.push("no joint moves, so the robot does".to_owned());
+    }
+    notes.push(note);
     let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
-    let meaning = BoundsMeaning::Reference;
-    let bounds = Bounds { min: [-reach; 3], max: [reach; 3], meaning };
     finished(
         path,
         Parts { name, bounds, robot, obstacles: Vec::new(), query: None, notes, sources },

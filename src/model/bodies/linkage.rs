@@ -1,13 +1,13 @@
 //! The robot: its base, its links and their joints.
 
-use super::foreign::read_urdf;
-use super::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, Robot, TURN_MAX};
+use super::locks::{Locks, lock_joints};
+use super::robot::{Follower, Joint, JointKind, LINKS_MAX, Limits, Link, Robot, TURN_MAX, couple};
+use super::robot_files::{ReadRobot, RobotFiles, read_robot};
 use super::shapes::{bodies, pose_of, unit};
-use super::spec::{FrameSpec, JointKindSpec, LinkSpec, RobotSpec};
+use super::spec::{AttachSpec, FrameSpec, JointKindSpec, LinkSpec, MimicSpec, RobotSpec};
 use crate::scene::{LENGTH_MAX, Pose};
-use crate::source;
 use crate::source::Step::{self, Index, Key};
-use crate::source::{ProblemError, Source, fits};
+use crate::source::{ProblemError, Source, fits, fitting};
 use crate::space::BaseJoint;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -16,17 +16,36 @@ use std::path::Path;
 const BASE: &str = "base";
 const NAME_EXPECTED: &str = "a name of its own of letters, digits, `-`, `_` and `.` expected";
 
-/// Reads the robot.
+/// Reads the robot. `motion` says how its base moves; if nothing is said, what its files say.
 pub(super) fn robot_of(
     source: &Source,
     spec: &RobotSpec,
-    motion: BaseJoint,
+    motion: Option<BaseJoint>,
     notes: &mut Vec<String>,
 ) -> Result<Robot, ProblemError> {
-    let mut robot = Robot::rigid(motion, Vec::new());
+    let mut robot = Robot::rigid(BaseJoint::Fixed, Vec::new());
+    let mut group = None;
     match &spec.urdf {
-        Some(file) => robot.links = urdf_links(source, spec, file, notes)?,
+        Some(file) => {
+            let read = files_of(source, spec, file)?;
+            notes.extend(read.notes);
+            read.sources.into_iter().for_each(|file| source.read(file));
+            source.states.replace(read.states);
+            group = read.group;
+            let ReadRobot { links, motion: said, may_touch, .. } = read;
+            robot = Robot { motion: motion.unwrap_or(said), links, may_touch, ..robot };
+        }
         None => {
+            let Some(motion) = motion else {
+                let expected = "how the base moves, \"fixed\" or another word, expected";
+                return Err(source.error(&[Key("space")], format!("no motion found; {expected}")));
+            };
+            let only_beside = [("srdf", spec.srdf.is_some()), ("group", spec.group.is_some())];
+            if let Some((key, _)) = only_beside.iter().find(|(_, given)| *given) {
+                let message = "given without urdf; a urdf that it is about expected";
+                return Err(source.error(&[Key("robot"), Key(key)], message.to_owned()));
+            }
+            robot.motion = motion;
             let place = [Key("robot"), Key("bodies")];
             robot.links[0].bodies = bodies(source, &place, &spec.bodies, notes)?;
             robot.links[0].name = spec.name.clone().unwrap_or_else(|| BASE.to_owned());
@@ -37,14 +56,15 @@ pub(super) fn robot_of(
         return Err(source.error(&[Key("robot"), Key("name")], message));
     }
     if let Some(base) = &spec.base {
-        if motion != BaseJoint::Fixed {
+        if robot.motion != BaseJoint::Fixed {
             let message = "given, but the base moves; motion = \"fixed\" expected beside it";
             return Err(source.error(&[Key("robot"), Key("base")], message.to_owned()));
         }
         robot.base = frame(source, &[Key("robot"), Key("base")], base)?;
     }
-    if spec.links.len().max(robot.links.len()) > LINKS_MAX {
-        let found = spec.links.len().max(robot.links.len());
+    // The base, or the links of a URDF, stand beside the others.
+    let found = robot.links.len() + spec.attach.len() + spec.links.len();
+    if found > LINKS_MAX {
         let message = format!("{found} found; at most {LINKS_MAX} expected");
         return Err(source.error(&[Key("robot"), Key("links")], message));
     }
@@ -57,7 +77,17 @@ pub(super) fn robot_of(
         index_of.insert(link.name.clone(), robot.links.len());
         robot.links.push(link);
     }
-    if motion == BaseJoint::Fixed && robot.links.iter().all(|link| !moves(link)) {
+    couple_links(source, spec, &index_of, &mut robot.links, notes)?;
+    for (index, attached) in spec.attach.iter().enumerate() {
+        let link = attached_link(source, &index_of, index, attached, notes)?;
+        index_of.insert(link.name.clone(), robot.links.len());
+        robot.links.push(link);
+    }
+    let locks = Locks { lock: &spec.lock, rest: &spec.rest, group: group.as_ref() };
+    lock_joints(&mut robot.links, &locks, &source.states.borrow(), notes).map_err(
+        |(place, message)| source.error(&[&[Key("robot")], &place[..]].concat(), message),
+    )?;
+    if robot.motion == BaseJoint::Fixed && robot.links.iter().all(|link| !moves(link)) {
         let message = "nothing moves: a moving base or a moving joint expected".to_owned();
         return Err(source.error(&[Key("robot")], message));
     }
@@ -75,13 +105,8 @@ pub(super) fn robot_of(
     Ok(robot)
 }
 
-/// The links of a URDF, which takes the place of all that the robot's spec could say of them.
-fn urdf_links(
-    source: &Source,
-    spec: &RobotSpec,
-    file: &Path,
-    notes: &mut Vec<String>,
-) -> Result<Vec<Link>, ProblemError> {
+/// Reads the files of a robot, which take the place of all that the robot's spec could say of its links.
+fn files_of(source: &Source, spec: &RobotSpec, file: &Path) -> Result<ReadRobot, ProblemError> {
     let others = [
         ("name", spec.name.is_some()),
         ("bodies", !spec.bodies.is_empty()),
@@ -91,11 +116,42 @@ fn urdf_links(
         let message = "given beside urdf, which says it; one of the two expected";
         return Err(source.error(&[Key("robot"), Key(key)], message.to_owned()));
     }
-    let robot = read_urdf(&source.folder.join(file))
-        .map_err(|error| source.error(&[Key("robot"), Key("urdf")], error.to_string()))?;
-    notes.extend(robot.notes);
-    robot.sources.into_iter().for_each(|file| source.read(file));
-    Ok(fitting_names(robot.links))
+    let urdf = source.folder.join(file);
+    let srdf = spec.srdf.as_ref().map(|file| source.folder.join(file));
+    let files = RobotFiles { urdf: &urdf, srdf: srdf.as_deref(), group: spec.group.as_deref() };
+    read_robot(&files).map_err(|(key, message)| source.error(&[Key("robot"), Key(key)], message))
+}
+
+/// Makes the joints that say so follow those of other links.
+fn couple_links(
+    source: &Source,
+    spec: &RobotSpec,
+    index_of: &BTreeMap<String, usize>,
+    links: &mut [Link],
+    notes: &mut Vec<String>,
+) -> Result<(), ProblemError> {
+    let place = |index: usize, rest: &[Step<'static>]| {
+        [&[Key("robot"), Key("links"), Index(index), Key("joint"), Key("mimic")], rest].concat()
+    };
+    let mut followers = Vec::new();
+    let mut indices = Vec::new();
+    for (index, link) in spec.links.iter().enumerate() {
+        let Some(MimicSpec { link: followed, multiplier, offset }) = &link.joint.mimic else {
+            continue;
+        };
+        let followed = *index_of.get(followed).ok_or_else(|| {
+            let message = format!("`{followed}` found; the name of a link expected");
+            source.error(&place(index, &[Key("link")]), message)
+        })?;
+        let (multiplier, offset) = (*multiplier, *offset);
+        // The base does not stand among the links of the file.
+        followers.push(Follower { link: index + 1, followed, multiplier, offset });
+        indices.push(index);
+    }
+    let told = couple(links, &followers)
+        .map_err(|(index, message)| source.error(&place(indices[index], &[]), message))?;
+    notes.extend(told);
+    Ok(())
 }
 
 /// The links with names that fit and that no two have: where one is taken, the first of `NAME-2`, `NAME-3`, …
@@ -106,17 +162,17 @@ pub(super) fn fitting_names(mut links: Vec<Link>) -> Vec<Link> {
     // taken, so that the numbers before it need not be tried again.
     let mut next_count: BTreeMap<String, u64> = BTreeMap::new();
     for link in &mut links {
-        let fitting = source::fitting(&link.name);
-        let mut name = if fitting.is_empty() { "link".to_owned() } else { fitting.clone() };
+        let fits_alone = fitting(&link.name);
+        let mut name = if fits_alone.is_empty() { "link".to_owned() } else { fits_alone.clone() };
         while taken.contains(&name) {
-            let count = next_count.entry(fitting.clone()).or_insert(2);
-            name = format!("{fitting}-{count}");
+            let count = next_count.entry(fits_alone.clone()).or_insert(2);
+            name = format!("{fits_alone}-{count}");
             *count += 1;
         }
         taken.insert(name.clone());
         link.name = name;
         if let Some(joint) = &mut link.joint {
-            joint.name = source::fitting(&joint.name);
+            joint.name = fitting(&joint.name);
         }
     }
     links
@@ -150,7 +206,7 @@ fn link_of(
             source.error(&at(&[Key("joint"), Key("parent")]), message)
         })?,
     };
-    let kind = kind_of(&joint.kind)
+    let kind = kind_of(&joint.kind, joint.mimic.is_some())
         .map_err(|message| source.error(&at(&[Key("joint"), Key("kind")]), message))?;
     Ok(Link {
         name: spec.name.clone(),
@@ -165,7 +221,34 @@ fn link_of(
     })
 }
 
-fn kind_of(spec: &JointKindSpec) -> Result<JointKind, String> {
+/// The link that attached bodies become, given the indices of the links before it by their names.
+fn attached_link(
+    source: &Source,
+    index_of: &BTreeMap<String, usize>,
+    index: usize,
+    spec: &AttachSpec,
+    notes: &mut Vec<String>,
+) -> Result<Link, ProblemError> {
+    let at = |key| [Key("robot"), Key("attach"), Index(index), Key(key)];
+    if !fits(&spec.name) || index_of.contains_key(&spec.name) {
+        let message = format!("`{}` found; {NAME_EXPECTED}", spec.name);
+        return Err(source.error(&at("name"), message));
+    }
+    let link = &spec.link;
+    let parent = index_of.get(link).or_else(|| index_of.get(&fitting(link))).ok_or_else(|| {
+        source.error(&at("link"), format!("`{link}` found; the name of a link expected"))
+    })?;
+    let (before, after) = (Pose::IDENTITY, Pose::IDENTITY);
+    let (parent, kind) = (*parent as u32, JointKind::Locked);
+    Ok(Link {
+        name: spec.name.clone(),
+        bodies: bodies(source, &at("bodies"), &spec.bodies, notes)?,
+        joint: Some(Joint { name: spec.name.clone(), parent, kind, before, after }),
+    })
+}
+
+/// How a joint moves alone; of one that follows another limits are those of its own value.
+fn kind_of(spec: &JointKindSpec, follows: bool) -> Result<JointKind, String> {
     let direction = |axis: &[f64; 3]| {
         unit(*axis).ok_or_else(|| format!("axis {axis:?} found; a direction expected"))
     };
@@ -197,8 +280,17 @@ fn kind_of(spec: &JointKindSpec) -> Result<JointKind, String> {
             };
             JointKind::Revolute { axis: direction(axis)?, limits }
         }
+        JointKindSpec::Locked {} => JointKind::Locked,
         JointKindSpec::Prismatic { axis, range } => {
-            JointKind::Prismatic { axis: direction(axis)?, limits: limits(*range, LENGTH_MAX)? }
+            let limits = match range {
+                Some(range) => limits(*range, LENGTH_MAX)?,
+                None if follows => Limits { min: -LENGTH_MAX, max: LENGTH_MAX },
+                None => {
+                    let expected = "range = [least, largest] expected";
+                    return Err(format!("a prismatic joint without range found; {expected}"));
+                }
+            };
+            JointKind::Prismatic { axis: direction(axis)?, limits }
         }
     })
 }

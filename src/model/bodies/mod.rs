@@ -9,12 +9,16 @@ mod describe;
 mod figure;
 pub mod foreign;
 mod import;
+mod inverse_kinematics;
 mod linkage;
+mod locks;
 mod resolve;
 pub mod robot;
+mod robot_files;
 mod shapes;
 mod sound;
 mod spec;
+mod touching_lines;
 pub mod validity;
 mod write;
 
@@ -22,12 +26,16 @@ pub(crate) use sound::body_sound;
 
 pub use import::import;
 pub use spec::{
-    BodiesSpec, BodySpec, FrameSpec, JointSpec, LinkSpec, RobotSpec, ShapeSpec, SpaceSpec,
+    AttachSpec, BodiesSpec, BodySpec, FrameSpec, JointSpec, LinkSpec, RobotSpec, ShapeSpec,
+    SpaceSpec,
 };
 pub use validity::BodyValidity;
 
-use super::{Description, Documents, Figure, Model, ModelKind, Resolve, SceneChange};
+use super::{
+    Description, Documents, Figure, Model, ModelKind, PoseFound, PoseGoal, Resolve, SceneChange,
+};
 use crate::scene::Body;
+use crate::seed::Seed;
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
 use bincode::{Decode, Encode};
@@ -80,6 +88,12 @@ impl Bodies {
     /// The obstacles in the world's frame.
     pub fn obstacles(&self) -> &[Body] {
         &self.obstacles
+    }
+
+    /// The key `may_touch` of a problem file with the pairs of links, of those that must not touch, that touch in all or in
+    /// none of `samples` configurations drawn uniformly by the base seed, as MoveIt's Setup Assistant finds them.
+    pub fn may_touch_lines(&self, samples: u64, base_seed: u64) -> String {
+        touching_lines::lines(self, samples, base_seed)
     }
 
     /// The model itself, with what is particular to bodies.
@@ -156,6 +170,15 @@ impl Description for Bodies {
 
     fn figure(&self) -> Option<&dyn Figure> {
         Some(self)
+    }
+
+    fn configurations_at(
+        &self,
+        goal: &PoseGoal,
+        seed: &Seed,
+        accept: &mut dyn FnMut(&mut [f64]) -> bool,
+    ) -> Result<PoseFound, (&'static str, String)> {
+        inverse_kinematics::configurations_at(self, goal, seed, accept)
     }
 }
 

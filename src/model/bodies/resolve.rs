@@ -5,7 +5,7 @@ use super::linkage::robot_of;
 use super::robot::Robot;
 use super::shapes::{bodies, check_bodies};
 use super::spec::{BodiesSpec, SpaceSpec};
-use super::validity::Bounds;
+use super::validity::{Bounds, BoundsMeaning};
 use crate::scene::{Body, LENGTH_MAX};
 use crate::source::Step::Key;
 use crate::source::{ProblemError, Source};
@@ -22,8 +22,8 @@ pub(super) fn resolve(
     source: &Source,
     notes: &mut Vec<String>,
 ) -> Result<Bodies, ProblemError> {
-    let bounds = bounds_of(source, &spec.space)?;
     let robot = robot_of(source, &spec.robot, spec.space.motion, notes)?;
+    let bounds = bounds_of(source, &spec.space, &robot, notes)?;
     let obstacles = bodies(source, &[Key("obstacles")], &spec.obstacles, notes)?;
     check_bodies(source, &robot, &obstacles)?;
     let resolution = resolution_of(source, &spec.space, &bounds, &robot, notes)?;
@@ -32,11 +32,42 @@ pub(super) fn resolve(
     Ok(Bodies { bounds, resolution, edges, rotation_length, robot, obstacles })
 }
 
-fn bounds_of(source: &Source, space: &SpaceSpec) -> Result<Bounds, ProblemError> {
-    let axes = space.motion.bounded_axes();
+fn bounds_of(
+    source: &Source,
+    space: &SpaceSpec,
+    robot: &Robot,
+    notes: &mut Vec<String>,
+) -> Result<Bounds, ProblemError> {
+    let axes = robot.motion.bounded_axes();
+    let SpaceSpec { min, max, bounds, .. } = space;
+    if robot.motion == BaseJoint::Fixed && min.is_none() && max.is_none() && bounds.is_none() {
+        let (bounds, note) =
+            bounds_of_reach(robot).map_err(|message| source.error(&[Key("robot")], message))?;
+        if bounds.min[0] >= bounds.max[0] {
+            let message = "a robot without extent found; min, max and bounds expected".to_owned();
+            return Err(source.error(&[Key("space")], message));
+        }
+        notes.push(note);
+        return Ok(bounds);
+    }
+    let lacks = |key: &str, expected: &str| {
+        let message = match robot.motion {
+            BaseJoint::Fixed => {
+                format!("no {key} found; {expected} expected, or none of min, max and bounds")
+            }
+            _ => format!("no {key} found; {expected} expected, as the base moves"),
+        };
+        Err(source.error(&[Key("space")], message))
+    };
+    let (Some(min), Some(max)) = (min, max) else {
+        let key = if min.is_none() { "min" } else { "max" };
+        return lacks(key, &format!("{axes} lengths"));
+    };
+    let Some(meaning) = *bounds else {
+        return lacks("bounds", "\"body\" or \"reference\"");
+    };
     let mut box_of = [[0.0; 3]; 2];
-    for (corner, (key, values)) in box_of.iter_mut().zip([("min", &space.min), ("max", &space.max)])
-    {
+    for (corner, (key, values)) in box_of.iter_mut().zip([("min", min), ("max", max)]) {
         let place = [Key("space"), Key(key)];
         if values.len() != axes {
             let message = format!("{} values found; {axes} expected", values.len());
@@ -58,7 +89,25 @@ fn bounds_of(source: &Source, space: &SpaceSpec) -> Result<Bounds, ProblemError>
             return Err(source.error(&[Key("space"), Key("max")], message));
         }
     }
-    Ok(Bounds { min, max, meaning: space.bounds })
+    Ok(Bounds { min, max, meaning })
+}
+
+/// The box about the base's origin that is as large as a robot can reach, and a note about it.
+///
+/// # Errors
+/// What is wrong with the reach.
+pub(super) fn bounds_of_reach(robot: &Robot) -> Result<(Bounds, String), String> {
+    let reach = robot.reach();
+    if reach.is_nan() || reach > LENGTH_MAX {
+        return Err(format!("a reach of {reach:e} found; at most {LENGTH_MAX:e} expected"));
+    }
+    let at = match robot.motion {
+        BaseJoint::Fixed => robot.base.translation,
+        _ => [0.0; 3],
+    };
+    let (min, max) = (at.map(|x| x - reach), at.map(|x| x + reach));
+    let note = format!("the bounds reach as far as the robot, {reach}");
+    Ok((Bounds { min, max, meaning: BoundsMeaning::Reference }, note))
 }
 
 fn resolution_of(

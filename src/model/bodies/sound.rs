@@ -3,7 +3,7 @@
 
 use super::Bodies;
 use super::resolve::{FINEST, diagonal_of, too_far};
-use super::robot::{JointKind, LINKS_MAX, Limits, Link, Robot, TURN_MAX};
+use super::robot::{JointKind, LINKS_MAX, Limits, Link, Robot, TURN_MAX, mimic_complaint};
 use super::shapes::bodies_complaint;
 use super::validity::Bounds;
 use crate::scene::{Body, LENGTH_MAX, Mesh, Pose, Shape};
@@ -81,6 +81,9 @@ fn robot_sound(robot: &Robot) -> Result<(), String> {
     if motion.values() + joints.map(|joint| joint.kind.values()).sum::<usize>() == 0 {
         return Err("robot: nothing moves; a moving base or a moving joint expected".to_owned());
     }
+    if let Some((index, message)) = mimic_complaint(links) {
+        return Err(format!("robot: link {index}.joint: {message}"));
+    }
     let listed = |link: &u32| (*link as usize) < links.len();
     match may_touch.iter().find(|(one, other)| !(listed(one) && listed(other))) {
         None => Ok(()),
@@ -107,7 +110,10 @@ fn link_sound(link: &Link, index: usize) -> Result<(), String> {
         pose_sound(pose).map_err(|why| format!(".joint.{key}: {why}"))?;
     }
     let (axis, limits, most) = match joint.kind {
-        JointKind::Fixed | JointKind::Spherical => return Ok(()),
+        JointKind::Fixed | JointKind::Spherical | JointKind::Locked => return Ok(()),
+        JointKind::RevoluteMimic { axis, .. } | JointKind::PrismaticMimic { axis, .. } => {
+            (axis, None, TURN_MAX)
+        }
         JointKind::Revolute { axis, limits } => (axis, limits, TURN_MAX),
         JointKind::Prismatic { axis, limits } => (axis, Some(limits), FAR),
     };

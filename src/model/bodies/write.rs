@@ -1,7 +1,7 @@
 //! Rigid robots and obstacles written out as the tables of a problem file.
 
 use super::Bodies;
-use super::robot::{JointKind, Limits, Link};
+use super::robot::{JointKind, Limits, Link, Mimic};
 use crate::digest::Digest;
 use crate::model::Documents;
 use crate::scene::{Body, Mesh, Pose, Shape};
@@ -52,6 +52,12 @@ impl Writer<'_> {
             self.link_bodies(link, out)?;
             writeln!(out, "[robot.links.joint]\nname = {}", value(&joint.name))?;
             writeln!(out, "parent = {}\nkind = {}", name(joint.parent), kind(&joint.kind))?;
+            if let Some(Mimic { value, multiplier, offset }) = joint.kind.mimic() {
+                let link =
+                    robot.link_of_value(*value).map_or_else(String::new, |link| name(link as u32));
+                let numbers = format!("multiplier = {multiplier:?}, offset = {offset:?}");
+                writeln!(out, "mimic = {{ link = {link}, {numbers} }}")?;
+            }
             for (key, pose) in [("before", &joint.before), ("after", &joint.after)] {
                 writeln!(out, "{key} = {}", frame(pose))?;
             }
@@ -161,7 +167,11 @@ fn kind(kind: &JointKind) -> String {
     match kind {
         JointKind::Fixed => "{ fixed = {} }".to_owned(),
         JointKind::Spherical => "{ spherical = {} }".to_owned(),
-        JointKind::Revolute { axis, limits: None } => {
+        JointKind::Locked => "{ locked = {} }".to_owned(),
+        JointKind::PrismaticMimic { axis, .. } => {
+            format!("{{ prismatic = {{ axis = {axis:?} }} }}")
+        }
+        JointKind::Revolute { axis, limits: None } | JointKind::RevoluteMimic { axis, .. } => {
             format!("{{ revolute = {{ axis = {axis:?} }} }}")
         }
         JointKind::Revolute { axis, limits: Some(Limits { min, max }) } => {

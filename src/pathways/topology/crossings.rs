@@ -1,3 +1,4 @@
+use super::section;
 use crate::context::Context;
 use crate::model::{Figure, Scratch};
 use crate::seed::{Purpose, Seed};
@@ -35,7 +36,7 @@ pub fn append(word: &mut Word, crossings: impl IntoIterator<Item = Crossing>) {
     }
 }
 
-/// Points of the plane that no path passes, one in each obstacle, or in each connected piece of one that is a mesh. From each a
+/// Points of the plane that no path passes, one in each part of an obstacle that the plane cuts. From each a
 /// ray leads up, along y.
 ///
 /// Without the rays the plane is simply connected, so the word of the rays that a path crosses, reduced, is all there is to
@@ -44,9 +45,11 @@ pub fn append(word: &mut Word, crossings: impl IntoIterator<Item = Crossing>) {
 /// motion planning: S. Bhattacharya, M. Likhachev, V. Kumar, *Topological constraints in search-based robot path planning*, Autonomous Robots
 /// 33, 2012; A. Hatcher, *Algebraic Topology*, §1.2.)
 ///
-/// The point of a mesh is one of its vertices, that of another shape its middle. Where the robot's reference point can lie there,
-/// as a point robot's can at a vertex, or where the plane cuts the obstacle elsewhere only, the obstacle has no puncture, and ways
-/// around it are not told apart: [`Punctures::left_out`] counts such obstacles.
+/// A part is what one closed curve bounds in which the plane z = 0 cuts the obstacle's surface: an arch that stands on the plane has two. Its
+/// point is the first of several inside it, those far from its border first, at which the robot's reference point cannot lie; of a
+/// box, ball, cylinder or capsule its middle is looked at before. A connected piece that the plane does not cut, which only a robot with extent can
+/// meet, is one part with the point that lies below or above one of its vertices. Where the robot's reference point can lie at every point that is looked at, the part has no puncture, and ways
+/// around it are not told apart: [`Punctures::left_out`] counts such parts.
 ///
 /// Obstacles that touch need not be known as one. Where several punctures lie in one piece of what is forbidden, its
 /// letters come together in every word, and words are equal as they would be with a single one.
@@ -57,11 +60,11 @@ pub fn append(word: &mut Word, crossings: impl IntoIterator<Item = Crossing>) {
 pub struct Punctures {
     /// Where they are, by their numbers.
     points: Vec<[f64; 2]>,
-    /// Per puncture the index of its obstacle, and the number of the piece within it.
-    pieces: Vec<[usize; 2]>,
+    /// Per puncture the index of its obstacle, and the number of the part within it.
+    parts: Vec<[usize; 2]>,
     /// The numbers, in the order of x, ties by number.
     by_x: Vec<u32>,
-    /// How many pieces of obstacles have none.
+    /// How many parts of obstacles have none.
     left_out: usize,
 }
 
@@ -69,45 +72,46 @@ pub struct Punctures {
 const PLACED: usize = 32;
 
 impl Punctures {
-    /// Those of a planar model: of every piece of an obstacle a point within the bounds at which the robot's reference point
-    /// cannot be. A piece at whose point a configuration was found that is valid has no puncture: the robot can
+    /// Those of a planar model: of every part of an obstacle a point within the bounds at which the robot's reference point
+    /// cannot be. A point at which a configuration was found that is valid is none: the robot can
     /// pass it with that point, whatever else it touches. Looked for are configurations with all other values drawn uniformly, 32
     /// of them.
     pub(super) fn of(cx: &Context, figure: &dyn Figure, scratch: &mut Scratch) -> Punctures {
         let [min, max] = figure.bounds();
-        let (mut points, mut pieces, mut left_out) = (Vec::new(), Vec::new(), 0);
+        let (mut points, mut parts, mut left_out) = (Vec::new(), Vec::new(), 0);
         let mut stream = Seed::of_evaluator(cx.base_seed, "topology").stream(Purpose::Sampling);
         let mut q = vec![0.0; cx.space.len()];
         for (obstacle, body) in figure.obstacles().iter().enumerate() {
-            for (piece, witness) in body.shape.witnesses().into_iter().enumerate() {
-                let [x, y, _] = body.pose.apply(witness);
+            for (part, candidates) in section::parts(body).into_iter().enumerate() {
                 // What lies outside the bounds no path goes around.
-                let is_inside = min[0] < x && x < max[0] && min[1] < y && y < max[1];
-                if !is_inside {
-                    continue;
-                }
-                let mut is_forbidden = || {
-                    cx.space.sample_uniform(&mut stream, &mut q);
-                    (q[0], q[1]) = (x, y);
-                    !cx.model.is_valid(&q, scratch)
+                let is_within =
+                    |[x, y]: &[f64; 2]| min[0] < *x && *x < max[0] && min[1] < *y && *y < max[1];
+                let within: Vec<[f64; 2]> = candidates.into_iter().filter(is_within).collect();
+                let mut is_forbidden = |[x, y]: &[f64; 2]| {
+                    (0..PLACED).all(|_| {
+                        cx.space.sample_uniform(&mut stream, &mut q);
+                        (q[0], q[1]) = (*x, *y);
+                        !cx.model.is_valid(&q, scratch)
+                    })
                 };
-                if (0..PLACED).all(|_| is_forbidden()) {
-                    points.push([x, y]);
-                    pieces.push([obstacle, piece]);
-                } else {
-                    left_out += 1;
+                match within.iter().find(|point| is_forbidden(point)) {
+                    Some(point) => {
+                        points.push(*point);
+                        parts.push([obstacle, part]);
+                    }
+                    None => left_out += usize::from(!within.is_empty()),
                 }
             }
         }
-        Punctures { left_out, ..Punctures::at(points, pieces) }
+        Punctures { left_out, ..Punctures::at(points, parts) }
     }
 
-    /// Punctures at these points, each with the index of its obstacle and the number of the piece within it.
-    pub fn at(points: Vec<[f64; 2]>, pieces: Vec<[usize; 2]>) -> Punctures {
+    /// Punctures at these points, each with the index of its obstacle and the number of the part within it.
+    pub fn at(points: Vec<[f64; 2]>, parts: Vec<[usize; 2]>) -> Punctures {
         let mut by_x: Vec<u32> = (0..points.len() as u32).collect();
         // Stable: ties stay in the order of their numbers.
         by_x.sort_by(|a, b| points[*a as usize][0].total_cmp(&points[*b as usize][0]));
-        Punctures { points, pieces, by_x, left_out: 0 }
+        Punctures { points, parts, by_x, left_out: 0 }
     }
 
     /// Where they are, by their numbers.
@@ -115,7 +119,7 @@ impl Punctures {
         &self.points
     }
 
-    /// How many pieces of obstacles have none, since the robot's reference point can be there.
+    /// How many parts of obstacles have none, since the robot's reference point can be there.
     pub fn left_out(&self) -> usize {
         self.left_out
     }
@@ -155,7 +159,7 @@ impl Punctures {
     }
 
     /// A word as people read it: the numbers of the obstacles, counted from 1, above which the path passes, with a minus where
-    /// it does so from right to left. Of a further piece of an obstacle the piece's number follows after a stroke. `-` alone is the
+    /// it does so from right to left. Of a further part of an obstacle the part's number follows after a stroke. `-` alone is the
     /// word without letters.
     pub fn text(&self, word: &[Crossing]) -> String {
         if word.is_empty() {
@@ -163,10 +167,10 @@ impl Punctures {
         }
         let letter = |crossing: &Crossing| {
             let sign = if crossing.rightwards { "" } else { "-" };
-            let [obstacle, piece] = self.pieces[crossing.puncture as usize];
-            match piece {
+            let [obstacle, part] = self.parts[crossing.puncture as usize];
+            match part {
                 0 => format!("{sign}{}", obstacle + 1),
-                _ => format!("{sign}{}/{}", obstacle + 1, piece + 1),
+                _ => format!("{sign}{}/{}", obstacle + 1, part + 1),
             }
         };
         word.iter().map(letter).collect::<Vec<_>>().join(" ")

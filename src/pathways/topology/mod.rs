@@ -5,6 +5,7 @@
 //! there the class is the order in which the obstacles come nearest along the path, an approximation.
 
 mod crossings;
+mod section;
 
 pub use crossings::{Crossing, Punctures, Word, append};
 

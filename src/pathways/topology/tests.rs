@@ -275,9 +275,14 @@ fn the_shortest_route_of_every_class_is_found() {
     };
     let attachment = Attachment { neighbors: 1, ..Attachment::default() };
     let configs = [&ends.start[..], &ends.goal];
-    let ways = Ways::between(&cx, &roadmap, configs, &attachment, scratch);
+    let mut ways = Ways::between(&cx, &roadmap, configs, &attachment, scratch);
     let crossings = EdgeCrossings::of(&ways, punctures, |q| topology.point(q));
-    let routes = shortest_of_classes(&ways, &crossings, 12);
+    let mut shortest = |ways: &mut Ways, cancel: &Cancel| {
+        let found = shortest_of_classes(ways, &crossings, 12, cancel, scratch);
+        assert!(!found.has_failed);
+        found.routes
+    };
+    let routes = shortest(&mut ways, &Cancel::new());
     assert_eq!(routes.len(), 12);
     assert!(routes.is_sorted_by(|a, b| a.length <= b.length));
     let longest = routes[11].length;
@@ -294,11 +299,14 @@ fn the_shortest_route_of_every_class_is_found() {
     assert_eq!(first, ["-", "1", "2", "1 2"].map(str::to_owned).into());
     // An edge that has failed the finer check is not gone along.
     let without = routes[0].edges[1];
-    let mut ways = Ways::between(&cx, &roadmap, configs, &attachment, scratch);
     ways.failed.insert(without);
-    let others = shortest_of_classes(&ways, &crossings, 12);
+    let others = shortest(&mut ways, &Cancel::new());
     assert!(others.iter().all(|route| !route.edges.contains(&without)));
     assert!(others[0].length >= routes[0].length && others.len() == 12);
+    // Nor is anything looked for once the search is cancelled.
+    let cancel = Cancel::new();
+    cancel.cancel();
+    assert!(shortest(&mut ways, &cancel).is_empty());
 }
 
 #[test]
@@ -330,8 +338,8 @@ fn paths_are_shortened_within_their_class() {
     }
 }
 
-/// An obstacle that the reference point can be above, and one outside the bounds, have no puncture; a mesh has one in every
-/// piece; obstacles that overlap have one each, which changes no class.
+/// An obstacle that the reference point can be above, and one outside the bounds, have no puncture; obstacles that overlap have
+/// one each, which changes no class.
 #[test]
 fn punctures_lie_where_the_robot_cannot_be() {
     let point = "{ shape = { point = {} } }";
@@ -352,6 +360,34 @@ fn punctures_lie_where_the_robot_cannot_be() {
     let found = found.expect("few frames");
     let texts: BTreeSet<String> = found.classes.iter().map(|class| topology.text(class)).collect();
     assert_eq!(texts, ["-", "1 4", "-4 -1", "1 4 1 4"].map(str::to_owned).into());
+}
+
+/// A mesh with no vertex in the plane, and a box whose middle is far above it.
+#[test]
+fn obstacles_that_stand_aslant_are_passed_on_either_side() {
+    let aslant = "[[obstacles]]\nshape = { mesh = { file = \"tests/problems/tetrahedron.obj\" } }\n\
+        position = [2.0, 3.0, -0.3]\norientation = [0.9, 0.3, 0.3, 0.1]\n\
+        [[obstacles]]\nshape = { box = { size = [1, 1, 4] } }\n\
+        position = [6.0, 3.0, 1.2]\norientation = [0.8660254, 0.0, 0.5, 0.0]\n";
+    for robot in ["{ shape = { point = {} } }", "{ shape = { sphere = { radius = 0.05 } } }"] {
+        let problem = scene("translation-2d", robot, aslant, ["[0.4, 3]", "[7.6, 3]"]);
+        let (cx, scratch) = (problem.context(), &mut Scratch::new());
+        let topology = Topology::of(&cx, problem.model().description(), scratch).expect("bodies");
+        let punctures = topology.punctures().expect("it is planar");
+        assert_eq!((punctures.points().len(), punctures.left_out()), (2, 0), "{robot}");
+        for [x, y] in punctures.points() {
+            assert!(!cx.model().is_valid(&[*x, *y], scratch), "{x} {y}");
+        }
+        // The tilted box stands in the plane with its lower end.
+        let [x, y] = punctures.points()[1];
+        assert!((4.0..5.0).contains(&x) && (2.5..3.5).contains(&y), "{x} {y}");
+        let over = |first: f64, second: f64| {
+            let [one, other] = [0, 1].map(|number| punctures.points()[number][0]);
+            word(punctures, &[[0.4, 3.0], [one, first], [3.3, 3.0], [other, second], [7.6, 3.0]])
+        };
+        let words = [over(1.0, 1.0), over(5.0, 1.0), over(1.0, 5.0), over(5.0, 5.0)];
+        assert_eq!(words, ["-", "1", "2", "1 2"]);
+    }
 }
 
 /// The obstacles nearest along the path, in their order.

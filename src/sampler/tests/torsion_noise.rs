@@ -150,29 +150,31 @@ fn widths_are_found_that_are_feasible() {
     assert_eq!(found(&strict), [WIDTHS[0]]);
 }
 
-/// Sets about the ends of a query depend on it: it is part of the digest, and a build goes on with no other.
+/// Sets about the ends of a query depend on it: it is part of the digest, and with another a build goes on by other strategies only.
 #[test]
 fn the_query_belongs_to_what_is_drawn_about_it() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/ends.toml");
-    let problem = |about: &str, turn: f64| {
+    let problem = |label: &str, about: &str, turn: f64| {
         let start: Vec<f64> = peptide().model.native().expect("a protein has one").to_vec();
         let mut goal = start.clone();
         goal[3] += turn;
         let text = format!(
             "[protein]\nsource = {{ file = \"structures/1UAO.pdb\" }}\n[query]\nstart = {start:?}\ngoal = {goal:?}\n\
-             [[strategies]]\nlabel = \"noise\"\nnodes = 4\nsampler = {{ torsion-noise = {{ degrees = [2.0], \
+             [[strategies]]\nlabel = \"{label}\"\nnodes = 4\nsampler = {{ torsion-noise = {{ degrees = [2.0], \
              about = \"{about}\", windows = [{}] }} }}\n",
             vec!["[1e9, 2e9]"; if about == "ends" { 2 } else { 1 }].join(", ")
         );
         Problem::parse(&path, &text).unwrap_or_else(|error| panic!("{error}"))
     };
-    let [one, other] = [0.01, 0.02].map(|turn| problem("ends", turn));
+    let [one, other] = [0.01, 0.02].map(|turn| problem("noise", "ends", turn));
     assert_ne!(one.digest(), other.digest());
     let refused = one.continued(&other, 1).unwrap_err();
     assert!(refused.contains("the ends of the query"), "{refused}");
     assert!(one.continued(&one, 1).is_ok());
+    let continued = one.continued(&problem("other", "ends", 0.02), 1).expect("by other strategies");
+    assert_eq!((continued.query(), continued.strategies().len()), (other.query(), 2));
     // Sets about the native state do not know the query.
-    let [one, other] = [0.01, 0.02].map(|turn| problem("native", turn));
+    let [one, other] = [0.01, 0.02].map(|turn| problem("noise", "native", turn));
     assert_eq!(one.digest(), other.digest());
     assert!(one.continued(&other, 1).is_ok());
 }

@@ -36,6 +36,8 @@ pub struct Replay<'a> {
     space: Space,
     sound: SetCheck,
     chapters: usize,
+    /// So many chapters are read.
+    chapters_wanted: usize,
     /// Digest and nodes of the roadmap at the start of the round.
     roadmap: Digest,
     folded: u64,
@@ -64,10 +66,16 @@ impl<'a> Replay<'a> {
             space,
             sound: SetCheck::new(problem),
             chapters: 0,
+            chapters_wanted: scan.chapters.len(),
             roadmap,
             folded: 0,
             end: None,
         })
+    }
+
+    /// Ends with the last record of the first `chapters` chapters, of the last of which the problem may then be.
+    pub fn to_end_of(self, chapters: usize) -> Replay<'a> {
+        Replay { chapters_wanted: chapters, ..self }
     }
 
     /// The next round, judgement or stop, up to the scan's end.
@@ -104,7 +112,12 @@ impl<'a> Replay<'a> {
                     }
                     return Ok(Some(Told::Judged(judged)));
                 }
-                Some(Record::Chapter(_) | Record::SecondChapter(_)) => self.chapters += 1,
+                Some(Record::Chapter(_) | Record::SecondChapter(_)) => {
+                    if self.chapters == self.chapters_wanted {
+                        break;
+                    }
+                    self.chapters += 1;
+                }
                 Some(Record::Stopped(stopped)) => return Ok(Some(Told::Stopped(stopped))),
                 None => break,
             }

@@ -16,6 +16,7 @@ use std::f64::consts::E;
 use std::path::Path;
 use std::sync::Arc;
 
+mod retraction;
 mod settings;
 
 /// A bar in the plane that turns on its way through two passages.

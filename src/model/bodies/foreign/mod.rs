@@ -1,5 +1,5 @@
 //! Scenes of other programs, OMPL.app's `.cfg` and Parasol's `.env`, `.robot` and `.query`, and robots,
-//! URDF, read into plain data in this crate's conventions.
+//! URDF and SRDF, read into plain data in this crate's conventions.
 //!
 //! `docs/foreign.md` says what each reader takes and ignores. Whatever a file leaves open and a reader
 //! decides is a line in [`ForeignScene::notes`].
@@ -10,6 +10,7 @@ mod frames;
 mod ompl;
 mod options;
 mod parasol;
+mod srdf;
 mod urdf;
 
 pub use error::ForeignError;
@@ -17,6 +18,9 @@ pub use ompl::read_ompl;
 pub(crate) use options::SceneKind;
 pub use options::{DhOrder, SceneOptions, Solidity, Unit};
 pub use parasol::read_parasol;
+pub use srdf::{
+    EndEffector, Group, GroupState, Member, Srdf, VirtualJoint, VirtualKind, read_srdf,
+};
 pub use urdf::{UrdfRobot, read_urdf};
 
 use crate::digest::SourceFile;

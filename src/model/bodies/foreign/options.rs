@@ -24,6 +24,10 @@ pub struct SceneOptions<'a> {
     pub weld: Option<f64>,
     /// Parasol: how the numbers of Denavit and Hartenberg are composed.
     pub dh: Option<DhOrder>,
+    /// URDF: the `.srdf` file.
+    pub srdf: Option<&'a Path>,
+    /// URDF: the group of the `.srdf` file whose joints move.
+    pub group: Option<&'a str>,
 }
 
 /// Whether the insides of meshes are material.
@@ -71,8 +75,8 @@ pub(crate) enum SceneKind {
 impl SceneOptions<'_> {
     /// The first option that was given and that files of the kind leave no room for.
     pub(crate) fn misplaced(&self, kind: SceneKind) -> Option<&'static str> {
-        use SceneKind::{Ompl, Parasol};
-        let options: [(&'static str, bool, &[SceneKind]); 9] = [
+        use SceneKind::{Ompl, Parasol, Urdf};
+        let options: [(&'static str, bool, &[SceneKind]); 11] = [
             ("--robot", self.robot.is_some(), &[Parasol]),
             ("--query", self.query.is_some(), &[Parasol]),
             ("--solid", self.solid.is_some(), &[Ompl, Parasol]),
@@ -82,6 +86,8 @@ impl SceneOptions<'_> {
             ("--unit", self.unit.is_some(), &[Ompl]),
             ("--weld", self.weld.is_some(), &[Ompl, Parasol]),
             ("--dh", self.dh.is_some(), &[Parasol]),
+            ("--srdf", self.srdf.is_some(), &[Urdf]),
+            ("--group", self.group.is_some(), &[Urdf]),
         ];
         let misplaced =
             |(_, given, kinds): &&(&str, bool, &[SceneKind])| *given && !kinds.contains(&kind);

@@ -41,6 +41,50 @@ pub enum JointKind {
     },
     /// Turns in every way about the joint's origin, by a unit quaternion `w x y z`.
     Spherical,
+    /// Turns about an axis through the joint's origin as another joint moves: by an angle in radians that follows from
+    /// the other joint's value.
+    RevoluteMimic {
+        /// Unit vector in the joint's frame.
+        axis: [f64; 3],
+        /// How its angle follows from the other joint's value.
+        mimic: Mimic,
+    },
+    /// Slides along an axis as another joint moves: by a length that follows from the other joint's value.
+    PrismaticMimic {
+        /// Unit vector in the joint's frame.
+        axis: [f64; 3],
+        /// How its length follows from the other joint's value.
+        mimic: Mimic,
+    },
+    /// Not at all, although the joint could: it is held where it is, and its place is part of [`Joint::before`]. Unlike
+    /// [`JointKind::Fixed`] it separates the links on its two sides, as a joint that moves does: which links are
+    /// neighbours does not depend on which joints are locked.
+    Locked, // new ones at the end, since ledgers know kinds by number
+}
+
+/// How the value of a joint follows from that of another: `multiplier · value + offset`.
+#[derive(Clone, Copy, Debug, PartialEq, Encode, Decode)]
+pub struct Mimic {
+    /// The other joint's value: its index in a configuration, counted from the first value after the base's. The value
+    /// is that of a revolute or prismatic joint.
+    pub value: u32,
+    /// What the other joint's value is multiplied by. A whole number where the other joint turns on and on, since only
+    /// then a turn of it is none of this joint either.
+    pub multiplier: f64,
+    /// What is added: an angle in radians, or a length.
+    pub offset: f64,
+}
+
+impl Mimic {
+    /// The joint's value where the joints' values, those of the configuration after the base's, are `values`.
+    pub fn at(&self, values: &[f64]) -> f64 {
+        self.multiplier * values[self.value as usize] + self.offset
+    }
+
+    /// A bound on the size of the joint's value where that of the other joint is at most `size`.
+    pub fn size(&self, size: f64) -> f64 {
+        self.multiplier.abs() * size + self.offset.abs()
+    }
 }
 
 /// Least and largest value of a joint.
@@ -53,15 +97,26 @@ pub struct Limits {
 }
 
 impl JointKind {
-    /// Whether the joint moves.
+    /// Whether the joint moves, by values of its own or as another joint does.
     pub fn moves(&self) -> bool {
-        self.values() > 0
+        self.values() > 0 || self.mimic().is_some()
+    }
+
+    /// How the joint follows another, if it does.
+    pub fn mimic(&self) -> Option<&Mimic> {
+        match self {
+            JointKind::RevoluteMimic { mimic, .. } | JointKind::PrismaticMimic { mimic, .. } => {
+                Some(mimic)
+            }
+            _ => None,
+        }
     }
 
     /// How many values of a configuration the joint takes.
     pub fn values(&self) -> usize {
         match self {
-            JointKind::Fixed => 0,
+            JointKind::Fixed | JointKind::Locked => 0,
+            JointKind::RevoluteMimic { .. } | JointKind::PrismaticMimic { .. } => 0,
             JointKind::Revolute { .. } | JointKind::Prismatic { .. } => 1,
             JointKind::Spherical => 4,
         }
@@ -69,16 +124,18 @@ impl JointKind {
 }
 
 impl Joint {
-    /// The child link's frame in the parent's at the joint's values.
+    /// The child link's frame in the parent's at the joint's values: its own, or of a joint that follows another the one
+    /// that results.
     pub fn pose(&self, values: &[f64]) -> Pose {
         let motion = match self.kind {
-            JointKind::Fixed => Pose::IDENTITY,
-            JointKind::Revolute { axis: [x, y, z], .. } => {
+            JointKind::Fixed | JointKind::Locked => Pose::IDENTITY,
+            JointKind::Revolute { axis: [x, y, z], .. }
+            | JointKind::RevoluteMimic { axis: [x, y, z], .. } => {
                 let half = values[0] / 2.0;
                 let (sine, cosine) = (math::sin(half), math::cos(half));
                 Pose { translation: [0.0; 3], rotation: [cosine, x * sine, y * sine, z * sine] }
             }
-            JointKind::Prismatic { axis, .. } => Pose {
+            JointKind::Prismatic { axis, .. } | JointKind::PrismaticMimic { axis, .. } => Pose {
                 translation: axis.map(|component| component * values[0]),
                 rotation: Pose::IDENTITY.rotation,
             },

@@ -2,14 +2,19 @@
 //!
 //! A robot is a tree of links. The base moves as [`BaseJoint`] says; every other link is moved by a joint
 //! of an earlier one. A rigid body is a robot of one link. A configuration holds the base's values, then
-//! those of the joints in the order of their links.
+//! those of the joints in the order of their links; joints that are fixed, locked or follow another have none.
 
 mod joint;
+mod locked;
+mod mimics;
 mod pairs;
 mod rates;
 mod space;
 
-pub use joint::{Joint, JointKind, Limits, TURN_MAX};
+pub use joint::{Joint, JointKind, Limits, Mimic, TURN_MAX};
+pub(super) use locked::lock;
+pub(super) use mimics::mimic_complaint;
+pub(super) use mimics::{Follower, couple};
 #[cfg(test)]
 pub(crate) use rates::Steady;
 pub(crate) use rates::{Hops, Rates};
@@ -99,14 +104,19 @@ impl Robot {
     /// configuration `q`.
     pub fn link_poses(&self, q: &[f64], poses: &mut Vec<Pose>) {
         poses.clear();
-        let mut at = self.motion.values();
+        let first = self.motion.values();
+        let mut at = first;
         for link in &self.links {
             let pose = match &link.joint {
                 None => self.base_pose(q),
                 Some(joint) => {
                     let own = at..at + joint.kind.values();
                     at = own.end;
-                    poses[joint.parent as usize].then(&joint.pose(&q[own]))
+                    let moved = match joint.kind.mimic() {
+                        None => joint.pose(&q[own]),
+                        Some(mimic) => joint.pose(&[mimic.at(&q[first..])]),
+                    };
+                    poses[joint.parent as usize].then(&moved)
                 }
             };
             poses.push(pose);
@@ -114,6 +124,8 @@ impl Robot {
     }
 }
 
+#[cfg(test)]
+pub(crate) mod mimics_tests;
 #[cfg(test)]
 mod rates_reference;
 #[cfg(test)]

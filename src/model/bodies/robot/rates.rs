@@ -69,6 +69,10 @@ enum Kind {
     /// Turns as the unit quaternion that begins at this index.
     Ball(usize),
     Slide(usize),
+    /// Turns with a multiple of the value of this index; whether the value wraps.
+    TurnOf(usize, bool, f64),
+    /// Slides with a multiple of the value of this index, by an offset more.
+    SlideOf(usize, f64, f64),
 }
 
 /// Outweighs the rounding in all of this.
@@ -78,14 +82,22 @@ impl Hops {
     /// The joints of a robot.
     pub fn new(robot: &Robot) -> Hops {
         let length = |pose: &Pose| Vector::from_array(pose.translation).length();
-        let mut value = robot.motion.values();
+        let first = robot.motion.values();
+        let mut value = first;
         let joints = robot.links[1..].iter().map(|link| {
             let joint = link.joint.as_ref().expect("every link but the base has a joint");
             let kind = match joint.kind {
-                JointKind::Fixed => Kind::Fixed,
+                JointKind::Fixed | JointKind::Locked => Kind::Fixed,
                 JointKind::Revolute { limits, .. } => Kind::Turn(value, limits.is_none()),
                 JointKind::Prismatic { .. } => Kind::Slide(value),
                 JointKind::Spherical => Kind::Ball(value),
+                JointKind::RevoluteMimic { mimic, .. } => {
+                    let wraps = robot.range(mimic.value).is_some_and(|range| range.is_none());
+                    Kind::TurnOf(first + mimic.value as usize, wraps, mimic.multiplier)
+                }
+                JointKind::PrismaticMimic { mimic, .. } => {
+                    Kind::SlideOf(first + mimic.value as usize, mimic.multiplier, mimic.offset)
+                }
             };
             value += joint.kind.values();
             let (before, after) = (length(&joint.before), length(&joint.after));
@@ -160,11 +172,18 @@ impl Rates {
                 let (from, to) = (rotation_at(a, value), rotation_at(b, value));
                 self.turn(turn_between(from, to).1 * ROUNDING);
             }
-            Kind::Slide(value) => {
-                self.carry(a[value].abs().max(b[value].abs()));
-                let rate = (b[value] - a[value]).abs() * ROUNDING;
-                self.bend += 2.0 * self.spin * rate;
-                self.speed += rate;
+            Kind::Slide(value) => self
+                .slide(a[value].abs().max(b[value].abs()), (b[value] - a[value]).abs() * ROUNDING),
+            // A value that follows another changes at a constant rate, too, since it is linear in it.
+            Kind::TurnOf(value, wraps, multiplier) => {
+                let change = b[value] - a[value];
+                let rate = if wraps { math::wrap_angle(change) } else { change };
+                self.turn((multiplier * rate).abs() * ROUNDING);
+            }
+            Kind::SlideOf(value, multiplier, offset) => {
+                let [from, to] = [a, b].map(|q| (multiplier * q[value] + offset).abs());
+                let rate = (multiplier * (b[value] - a[value])).abs() * ROUNDING;
+                self.slide(from.max(to), rate);
             }
         }
         self.carry(after);
@@ -174,6 +193,13 @@ impl Rates {
     fn carry(&mut self, length: f64) {
         self.speed += self.spin * length;
         self.bend += self.turn_bend() * length;
+    }
+
+    /// Slides the frame along an axis that is fixed to it, no farther than `most` from where the slide begins.
+    fn slide(&mut self, most: f64, rate: f64) {
+        self.carry(most);
+        self.bend += 2.0 * self.spin * rate;
+        self.speed += rate;
     }
 
     /// Turns the frame about an axis that is fixed to it.

@@ -45,7 +45,7 @@ fn reference(robot: &Robot, from: Option<usize>, to: usize, [a, b]: [&[f64]; 2])
         rates.steady = None;
         carry(&mut rates, first);
         match own.kind {
-            JointKind::Fixed => {}
+            JointKind::Fixed | JointKind::Locked => {}
             JointKind::Revolute { limits, .. } => {
                 let change = b[value] - a[value];
                 let rate = if limits.is_none() { math::wrap_angle(change) } else { change };
@@ -54,6 +54,9 @@ fn reference(robot: &Robot, from: Option<usize>, to: usize, [a, b]: [&[f64]; 2])
             JointKind::Spherical => {
                 let (from, to) = (rotation_at(a, value), rotation_at(b, value));
                 turn(&mut rates, turn_between(from, to).1 * ROUNDING);
+            }
+            JointKind::RevoluteMimic { .. } | JointKind::PrismaticMimic { .. } => {
+                unreachable!("these robots have none")
             }
             JointKind::Prismatic { .. } => {
                 carry(&mut rates, a[value].abs().max(b[value].abs()));

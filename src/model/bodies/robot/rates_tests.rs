@@ -64,35 +64,41 @@ fn seen(
     pair.0.map_or(to, |from| poses[from].to_parry().inv_mul(&to))
 }
 
+/// A drawn motion of the robot against the bounds: of every pair of links, and of every link in the world.
+pub(super) fn keeps_its_bounds(robot: &Robot, stream: &mut Stream) -> Result<(), TestCaseError> {
+    let hops = Hops::new(robot);
+    let space = robot.space([-2.0; 3], [2.0; 3], 1.0);
+    let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);
+    space.sample_uniform(stream, &mut a);
+    space.sample_uniform(stream, &mut b);
+    for to in 0..robot.links.len() {
+        for from in std::iter::once(None).chain((0..to).map(Some)) {
+            let rates = hops.rates(from, to, (&a, &b), &mut Vec::new());
+            let point = Vector::new(stream.normal(), stream.normal(), stream.normal());
+            let d = rates.distance(point);
+            let (s, t) = (stream.unit(), stream.unit());
+            let (s, t) = (s.min(t), s.max(t));
+            let share = stream.unit();
+            let at = |t: f64| seen(robot, &space, [&a, &b], t, (from, to)).transform_point(point);
+            let (first, last) = (at(s), at(t));
+            let time = t - s;
+            prop_assert!((last - first).length() <= rates.speed_at(d) * time + 1e-9);
+            let straight = first + (last - first) * share;
+            let left = (at(s + time * share) - straight).length();
+            let bound = rates.bend_at(d) * time * time / 8.0;
+            prop_assert!(left <= bound + 1e-9, "{} to {}: {} beyond {}", s, t, left, bound);
+        }
+    }
+    Ok(())
+}
+
 proptest! {
     #[test]
     fn no_point_is_faster_or_leaves_a_chord_farther_than_the_bounds_say(ordinal in any::<u64>()) {
         let mut stream = Seed::of_set(5, "rates", Ordinal(ordinal)).stream(Purpose::Sampling);
         for motion in MOTIONS {
             let robot = drawn_robot(&mut stream, motion, 6, 6);
-            let hops = Hops::new(&robot);
-            let space = robot.space([-2.0; 3], [2.0; 3], 1.0);
-            let (mut a, mut b) = (vec![0.0; space.len()], vec![0.0; space.len()]);
-            space.sample_uniform(&mut stream, &mut a);
-            space.sample_uniform(&mut stream, &mut b);
-            for to in 0..robot.links.len() {
-                for from in std::iter::once(None).chain((0..to).map(Some)) {
-                    let rates = hops.rates(from, to, (&a, &b), &mut Vec::new());
-                    let point = Vector::new(stream.normal(), stream.normal(), stream.normal());
-                    let d = rates.distance(point);
-                    let (s, t) = (stream.unit(), stream.unit());
-                    let (s, t) = (s.min(t), s.max(t));
-                    let share = stream.unit();
-                    let at = |t: f64| seen(&robot, &space, [&a, &b], t, (from, to)).transform_point(point);
-                    let (first, last) = (at(s), at(t));
-                    let time = t - s;
-                    prop_assert!((last - first).length() <= rates.speed_at(d) * time + 1e-9);
-                    let straight = first + (last - first) * share;
-                    let left = (at(s + time * share) - straight).length();
-                    let bound = rates.bend_at(d) * time * time / 8.0;
-                    prop_assert!(left <= bound + 1e-9, "{} to {}: {} beyond {}", s, t, left, bound);
-                }
-            }
+            keeps_its_bounds(&robot, &mut stream)?;
         }
     }
 }

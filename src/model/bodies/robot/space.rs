@@ -1,6 +1,6 @@
 //! The configuration space of a robot, and how far a motion can carry its points.
 
-use super::{JointKind, Link, Robot};
+use super::{JointKind, Link, Mimic, Robot};
 use crate::math;
 use crate::scene::Pose;
 use crate::space::{Dof, Factor, FactorKind, Space, rigid_factors};
@@ -9,13 +9,21 @@ impl Robot {
     /// The configuration space. The base's reference point lies in the box `min`..`max`, and a radian
     /// of its rotation counts as `rotation_length` in the metric. A radian of a joint counts as the
     /// distance that the farthest point beyond it can have from its origin; a sliding joint counts by
-    /// its length.
+    /// its length. A joint that others follow counts as far as a unit of it can carry any point, by way of all of them.
     pub fn space(&self, min: [f64; 3], max: [f64; 3], rotation_length: f64) -> Space {
         let (mut parts, mut dofs) = rigid_factors(self.motion, min, max, rotation_length);
-        for (link, reach) in self.links.iter().zip(self.reaches()) {
+        let reaches = self.reaches();
+        let followed = self.followed();
+        let mut value = 0;
+        for (link, reach) in self.links.iter().zip(&reaches) {
             let Some(joint) = &link.joint else { continue };
-            let (kind, weight, unit) = match joint.kind {
-                JointKind::Fixed => continue,
+            let own = value;
+            value += joint.kind.values();
+            let (kind, mut weight, unit) = match joint.kind {
+                JointKind::Fixed
+                | JointKind::Locked
+                | JointKind::RevoluteMimic { .. }
+                | JointKind::PrismaticMimic { .. } => continue,
                 JointKind::Spherical => {
                     let weight = reach.of_joint;
                     parts.push(Factor { kind: FactorKind::Rotation, at: dofs.len(), weight });
@@ -35,6 +43,9 @@ impl Robot {
                     (FactorKind::Real { min: limits.min, max: limits.max }, 1.0, "length")
                 }
             };
+            if followed.contains(&(own as u32)) {
+                weight = self.way_of_a_unit(own, &reaches);
+            }
             parts.push(Factor { kind, at: dofs.len(), weight });
             dofs.push(Dof { name: joint.name.clone(), unit });
         }
@@ -60,7 +71,12 @@ impl Robot {
             let Some(joint) = &link.joint else { continue };
             let slide = match joint.kind {
                 JointKind::Prismatic { limits, .. } => limits.min.abs().max(limits.max.abs()),
-                JointKind::Fixed | JointKind::Revolute { .. } | JointKind::Spherical => 0.0,
+                JointKind::PrismaticMimic { mimic, .. } => mimic.size(self.size(mimic.value)),
+                JointKind::Fixed
+                | JointKind::Locked
+                | JointKind::Revolute { .. }
+                | JointKind::RevoluteMimic { .. }
+                | JointKind::Spherical => 0.0,
             };
             let beyond = slide + length(&joint.after) + reaches[index].of_link;
             reaches[index].of_joint = beyond;
@@ -75,12 +91,47 @@ impl Robot {
         let reaches = self.reaches();
         let joints = self.links.iter().zip(&reaches).filter_map(|(link, reach)| {
             match link.joint.as_ref()?.kind {
-                JointKind::Fixed => None,
+                JointKind::Fixed | JointKind::Locked => None,
                 JointKind::Revolute { .. } | JointKind::Spherical => Some(reach.of_joint),
                 JointKind::Prismatic { .. } => Some(1.0),
+                JointKind::RevoluteMimic { mimic, .. } => {
+                    Some(reach.of_joint * mimic.multiplier.abs())
+                }
+                JointKind::PrismaticMimic { mimic, .. } => Some(mimic.multiplier.abs()),
             }
         });
-        Speeds { base: reaches[0].of_link, joints: joints.collect() }
+        Speeds { base: reaches[0].of_link, joints: joints.collect(), turning_on: self.turning_on() }
+    }
+
+    /// How far the farthest point goes, at most, while the joint of a value moves by one unit of it, and with it the
+    /// joints that follow it.
+    fn way_of_a_unit(&self, value: usize, reaches: &[Reach]) -> f64 {
+        let mut at = 0;
+        let mut farthest = 0.0f64;
+        // For every link the sum over the joints on the way to it.
+        let mut ways: Vec<f64> = Vec::with_capacity(self.links.len());
+        for (link, reach) in self.links.iter().zip(reaches) {
+            let way = link.joint.as_ref().map_or(0.0, |joint| {
+                let own = at;
+                at += joint.kind.values();
+                let follows = |mimic: &Mimic| mimic.value as usize == value;
+                let share = match &joint.kind {
+                    JointKind::Revolute { .. } if own == value => reach.of_joint,
+                    JointKind::Prismatic { .. } if own == value => 1.0,
+                    JointKind::RevoluteMimic { mimic, .. } if follows(mimic) => {
+                        reach.of_joint * mimic.multiplier.abs()
+                    }
+                    JointKind::PrismaticMimic { mimic, .. } if follows(mimic) => {
+                        mimic.multiplier.abs()
+                    }
+                    _ => 0.0,
+                };
+                ways[joint.parent as usize] + share
+            });
+            farthest = farthest.max(way);
+            ways.push(way);
+        }
+        farthest
     }
 }
 
@@ -98,8 +149,10 @@ pub struct Speeds {
     /// Length per radian of the base's rotation.
     base: f64,
     /// Per moving joint: the length that any robot point moves per unit of its value, or per radian of its
-    /// turn.
+    /// turn; of a joint that follows another per unit of the other's value.
     joints: Vec<f64>,
+    /// The values that joints follow and that wrap, in rising order: indices from the first value after the base's.
+    turning_on: Vec<u32>,
 }
 
 impl Speeds {
@@ -113,11 +166,20 @@ impl Speeds {
             square += (b[i] - a[i]) * (b[i] - a[i]);
         }
         let mut farthest = square.sqrt() + self.base * motion.angle_between(a, b);
-        let mut at = motion.values();
+        let first = motion.values();
+        let mut at = first;
         let mut speeds = self.joints.iter();
         for joint in robot.links.iter().filter_map(|link| link.joint.as_ref()) {
             let change = match joint.kind {
-                JointKind::Fixed => continue,
+                JointKind::Fixed | JointKind::Locked => continue,
+                JointKind::RevoluteMimic { mimic, .. }
+                | JointKind::PrismaticMimic { mimic, .. } => {
+                    let other = first + mimic.value as usize;
+                    match self.turning_on.binary_search(&mimic.value) {
+                        Ok(_) => math::angle_between(a[other], b[other]),
+                        Err(_) => (a[other] - b[other]).abs(),
+                    }
+                }
                 JointKind::Revolute { limits: None, .. } => math::angle_between(a[at], b[at]),
                 JointKind::Revolute { .. } | JointKind::Prismatic { .. } => (a[at] - b[at]).abs(),
                 JointKind::Spherical => {

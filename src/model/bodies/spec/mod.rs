@@ -10,11 +10,11 @@ mod space;
 pub use body::{BodySpec, ShapeSpec};
 pub use frame::FrameSpec;
 pub use joint::JointSpec;
-pub use robot::{LinkSpec, RobotSpec};
+pub use robot::{AttachSpec, LinkSpec, RobotSpec};
 pub use space::SpaceSpec;
 
 pub(super) use body::Solid;
-pub(super) use joint::JointKindSpec;
+pub(super) use joint::{JointKindSpec, MimicSpec};
 
 use serde::Deserialize;
 
@@ -23,6 +23,7 @@ use serde::Deserialize;
 /// built.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct BodiesSpec {
+    #[serde(default)]
     pub(super) space: SpaceSpec,
     pub(super) robot: RobotSpec,
     #[serde(default)]
@@ -49,7 +50,8 @@ impl BodiesSpec {
     /// Changes each body of the robot and each obstacle.
     pub fn change_each_body(mut self, mut change: impl FnMut(BodySpec) -> BodySpec) -> BodiesSpec {
         let links = self.robot.links.iter_mut().map(|link| &mut link.bodies);
-        for bodies in links.chain([&mut self.robot.bodies, &mut self.obstacles]) {
+        let attached = self.robot.attach.iter_mut().map(|attached| &mut attached.bodies);
+        for bodies in links.chain(attached).chain([&mut self.robot.bodies, &mut self.obstacles]) {
             *bodies = std::mem::take(bodies).into_iter().map(&mut change).collect();
         }
         self

@@ -1,5 +1,6 @@
 use super::{BodySpec, FrameSpec, JointSpec};
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The robot: a base, and links that hang on it by joints. The table `[robot]`.
@@ -8,11 +9,19 @@ use std::path::PathBuf;
 pub struct RobotSpec {
     pub(in crate::model::bodies) name: Option<String>,
     pub(in crate::model::bodies) urdf: Option<PathBuf>,
+    pub(in crate::model::bodies) srdf: Option<PathBuf>,
+    pub(in crate::model::bodies) group: Option<String>,
+    #[serde(default)]
+    pub(in crate::model::bodies) rest: Vec<String>,
+    #[serde(default)]
+    pub(in crate::model::bodies) lock: BTreeMap<String, f64>,
     #[serde(default)]
     pub(in crate::model::bodies) bodies: Vec<BodySpec>,
     pub(in crate::model::bodies) base: Option<FrameSpec>,
     #[serde(default)]
     pub(in crate::model::bodies) links: Vec<LinkSpec>,
+    #[serde(default)]
+    pub(in crate::model::bodies) attach: Vec<AttachSpec>,
     #[serde(default)]
     pub(in crate::model::bodies) may_touch: Vec<[String; 2]>,
 }
@@ -27,6 +36,29 @@ impl RobotSpec {
     /// starts where those of meshes do.
     pub fn urdf(file: impl Into<PathBuf>) -> RobotSpec {
         RobotSpec { urdf: Some(file.into()), ..RobotSpec::default() }
+    }
+
+    /// The SRDF that stands beside the URDF, by a path as that of the URDF: its groups, named states, and pairs of links
+    /// that may touch.
+    pub fn srdf(self, file: impl Into<PathBuf>) -> RobotSpec {
+        RobotSpec { srdf: Some(file.into()), ..self }
+    }
+
+    /// The SRDF's group of joints that move. All others are locked.
+    pub fn group(self, name: impl Into<String>) -> RobotSpec {
+        RobotSpec { group: Some(name.into()), ..self }
+    }
+
+    /// A named state of the SRDF at which joints outside the group are locked, after those given before.
+    pub fn rest(mut self, state: impl Into<String>) -> RobotSpec {
+        self.rest.push(state.into());
+        self
+    }
+
+    /// Locks a joint at a value: an angle in radians, or a length.
+    pub fn lock(mut self, joint: impl Into<String>, value: f64) -> RobotSpec {
+        self.lock.insert(joint.into(), value);
+        self
     }
 
     /// The name of the base, by which `may_touch` and joints know it; `base` if nothing is said.
@@ -48,6 +80,12 @@ impl RobotSpec {
     /// Adds a link.
     pub fn link(mut self, link: LinkSpec) -> RobotSpec {
         self.links.push(link);
+        self
+    }
+
+    /// Attaches bodies to a link.
+    pub fn attach(mut self, attached: AttachSpec) -> RobotSpec {
+        self.attach.push(attached);
         self
     }
 
@@ -76,6 +114,29 @@ impl LinkSpec {
 
     /// Adds a body; its frame is the link's.
     pub fn body(mut self, body: impl Into<BodySpec>) -> LinkSpec {
+        self.bodies.push(body.into());
+        self
+    }
+}
+
+/// Bodies that a link carries, such as a tool or a load: one of `[[robot.attach]]`. They become a link of their own, held by a
+/// locked joint, which may touch the link that carries it and no other.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AttachSpec {
+    pub(in crate::model::bodies) name: String,
+    pub(in crate::model::bodies) link: String,
+    pub(in crate::model::bodies) bodies: Vec<BodySpec>,
+}
+
+impl AttachSpec {
+    /// A new link of a name that no other has, on the link `link`, and without bodies at first.
+    pub fn new(name: impl Into<String>, link: impl Into<String>) -> AttachSpec {
+        AttachSpec { name: name.into(), link: link.into(), bodies: Vec::new() }
+    }
+
+    /// Adds a body; its frame is that of the link that carries it.
+    pub fn body(mut self, body: impl Into<BodySpec>) -> AttachSpec {
         self.bodies.push(body.into());
         self
     }

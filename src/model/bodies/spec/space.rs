@@ -2,14 +2,15 @@ use crate::model::bodies::validity::{BoundsMeaning, MotionChecking};
 use crate::space::BaseJoint;
 use serde::Deserialize;
 
-/// Where the robot may be and how its motions are judged: the table `[space]`.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+/// Where the robot may be and how its motions are judged: the table `[space]`. The default is that of a robot whose base
+/// stands still.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SpaceSpec {
-    pub(in crate::model::bodies) motion: BaseJoint,
-    pub(in crate::model::bodies) min: Vec<f64>,
-    pub(in crate::model::bodies) max: Vec<f64>,
-    pub(in crate::model::bodies) bounds: BoundsMeaning,
+    pub(in crate::model::bodies) motion: Option<BaseJoint>,
+    pub(in crate::model::bodies) min: Option<Vec<f64>>,
+    pub(in crate::model::bodies) max: Option<Vec<f64>>,
+    pub(in crate::model::bodies) bounds: Option<BoundsMeaning>,
     pub(in crate::model::bodies) resolution: Option<f64>,
     #[serde(default)]
     pub(in crate::model::bodies) edges: MotionChecking,
@@ -26,19 +27,22 @@ impl SpaceSpec {
         bounds: BoundsMeaning,
     ) -> SpaceSpec {
         SpaceSpec {
-            motion,
-            min: min.into(),
-            max: max.into(),
-            bounds,
-            resolution: None,
-            edges: MotionChecking::default(),
-            rotation_length: None,
+            motion: Some(motion),
+            min: Some(min.into()),
+            max: Some(max.into()),
+            bounds: Some(bounds),
+            ..SpaceSpec::default()
         }
+    }
+
+    /// A base that stands still, in a box as large as the robot can reach.
+    pub fn fixed() -> SpaceSpec {
+        SpaceSpec { motion: Some(BaseJoint::Fixed), ..SpaceSpec::default() }
     }
 
     /// What must stay within the box.
     pub fn bounds(self, bounds: BoundsMeaning) -> SpaceSpec {
-        SpaceSpec { bounds, ..self }
+        SpaceSpec { bounds: Some(bounds), ..self }
     }
 
     /// The farthest that any robot point moves between two checks of a motion, a length. If nothing is said, it follows

@@ -19,6 +19,7 @@ mod scratch;
 mod shells;
 mod swept;
 mod swept_box;
+mod touching;
 mod tree;
 mod triangles;
 mod work;
@@ -26,6 +27,7 @@ mod work;
 pub use bodies::{BodyValidity, Bounds, BoundsMeaning, MotionChecking};
 pub use motion::TOLERANCE;
 pub use scratch::BodyScratch;
+pub use touching::PairTouches;
 pub use work::Work;
 
 #[cfg(test)]

@@ -16,6 +16,8 @@ pub(super) struct Lines {
     pub links: Vec<(usize, Vec<usize>)>,
     /// Of each joint.
     pub joints: Vec<usize>,
+    /// Of the `<mimic>` of each joint; that of the joint where it has none.
+    pub mimics: Vec<usize>,
     /// For each joint whether its `<limit>` names neither a least nor a largest value.
     pub without_ends: Vec<bool>,
     /// The text as `urdf-rs` reads it: blanks in place of elements that say nothing of shapes or joints, such as
@@ -66,6 +68,9 @@ impl Lines {
             without_ends: joints().map(ends).collect(),
             links: links.map(|link| (line(link), named(link, "collision"))).collect(),
             joints: joints().map(line).collect(),
+            mimics: joints()
+                .map(|joint| named(joint, "mimic").first().copied().unwrap_or_else(|| line(joint)))
+                .collect(),
         })
     }
 }
@@ -95,9 +100,11 @@ fn check(node: Node, version: Version) -> Result<(), String> {
         ("", _) => return Err(format!("<{name}> found; <robot> expected")),
         ("robot", "joint") => {
             let kind = node.attribute("type").unwrap_or_default();
-            if !matches!(kind, "revolute" | "continuous" | "prismatic" | "fixed" | "spherical") {
+            let known =
+                ["revolute", "continuous", "prismatic", "fixed", "spherical", "floating", "planar"];
+            if !known.contains(&kind) {
                 let joint = node.attribute("name").unwrap_or_default();
-                let expected = "revolute, continuous, prismatic, spherical or fixed expected";
+                let expected = "revolute, continuous, prismatic, spherical, fixed, floating or planar expected";
                 return Err(format!("joint `{joint}`: type `{kind}` found; {expected}"));
             }
             let has_limit = node.children().any(|child| child.has_tag_name("limit"));
@@ -111,13 +118,6 @@ fn check(node: Node, version: Version) -> Result<(), String> {
                 ));
             }
         }
-        ("joint", "mimic") => {
-            let joint = node.parent_element().and_then(|joint| joint.attribute("name"));
-            let joint = joint.unwrap_or_default();
-            return Err(format!(
-                "joint `{joint}`: <mimic> found; a joint that moves by itself expected"
-            ));
-        }
         _ => {}
     }
     if let Some(what) = lacking(node, parent, version) {
@@ -129,6 +129,7 @@ fn check(node: Node, version: Version) -> Result<(), String> {
             ("box", "size") => (3, true),
             ("sphere" | "cylinder" | "capsule", "radius" | "length") => (1, true),
             ("limit", "lower" | "upper") => (1, false),
+            ("mimic", "multiplier" | "offset") => (1, false),
             ("origin", "quat_xyzw") => {
                 return Err("quat_xyzw found; a rotation as rpy expected".to_owned());
             }
@@ -181,6 +182,7 @@ fn lacking(node: Node, parent: &str, version: Version) -> Option<String> {
         ("robot", "link") => (&["name"], &[]),
         ("robot", "joint") => (&["name", "type"], &["parent", "child"]),
         ("joint", "parent" | "child") => (&["link"], &[]),
+        ("joint", "mimic") => (&["joint"], &[]),
         ("joint", "limit") if version.requires_rates() => (&["effort", "velocity"], &[]),
         ("link", "visual" | "collision") => (&[], &["geometry"]),
         ("geometry", "box") => (&["size"], &[]),

@@ -9,9 +9,12 @@ use super::error::read_xml;
 use super::frames::roll_pitch_yaw;
 use super::{ForeignError, Solidity};
 use crate::digest::SourceFile;
-use crate::model::bodies::robot::{Joint, JointKind, LINKS_MAX, Limits, Link, TURN_MAX};
+use crate::model::bodies::robot::{
+    Follower, Joint, JointKind, LINKS_MAX, Limits, Link, TURN_MAX, couple,
+};
 use crate::model::bodies::shapes::{closed_by, found};
 use crate::scene::{Body, LENGTH_MAX, MeshOptions, Pose, Shape};
+use crate::space::BaseJoint;
 use lines::Lines;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -23,6 +26,9 @@ pub struct UrdfRobot {
     /// Its links in the order of a walk from the root, with the shapes that are meant for collision
     /// tests.
     pub links: Vec<Link>,
+    /// How the file says that the base moves, by a `floating` or `planar` joint between a root that stands for the world
+    /// and the base; [`BaseJoint::Fixed`] of most files, which say nothing of it.
+    pub base: BaseJoint,
     /// What the reader decided, for people to read.
     pub notes: Vec<String>,
     /// The files read: the robot's own first.
@@ -45,16 +51,19 @@ pub fn read_urdf(path: &Path) -> Result<UrdfRobot, ForeignError> {
         .map_err(|error| ForeignError::whole(path, format!("not a URDF: {error}")))?;
     let mut reader = Reader { path, lines, meshes: Meshes::as_stored(), notes: Vec::new() };
     reader.meshes.sources.push(source);
+    let mut walk = reader.walk(&robot)?;
+    let base = reader.base(&robot, &mut walk)?;
     let mut links = Vec::new();
-    for (link, joint) in reader.walk(&robot)? {
+    for (link, joint) in &walk {
         let joint = match joint {
             None => None,
-            Some((joint, parent)) => Some(reader.joint(&robot.joints[joint], joint, parent)?),
+            Some((joint, parent)) => Some(reader.joint(&robot.joints[*joint], *joint, *parent)?),
         };
-        let bodies = reader.bodies(&robot.links[link], link)?;
-        links.push(Link { name: robot.links[link].name.clone(), bodies, joint });
+        let bodies = reader.bodies(&robot.links[*link], *link)?;
+        links.push(Link { name: robot.links[*link].name.clone(), bodies, joint });
     }
-    Ok(UrdfRobot { links, notes: reader.notes, sources: reader.meshes.sources })
+    reader.couple(&robot, &walk, &mut links)?;
+    Ok(UrdfRobot { links, base, notes: reader.notes, sources: reader.meshes.sources })
 }
 
 /// Indices of a link and, unless it is the root, of the joint that moves it and of its parent in the
@@ -143,6 +152,86 @@ impl Reader<'_> {
         Ok(walk)
     }
 
+    /// Takes the root away where it is no link of the robot but stands for the world: the one joint on it is `floating` or
+    /// `planar`, and it has no shapes. Returns how the base moves.
+    fn base(
+        &mut self,
+        robot: &urdf_rs::Robot,
+        walk: &mut Vec<Step>,
+    ) -> Result<BaseJoint, ForeignError> {
+        let root = &robot.links[walk[0].0];
+        let mut hang =
+            walk.iter().filter_map(|(_, joint)| joint.filter(|(_, parent)| *parent == 0));
+        let (Some((joint, _)), None) = (hang.next(), hang.next()) else {
+            return Ok(BaseJoint::Fixed);
+        };
+        let motion = match robot.joints[joint].joint_type {
+            JointType::Floating => BaseJoint::Rigid3d,
+            JointType::Planar => BaseJoint::Rigid2d,
+            _ => return Ok(BaseJoint::Fixed),
+        };
+        if !root.collision.is_empty() {
+            return Ok(BaseJoint::Fixed);
+        }
+        let (name, child) = (&robot.joints[joint].name, &robot.joints[joint].child.link);
+        self.notes.push(format!(
+            "joint `{name}` moves the robot in the world: `{child}` is the base, `{}` left out",
+            root.name
+        ));
+        walk.remove(0);
+        walk[0].1 = None;
+        for (_, joint) in &mut walk[1..] {
+            if let Some((_, parent)) = joint {
+                *parent -= 1;
+            }
+        }
+        Ok(motion)
+    }
+
+    /// Makes the joints with `<mimic>` follow others.
+    fn couple(
+        &mut self,
+        robot: &urdf_rs::Robot,
+        walk: &[Step],
+        links: &mut [Link],
+    ) -> Result<(), ForeignError> {
+        let mut followers = Vec::new();
+        let mut numbers = Vec::new();
+        for (link, (_, joint)) in walk.iter().enumerate() {
+            let Some((number, _)) = joint else { continue };
+            let joint = &robot.joints[*number];
+            let Some(mimic) = &joint.mimic else { continue };
+            if joint.joint_type == JointType::Fixed {
+                // Tools that reduce a robot leave this behind.
+                let name = &joint.name;
+                self.notes.push(format!(
+                    "joint `{name}` is fixed and follows none, whatever its <mimic> says"
+                ));
+                continue;
+            }
+            let is_named = |(_, joint): &Step| {
+                joint.is_some_and(|(number, _)| robot.joints[number].name == mimic.joint)
+            };
+            let Some(followed) = walk.iter().position(is_named) else {
+                let message = format!("`{}` found; the name of a joint expected", mimic.joint);
+                return Err(self.at_mimic(robot, *number, &message));
+            };
+            let (multiplier, offset) =
+                (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
+            followers.push(Follower { link, followed, multiplier, offset });
+            numbers.push(*number);
+        }
+        let notes = couple(links, &followers)
+            .map_err(|(index, message)| self.at_mimic(robot, numbers[index], &message))?;
+        self.notes.extend(notes);
+        Ok(())
+    }
+
+    fn at_mimic(&self, robot: &urdf_rs::Robot, joint: usize, message: &str) -> ForeignError {
+        let message = format!("joint `{}`: <mimic>: {message}", robot.joints[joint].name);
+        ForeignError::line(self.path, self.lines.mimics[joint], message)
+    }
+
     fn joint(
         &mut self,
         joint: &urdf_rs::Joint,
@@ -159,7 +248,12 @@ impl Reader<'_> {
             }
             Err(fail(format!("axis {:?} found; a direction expected", joint.axis.xyz.0)))
         };
+        let open = self.lines.without_ends[index];
         let limits = |most: f64| {
+            if open && joint.mimic.is_some() {
+                // What it may be follows from the joint that it follows.
+                return Ok(Limits { min: -most, max: most });
+            }
             let (min, max) = (joint.limit.lower, joint.limit.upper);
             if -most <= min && min <= max && max <= most {
                 return Ok(Limits { min, max });
@@ -167,9 +261,12 @@ impl Reader<'_> {
             let expected = format!("a least and a largest value within ±{most:e} expected");
             Err(fail(format!("limits {min} to {max} found; {expected}")))
         };
-        let kind = match joint.joint_type {
+        let ends = [joint.limit.lower, joint.limit.upper];
+        let endless = ends[0] < -TURN_MAX && TURN_MAX < ends[1];
+        let kind = match joint.joint_type.clone() {
             JointType::Fixed => JointKind::Fixed,
             JointType::Continuous => JointKind::Revolute { axis: axis()?, limits: None },
+            JointType::Revolute if endless => JointKind::Revolute { axis: axis()?, limits: None },
             JointType::Revolute => {
                 JointKind::Revolute { axis: axis()?, limits: Some(limits(TURN_MAX)?) }
             }
@@ -177,15 +274,24 @@ impl Reader<'_> {
                 JointKind::Prismatic { axis: axis()?, limits: limits(LENGTH_MAX)? }
             }
             JointType::Spherical => JointKind::Spherical,
-            JointType::Floating | JointType::Planar => {
-                return Err(fail("its type is not supported".to_owned()));
+            kind @ (JointType::Floating | JointType::Planar) => {
+                let kind = if kind == JointType::Floating { "floating" } else { "planar" };
+                return Err(fail(format!(
+                    "type `{kind}` found; such a joint expected only on a root without shapes that \
+                     has no other joint, and so stands for the world"
+                )));
             }
         };
         let limited = matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic);
-        if limited && self.lines.without_ends[index] {
+        if limited && open && joint.mimic.is_none() {
             let what =
                 "stays at 0, the format's default, as its <limit> gives neither lower nor upper";
             self.notes.push(format!("joint `{name}` {what}"));
+        }
+        if endless && joint.joint_type == JointType::Revolute {
+            let [min, max] = ends;
+            let what = "turns on and on, as it may by more than ten turns either way";
+            self.notes.push(format!("joint `{name}` {what}: {min} to {max}"));
         }
         let before = pose(&joint.origin);
         Ok(Joint { name: name.clone(), parent: parent as u32, kind, before, after: Pose::IDENTITY })

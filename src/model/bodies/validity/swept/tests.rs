@@ -5,7 +5,7 @@ use super::super::tests::{chain, cuboid, cuboid_mesh, solid};
 use super::super::{BodyScratch, BodyValidity, Bounds, BoundsMeaning, MotionChecking, TOLERANCE};
 use super::{Clock, Walls};
 use crate::lanes::Lanes;
-use crate::model::bodies::robot::{Joint, JointKind, Limits, Link, Rates, Robot};
+use crate::model::bodies::robot::{Follower, Joint, JointKind, Limits, Link, Rates, Robot, couple};
 use crate::model::{Clearances, Model, Scratch};
 use crate::numbers::Ordinal;
 use crate::scene::{Body, Mesh, Pose, Shape};
@@ -82,6 +82,29 @@ fn arm(motion: BaseJoint) -> Robot {
     robot
 }
 
+/// The same in which the second joint, the slide and the tool follow the first and the last by themselves, with a finger
+/// on the tool that turns on with it, thrice as fast.
+fn followers(motion: BaseJoint) -> Robot {
+    let mut robot = arm(motion);
+    let axis = [0.0, 0.6, 0.8];
+    robot.links.push(Link {
+        name: "finger".to_owned(),
+        bodies: vec![solid(Shape::Capsule { radius: 0.05, height: 0.6 }, [0.0, 0.0, 0.4])],
+        joint: Some(Joint {
+            name: "finger".to_owned(),
+            parent: 4,
+            kind: JointKind::Revolute { axis, limits: None },
+            before: Pose { translation: [0.4, 0.0, 0.2], ..Pose::IDENTITY },
+            after: Pose::IDENTITY,
+        }),
+    });
+    let follower =
+        |link, followed, multiplier, offset| Follower { link, followed, multiplier, offset };
+    let all = [follower(2, 1, -1.7, 0.3), follower(3, 1, 0.13, 0.4), follower(5, 4, 3.0, 0.5)];
+    couple(&mut robot.links, &all).expect("joints that can follow");
+    robot
+}
+
 fn scenes() -> Vec<Scene> {
     let mixed = [
         solid(Shape::Sphere { radius: 0.8 }, [2.0, 0.0, 1.0]),
@@ -120,6 +143,8 @@ fn scenes() -> Vec<Scene> {
         scene("fixed arm", &arm(BaseJoint::Fixed), &mixed, All),
         scene("flying arm", &arm(BaseJoint::Rigid3d), &mixed[1..], Reference),
         scene("planar arm", &arm(BaseJoint::Rigid2d), &mixed[3..], Reference),
+        scene("fixed arm of followers", &followers(BaseJoint::Fixed), &mixed, All),
+        scene("flying arm of followers", &followers(BaseJoint::Rigid3d), &mixed[1..], Reference),
     ]
 }
 
@@ -204,7 +229,10 @@ fn swept_motions_are_free_between_the_steps() {
         }
     }
     println!("{accepted} accepted, {free} free, {refused} refused");
-    assert!(accepted > 300 && 9 * 150 - free > 200, "{accepted} accepted, {free} free");
+    assert!(
+        accepted > 300 && scenes().len() * 150 - free > 200,
+        "{accepted} accepted, {free} free"
+    );
     assert!(refused * 100 <= free, "{refused} of {free} refused");
 }
 

@@ -1,21 +1,21 @@
-//! Shapes as triangles, for drawing.
+//! Shapes as triangles: for drawing, and for cutting them by a plane.
 
+use super::{Shape, box_surface};
 use crate::math;
-use crate::scene::{Shape, box_surface};
 use std::f64::consts::PI;
 
-/// Corners of a drawn circle; a multiple of 4, so that a quarter of a circle is a whole number of steps.
+/// Corners of a circle; a multiple of 4, so that a quarter of a circle is a whole number of steps.
 const AROUND: usize = 32;
 
 /// Vertices and, per triangle, the indices of its corners, seen from outside counter-clockwise.
 #[derive(Default)]
-pub(super) struct Surface {
+pub(crate) struct Surface {
     pub vertices: Vec<[f64; 3]>,
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// The surface of a shape in its own frame; a point becomes a ball of radius `dot`.
-pub(super) fn tessellate(shape: &Shape, dot: f64) -> Surface {
+/// The surface of a shape in its own frame, what is round within it; a point becomes a ball of radius `dot`.
+pub(crate) fn tessellate(shape: &Shape, dot: f64) -> Surface {
     match shape {
         Shape::Point => capsule(dot, 0.0),
         Shape::Box { size } => {

@@ -1,0 +1,207 @@
+"""Growing roadmaps."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from . import _core
+from ._program import Argument, find_program, said
+from .errors import Interrupted, failure, problem_failure
+from .problem import Problem
+from .roadmap import Roadmap
+from .status import Progress, progress_of
+
+__all__ = ["build"]
+
+# Exit codes after which there is a roadmap: the criteria are met, or a limit came first.
+_WITH_ROADMAP = (0, 3)
+
+
+def build(
+    problem: str | os.PathLike[str] | Problem,
+    *,
+    out: str | os.PathLike[str] | None = None,
+    workers: int | None = None,
+    threads: int | None = None,
+    seed: int | None = None,
+    max_nodes: int | None = None,
+    max_sets: int | None = None,
+    max_time: float | None = None,
+    max_memory: int | None = None,
+    progress: Callable[[Progress], object] | None = None,
+    force: bool = False,
+    or_resume: bool = False,
+) -> Roadmap:
+    """Grows a roadmap until the problem's criteria are met or a limit is reached, and gives it.
+
+    Who does the work changes how long that takes and nothing else: by default as many worker processes as there are cores,
+    `workers` processes, or `threads` threads of this process, which other Python threads run beside.
+
+    Args:
+        problem: A problem file (TOML, an OMPL.app `.cfg`, a Parasol `.env` or a URDF), or a `Problem`.
+        out: The run folder to be made; `runs/NAME` or the first free of `runs/NAME-2`, … if there is none.
+        seed: The base seed, instead of the problem's.
+        max_nodes, max_sets: Stop at the end of the first round with so many nodes, or sets.
+        max_time: Stop after so many seconds, but not before one round is finished.
+        max_memory: Stop at the end of a round when all processes together hold so many bytes.
+        progress: Is called with a `Progress` about once a second; an exception that it raises ends the build.
+        force: Replace the run that `out` names.
+        or_resume: Go on with the run that `out` names, if there is one of this problem.
+
+    Raises:
+        Interrupted: Ctrl-C came; its `roadmap` is that of the last complete round.
+        ProblemError: Something is wrong with a `Problem`; the message names the key.
+        RoadmillError: The build could not begin or go on; see `roadmill.errors`.
+    """
+    if workers is not None and threads is not None:
+        raise ValueError("workers or threads expected, not both")
+    limits = {"max_nodes": max_nodes, "max_sets": max_sets, "max_seconds": max_time, "max_memory": max_memory}
+    with tempfile.TemporaryDirectory(prefix="roadmill-") as folder:
+        if isinstance(problem, Problem):
+            file = problem.write(pathlib.Path(folder) / f"{problem.name}.toml")
+            raised = _problem_raised(file)
+        else:
+            file, raised = pathlib.Path(problem), failure
+        if threads is not None:
+            return _in_threads(file, raised, out, threads, seed, limits, force, or_resume, progress)
+        arguments: list[Argument] = ["build", file]
+        arguments += _options(out=out, workers=workers, seed=seed, **limits)
+        arguments += [flag for flag, given in (("--force", force), ("--or-resume", or_resume)) if given]
+        return grown(arguments, raised, progress)
+
+
+def resumed(
+    run: pathlib.Path,
+    changed: str | os.PathLike[str] | Problem | None,
+    options: dict[str, Any],
+    progress: Callable[[Progress], object] | None,
+) -> Roadmap:
+    """Goes on with a run: see `Roadmap.resume`."""
+    arguments: list[Argument] = ["resume", run, *_options(**options)]
+    if not isinstance(changed, Problem):
+        return grown([*arguments, *(["--with", changed] if changed is not None else [])], failure, progress)
+    with tempfile.TemporaryDirectory(prefix="roadmill-") as folder:
+        file = changed.write(pathlib.Path(folder) / f"{changed.name}.toml")
+        return grown([*arguments, "--with", file], _problem_raised(file), progress)
+
+
+def _problem_raised(file: pathlib.Path) -> Callable[[int, str], BaseException]:
+    return lambda code, message: problem_failure(code, message, str(file))
+
+
+def _options(**values: Argument | None) -> list[Argument]:
+    """Options of the command line for those of the values that are given."""
+    names = {"max_seconds": "max-time"}
+    options: list[Argument] = []
+    for name, value in values.items():
+        if value is not None:
+            options += [f"--{names.get(name, name).replace('_', '-')}", value]
+    return options
+
+
+def _in_threads(
+    file: pathlib.Path,
+    raised: Callable[[int, str], BaseException],
+    out: str | os.PathLike[str] | None,
+    threads: int,
+    seed: int | None,
+    limits: dict[str, Any],
+    force: bool,
+    or_resume: bool,
+    progress: Callable[[Progress], object] | None,
+) -> Roadmap:
+    """Builds in threads of this process."""
+    told = None if progress is None else (lambda text: progress(progress_of(json.loads(text))))
+    try:
+        run, _, reason, code, error = _core.grow(
+            file, out, threads, seed, force=force, or_resume=or_resume, progress=told, **limits
+        )
+    except _core.Failure as failed:
+        raise raised(*failed.args) from None
+    roadmap = Roadmap(run)
+    if isinstance(error, KeyboardInterrupt):
+        raise Interrupted(reason, roadmap) from None
+    if error is not None:
+        raise error
+    if code not in _WITH_ROADMAP:
+        raise raised(code, reason)
+    return roadmap
+
+
+def grown(
+    arguments: Iterable[Argument],
+    raised: Callable[[int, str], BaseException],
+    progress: Callable[[Progress], object] | None,
+) -> Roadmap:
+    """Runs a command of the program that grows a roadmap, and tells how far it is. The program gets a session of its own, so
+    that Ctrl-C at a terminal reaches this process alone, which passes it on once."""
+    command = [find_program(), *(os.fspath(a) if isinstance(a, os.PathLike) else str(a) for a in arguments), "--json"]
+    with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as errors:
+        child = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            text=True,
+            start_new_session=True,
+        )
+        interrupted = False
+        try:
+            run = _listened(child, progress)
+        except KeyboardInterrupt:
+            interrupted = True
+            run = _ended_by_signal(child)
+        except BaseException:
+            # `progress` raised: the build ends as by a signal, with the last complete round saved.
+            _ended_by_signal(child)
+            raise
+        code = child.wait()
+        errors.seek(0)
+        message = said(errors.read())
+    if interrupted or code == Interrupted.code:
+        raise Interrupted(message, None if run is None else Roadmap(run))
+    if code not in _WITH_ROADMAP or run is None:
+        raise raised(code, message)
+    return Roadmap(run)
+
+
+def _listened(
+    child: subprocess.Popen[str], progress: Callable[[Progress], object] | None
+) -> str | None:
+    """Tells of all events until the program ends; the run folder that its summary names."""
+    run: str | None = None
+    assert child.stdout is not None
+    for line in child.stdout:
+        event = json.loads(line)
+        if event["event"] == "summary":
+            run = event["run"]
+        elif progress is not None:
+            progress(progress_of(event))
+    return run
+
+
+def _ended_by_signal(child: subprocess.Popen[str]) -> str | None:
+    """Passes Ctrl-C on and waits until the program has saved the last complete round; the run folder that its summary names.
+    A second Ctrl-C while it does that ends it at once."""
+    child.send_signal(signal.SIGINT)
+    run: str | None = None
+    assert child.stdout is not None
+    try:
+        for line in child.stdout:
+            # The line that was being read when Ctrl-C came may lack its beginning.
+            if line.startswith("{"):
+                event = json.loads(line)
+                run = event["run"] if event["event"] == "summary" else run
+        child.wait()
+    except BaseException:
+        child.kill()
+        child.wait()
+        raise
+    return run
