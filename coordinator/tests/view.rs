@@ -66,7 +66,7 @@ fn what_is_no_scene_is_refused() {
     let scratch = Scratch::new();
     scratch.build(
         "run",
-        &[&repository("problems/peptide.toml"), "--max-sets", "1", "--threads", "2"],
+        &[&repository("problems/chignolin.toml"), "--max-sets", "1", "--threads", "2"],
         3,
     );
     let done = scratch.run(&["view", "run"]);

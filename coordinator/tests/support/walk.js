@@ -66,12 +66,12 @@ addEventListener("load", async () => {
     told.legend = element("least").textContent + " to " + element("most").textContent;
     for (const id of ["show-robots", "show-edges", "show-nodes", "show-obstacles"]) element(id).click();
     await later();
-    const turned = coloured();
+    const unturned = view.toDataURL();
     point("pointerdown", 300, 300, { button: 0, buttons: 1 });
     point("pointermove", 340, 300, { buttons: 1 });
     point("pointerup", 340, 300, { button: 0 });
     await later();
-    told.turned = coloured() !== turned;
+    told.turned = view.toDataURL() !== unturned;
     element("home").click();
     choose("slider", 100);
     await later();

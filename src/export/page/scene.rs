@@ -2,6 +2,10 @@
 
 use super::json::{list, number, numbers};
 use crate::export::markup::quoted;
+<<<<<<< HEAD
+=======
+
+>>>>>>> viewer
 use crate::model::Figure;
 use crate::problem::Problem;
 use crate::query::Path;
