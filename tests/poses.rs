@@ -142,7 +142,11 @@ fn tolerances_are_what_is_kept() {
     let error = Problem::builder("arm", model().obstacle(wall)).query([0.0; 6], pose()).build();
     let error = error.unwrap_err().to_string();
     assert!(error.starts_with("query.goal.pose: `link5` comes to the pose from"), "{error}");
-    assert!(error.contains("the robot collides or leaves the bounds"), "{error}");
+    assert!(
+        error.contains("is valid, the last one since link `")
+            && error.contains(" collides with obstacles[0]"),
+        "{error}"
+    );
     let far = PoseSpec::new("link5", [9.0, 0.0, 0.0]);
     let error =
         Problem::builder("arm", model()).query([0.0; 6], far).build().unwrap_err().to_string();

@@ -150,9 +150,9 @@ fn check_gives_the_reasons_at_a_configuration() {
         (&reason["body"]["link"], &reason["other"]["obstacle"]),
         (&"robot".into(), &0.into())
     );
-    // Out through the nearer face of two equal ones, in z: half the block and the ball's radius.
+    // Out along an axis of the plane: half the block and the ball's radius.
     let depth = reason["depth"].as_f64().expect("a number");
-    assert!((depth - 0.7).abs() < 2e-3, "{depth}");
+    assert!((depth - 5.2).abs() < 1e-2, "{depth}");
     for (at, expected) in [("1 2 3", "3 values found, 2 expected: x y"), ("1 a", "`a` found")] {
         let done = scratch.run(&["check", "filled.toml", "--at", at]);
         done.assert_code(2);

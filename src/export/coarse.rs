@@ -1,11 +1,6 @@
 //! Meshes with fewer triangles, for pictures.
 
-<<<<<<< HEAD
-use crate::scene::Mesh;
-use crate::scene::Surface;
-=======
 use crate::scene::{Mesh, Surface};
->>>>>>> viewer
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Cells of the finest grid along the longest side of a mesh.

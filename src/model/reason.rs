@@ -51,7 +51,7 @@ pub(crate) const SOLE_LINK: &str = "robot";
 
 /// A link in a sentence.
 pub(crate) fn link_named(link: &str) -> String {
-    if link == SOLE_LINK { "the robot".to_owned() } else { format!("link {link}") }
+    if link == SOLE_LINK { "the robot".to_owned() } else { format!("link `{link}`") }
 }
 
 /// A positive length to three digits.

@@ -13,8 +13,8 @@ const SEEDS_MAX: u64 = 1000;
 pub struct CompareArguments {
     #[command(flatten)]
     pub problem: ProblemArguments,
-    /// What is compared: `own` (the problem's strategies as they are), names of samplers or generators (uniform, obprm,
-    /// rrt-connect), or strategies as a problem file has them (near = { sampler = { gaussian = { distance = 0.5 } } })
+    /// What is compared: `own` (the problem's strategies as they are), names of samplers or generators (uniform, halton,
+    /// rrt-connect), or strategies as a problem file has them (near = { sampler = { gaussian = { deviation = 0.5 } } })
     #[arg(long, visible_alias = "samplers", value_name = "STRATEGY", num_args = 1.., required = true)]
     pub strategies: Vec<String>,
     /// Base seeds: numbers, or FIRST-LAST

@@ -3,8 +3,8 @@ use super::load::load;
 use super::place::check_place;
 use crate::cli::CheckArguments;
 use crate::exit::{Code, Failure};
-use crate::files::write_out;
-use crate::output::{json, line, lines};
+use crate::files::{is_standard_output, write_out};
+use crate::output::{json, line, lines, told};
 use roadmill::export::svg_at;
 use roadmill::model::Reason;
 use roadmill::problem::{Problem, configuration_at_all};
@@ -42,7 +42,14 @@ struct Answer {
 }
 
 fn check_at(problem: &Problem, text: &str, arguments: &CheckArguments) -> Result<Code, Failure> {
-    arguments.picture.as_ref().map_or(Ok(()), |file| check_place("--picture", file))?;
+    if let Some(file) = &arguments.picture {
+        check_place("--picture", file)?;
+        if arguments.json && is_standard_output(file) {
+            return Err(Failure::usage(
+                "--picture: - found beside --json; the name of a file expected",
+            ));
+        }
+    }
     let cx = problem.context();
     let q = configuration_at_all(&cx, text);
     let q = q.map_err(|error| Failure::usage(format!("--at: {error}")))?;
@@ -60,12 +67,13 @@ fn check_at(problem: &Problem, text: &str, arguments: &CheckArguments) -> Result
     let valid = reasons.is_empty();
     if arguments.json {
         json(&Answer { configuration: q, valid, reasons });
-    } else if valid {
-        line("valid");
     } else {
-        reasons.iter().for_each(|reason| {
-            line(reason);
-        });
+        // Standard output is for the picture alone where it goes there.
+        let is_taken = arguments.picture.as_deref().is_some_and(is_standard_output);
+        if valid {
+            told("valid", is_taken);
+        }
+        reasons.iter().for_each(|reason| told(reason, is_taken));
     }
     Ok(if valid { Code::Done } else { Code::NoSuccess })
 }

@@ -2,10 +2,6 @@
 
 use super::json::{list, number, numbers};
 use crate::export::markup::quoted;
-<<<<<<< HEAD
-=======
-
->>>>>>> viewer
 use crate::model::Figure;
 use crate::problem::Problem;
 use crate::query::Path;

@@ -96,7 +96,7 @@ impl BodyValidity {
     /// The shortest translation of the moving body that was found after which `meets` says no: its length and direction.
     ///
     /// Tried are the 26 directions to the sides, edges and corners of a cube, along the world's axes, and the one from the
-    /// middle of the other body's box. A direction is looked at closer only if the best way so far is longer than what it
+    /// middle of the other body's box; of planar robots those of these that lie in the plane. A direction is looked at closer only if the best way so far is longer than what it
     /// takes along it; then the border is found by halving.
     fn way_out(
         &self,
@@ -118,7 +118,16 @@ impl BodyValidity {
         // Moved so far along any direction, the boxes are apart.
         let far = 1.01 * (own.extents().length() + other.extents().length()) + self.slack;
         let mut best = (far, Vector::X);
-        for direction in directions(own.center() - other.center()) {
+        let mut apart = own.center() - other.center();
+        // What moves in the plane has no way out of it.
+        let is_planar = self.robot.motion.translations() == 2;
+        if is_planar {
+            apart.z = 0.0;
+        }
+        for direction in directions(apart) {
+            if is_planar && direction.z != 0.0 {
+                continue;
+            }
             let (length, _) = best;
             if !is_free(direction, length) {
                 continue;
@@ -315,10 +324,10 @@ position = [8.0, 8.0, 8.0]
                     let [Reason::Collision { depth, direction, .. }] = &found[..] else {
                         panic!("{found:?}")
                     };
-                    // A planar robot can follow only ways in its plane.
-                    if moves == 2 && direction[2] != 0.0 {
-                        continue;
-                    }
+                    assert!(
+                        moves == 3 || direction[2] == 0.0,
+                        "{name}: {direction:?} leads out of the plane"
+                    );
                     let mut moved = q.clone();
                     for axis in 0..moves {
                         moved[axis] += depth * direction[axis];

@@ -16,6 +16,14 @@ pub(in crate::model::bodies) struct GroupJoints {
     pub unknown: Vec<String>,
 }
 
+/// Groups on the way through groups within groups.
+struct Walk<'a> {
+    /// Those that the one at hand is listed in, the outermost first.
+    open: Vec<&'a str>,
+    /// Those whose members have been added, or are being added.
+    done: BTreeSet<&'a str>,
+}
+
 impl Srdf {
     /// The joints of the group `name` of the robot with these links, named as in its URDF; `None` if there is no such
     /// group. Fixed joints count, too: they are what a chain passes.
@@ -30,15 +38,15 @@ impl Srdf {
     ) -> Option<Result<GroupJoints, ForeignError>> {
         let group = self.groups.iter().find(|group| group.name == name)?;
         let mut joints = GroupJoints::default();
-        let mut open = vec![name];
-        Some(self.add(group, links, &mut open, &mut joints).map(|()| joints))
+        let mut walk = Walk { open: vec![name], done: BTreeSet::new() };
+        Some(self.add(group, links, &mut walk, &mut joints).map(|()| joints))
     }
 
     fn add<'a>(
         &'a self,
         group: &'a Group,
         links: &[Link],
-        open: &mut Vec<&'a str>,
+        walk: &mut Walk<'a>,
         joints: &mut GroupJoints,
     ) -> Result<(), ForeignError> {
         let link_of = |name: &str| links.iter().position(|link| link.name == name);
@@ -90,12 +98,15 @@ impl Srdf {
                         joints.unknown.push(format!("group `{name}`"));
                         continue;
                     };
-                    if open.contains(&name.as_str()) {
+                    if walk.open.contains(&name.as_str()) {
                         return error(format!("`{name}` found within itself"));
                     }
-                    open.push(name);
-                    self.add(inner, links, open, joints)?;
-                    open.pop();
+                    // A group that is listed again has nothing to add.
+                    if walk.done.insert(name) {
+                        walk.open.push(name);
+                        self.add(inner, links, walk, joints)?;
+                        walk.open.pop();
+                    }
                 }
             }
         }
