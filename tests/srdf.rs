@@ -346,6 +346,25 @@ fn a_robot_alone_takes_an_srdf_and_a_group() {
     assert!(error.to_string().contains("--srdf found; a problem file"), "{error}");
 }
 
+/// Groups that list another twice each, and groups far within one another: neither takes long, and no depth ends the process.
+#[test]
+fn groups_within_groups_take_no_long_time() {
+    let (_keep, folder) = folder();
+    let nested = |depth: usize| {
+        let group = |at: usize| {
+            let inner = format!("<group name=\"g{}\"/>", at + 1);
+            format!("<group name=\"g{at}\">{inner}{inner}</group>")
+        };
+        let groups: String = (0..depth).map(group).collect();
+        let last = format!("<group name=\"g{depth}\"><joint name=\"grip\"/></group>");
+        fs::write(folder.join("arms.srdf"), format!("<robot>{groups}{last}</robot>")).unwrap();
+        parse(&folder, &LEFT.replace("\"left\"", "\"g0\""))
+    };
+    assert_eq!(names(&nested(40).expect("few enough")), ["grip"]);
+    let error = nested(50_000).unwrap_err();
+    assert!(error.contains("`g64` found within 64 groups"), "{error}");
+}
+
 #[test]
 fn errors_name_file_line_and_key() {
     let (_keep, folder) = folder();

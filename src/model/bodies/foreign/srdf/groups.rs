@@ -16,6 +16,9 @@ pub(in crate::model::bodies) struct GroupJoints {
     pub unknown: Vec<String>,
 }
 
+/// The most groups within one another.
+const DEPTH_MAX: usize = 64;
+
 /// Groups on the way through groups within groups.
 struct Walk<'a> {
     /// Those that the one at hand is listed in, the outermost first.
@@ -100,6 +103,11 @@ impl Srdf {
                     };
                     if walk.open.contains(&name.as_str()) {
                         return error(format!("`{name}` found within itself"));
+                    }
+                    if walk.open.len() >= DEPTH_MAX {
+                        return error(format!(
+                            "`{name}` found within {DEPTH_MAX} groups; fewer within one another expected"
+                        ));
                     }
                     // A group that is listed again has nothing to add.
                     if walk.done.insert(name) {
