@@ -320,7 +320,7 @@ pub struct CheckArguments {
     pub json: bool,
     /// Say which links touch one another in all, or in none, of so many configurations drawn uniformly, as lines of a problem
     /// file
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    #[arg(long, value_name = "N", conflicts_with = "at", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     pub touching: Option<u64>,
 }
 

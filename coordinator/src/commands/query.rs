@@ -1,6 +1,6 @@
 use super::asker::{Asker, TimedAnswer};
 use super::batch;
-use super::place::check_place;
+use super::place::{check_page, check_place};
 use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
 use crate::files::{write_out, write_whole};
@@ -13,9 +13,8 @@ use roadmill::query::PATH_REFINEMENT;
 /// Answers one query from the roadmap of a run, or, with `--queries`, all queries of a file.
 pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let out = arguments.out.as_ref().filter(|_| arguments.queries.is_none());
-    for (option, file) in [("--out", out), ("--animate", arguments.animate.as_ref())] {
-        file.map_or(Ok(()), |file| check_place(option, file))?;
-    }
+    out.map_or(Ok(()), |file| check_place("--out", file))?;
+    arguments.animate.as_ref().map_or(Ok(()), |file| check_page("--animate", file))?;
     let run = Run::at(&arguments.run).read()?;
     match run.stopped() {
         None => note("the build has not ended; its complete rounds are searched"),
