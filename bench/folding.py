@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """In which order the parts of proteins form, over several seeds and for variants of the model, as tables.
 
-    export ROADMILL_DATA=../shared/data
+    export ROADMILL_DATA=/path/to/data
     python3 bench/folding.py 1PGA 1BDD 1MI0:A --seeds 1-10 --nodes 5000
     python3 bench/folding.py 1PGA 1BDD 1MI0:A --seeds 1-10 --nodes 5000 --variants no-energy,scrambled --brief
     python3 bench/folding.py 1PGA 1BDD 1MI0:A --seeds 1-10 --nodes 1000 --variants rrt,m1,m3,m5,m7 --times

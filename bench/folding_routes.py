@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """In which order the parts of proteins form, over several routes from each unstructured conformation instead of the cheapest alone.
 
-    ROADMILL_DATA=../shared/data python3 bench/folding_routes.py 1PGA 1MI0:A --seeds 1-10 --nodes 5000
+    ROADMILL_DATA=/path/to/data python3 bench/folding_routes.py 1PGA 1MI0:A --seeds 1-10 --nodes 5000
 
 Needs NumPy and gemmi. Takes the runs that `bench/folding.py` has made with the same words (variant `fold`), exports their roadmaps, and derives
 the conformations, contacts, parts and pathways anew, with nothing of roadmill's but the roadmap and the secondary structure. A row per

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Adenylate kinase from open to closed: roadmill's paths beside a molecular dynamics' and ProDy's, by one command.
 
-    ROADMILL_DATA=shared/data python3 bench/transitions/compare.py --work FOLDER [--map RUN ...] [--again] [--picture FILE.svg]
+    ROADMILL_DATA=/path/to/data python3 bench/transitions/compare.py --work FOLDER [--map RUN ...] [--again] [--picture FILE.svg]
 
 Prints tables as Markdown and a list of what was found about every map, and draws all paths over two domain angles. Compared are
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Studies of proteins' transitions: each subcommand builds what it needs and prints its tables as Markdown.
 
-    ROADMILL_DATA=../shared/data python3 bench/transitions/studies.py STUDY [--binary target/release/roadmill] [--out FOLDER]
+    ROADMILL_DATA=/path/to/data python3 bench/transitions/studies.py STUDY [--binary target/release/roadmill] [--out FOLDER]
 
 docs/transition-studies.md says what came of them. Every build is one process and one thread where nothing else is said, and
 CPU seconds are the system's (user and system), not wall time. `ranking` needs numpy, the others nothing but Python 3.11 or later.

@@ -22,6 +22,8 @@ __all__ = ["build"]
 
 # Exit codes after which there is a roadmap: the criteria are met, or a limit came first.
 _WITH_ROADMAP = (0, 3)
+# Its name says nothing: that of the problem stands in the file, and may be anything but the name of a file.
+_PROBLEM_FILE = "problem.toml"
 
 
 def build(
@@ -65,7 +67,7 @@ def build(
     limits = {"max_nodes": max_nodes, "max_sets": max_sets, "max_seconds": max_time, "max_memory": max_memory}
     with tempfile.TemporaryDirectory(prefix="roadmill-") as folder:
         if isinstance(problem, Problem):
-            file = problem.write(pathlib.Path(folder) / f"{problem.name}.toml")
+            file = problem.write(pathlib.Path(folder) / _PROBLEM_FILE)
             raised = _problem_raised(file)
         else:
             file, raised = pathlib.Path(problem), failure
@@ -88,7 +90,7 @@ def resumed(
     if not isinstance(changed, Problem):
         return grown([*arguments, *(["--with", changed] if changed is not None else [])], failure, progress)
     with tempfile.TemporaryDirectory(prefix="roadmill-") as folder:
-        file = changed.write(pathlib.Path(folder) / f"{changed.name}.toml")
+        file = changed.write(pathlib.Path(folder) / _PROBLEM_FILE)
         return grown([*arguments, "--with", file], _problem_raised(file), progress)
 
 

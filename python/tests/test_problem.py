@@ -171,3 +171,15 @@ def test_texts_and_numbers_are_read_back(cart: Problem, tmp_path: pathlib.Path) 
     assert tomllib.loads(text)["a b"] == {"x\n\x7f\"\\é": [1e300, -0.0, 5, True, 0.1, 7]}
     with pytest.raises(TypeError, match="a number, text, path, sequence or mapping expected"):
         replace(cart, further={"x": object()}).to_toml()
+
+
+@pytest.mark.parametrize("name", ["../../escaped", "a/b", ""])
+def test_a_name_is_no_path(cart: Problem, tmp_path: pathlib.Path, name: str) -> None:
+    before = set(tmp_path.parent.iterdir())
+    try:
+        roadmap = roadmill.build(replace(cart, name=name), out=tmp_path / "run", threads=1)
+    except roadmill.ProblemError as error:
+        assert error.key == "name"
+    else:
+        assert roadmap.name == name
+    assert set(tmp_path.parent.iterdir()) == before
