@@ -4,7 +4,7 @@ use crate::context::Context;
 use crate::model::Scratch;
 use crate::numbers::NodeId;
 use crate::roadmap::bidirectional::{self, Buffers, Extended};
-use crate::roadmap::landmarks::{self, Landmarks, TooShort, Values};
+use crate::roadmap::landmarks::{self, Landmarks, Values};
 use crate::roadmap::{Edge, Graph, Roadmap, Route};
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -135,9 +135,8 @@ impl PreparedRoadmap {
             let found =
                 landmarks::shortest((&extended, more), landmarks, ends, failed, &mut values);
             give_back(&self.values, values);
-            match found {
-                Ok(route) => return route,
-                Err(TooShort) => (),
+            if let Ok(route) = found {
+                return route;
             }
         }
         let mut buffers = taken(&self.buffers).unwrap_or_else(|| Buffers::new(graph.nodes()));

@@ -3,10 +3,13 @@
 use crate::exit;
 use clap::Command;
 
-/// The examples of a command, by the words that name it: what a line does, and the line.
+/// What a line does, and the line.
+type Example = (&'static str, &'static str);
+
+/// The examples of every command, by the words that name it.
 ///
 /// Tests parse every line, so that no example names an option that is not there.
-const EXAMPLES: &[(&[&str], &[(&str, &str)])] = &[
+const EXAMPLES: &[(&[&str], &[Example])] = &[
     (
         &[],
         &[

@@ -17,6 +17,9 @@ const SIGNALS_PAUSE: Duration = Duration::from_millis(50);
 /// Between two times that the caller is told how far the build is.
 const PROGRESS_PAUSE: Duration = Duration::from_millis(200);
 
+/// What a build came to: the run folder, why it stopped in one word and for people, the exit code, and the exception that ended it.
+type Grown = (PathBuf, String, String, u8, Option<Py<PyAny>>);
+
 /// Builds a roadmap in so many threads, in a run folder, while Python's other threads go on. `progress` is called with a JSON
 /// object a few times a second. A signal whose handler raises, as Ctrl-C does, or an exception in `progress`, ends the build
 /// with the roadmap of the last complete round.
@@ -39,7 +42,7 @@ pub fn grow(
     force: bool,
     or_resume: bool,
     progress: Option<Py<PyAny>>,
-) -> PyResult<(PathBuf, String, String, u8, Option<Py<PyAny>>)> {
+) -> PyResult<Grown> {
     let error = Mutex::new(None);
     let grown = py.detach(|| -> Result<Ended, Failure> {
         let problem = with_seconds(load(&problem)?, max_seconds)?;

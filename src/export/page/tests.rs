@@ -96,7 +96,7 @@ fn a_landscape_comes_with_its_energies() {
     let data = data_of(&page);
     let energies = floats(at(data, "energy"), "energies");
     let columns = number(data, "columns");
-    assert!(columns > 100 && energies.len() % columns == 0);
+    assert!(columns > 100 && energies.len().is_multiple_of(columns));
     let highest = energies.iter().copied().fold(f32::MIN, f32::max);
     let lowest = energies.iter().copied().fold(f32::MAX, f32::min);
     assert!(highest == 0.0 && at(data, "lowest").starts_with("-140,"));
