@@ -168,8 +168,8 @@ fn pages_can_be_walked_around_in() {
         return;
     }
     let scratch = Scratch::new();
-    // In the plane, in space, a linkage, and a landscape: several rounds of most, none with more than 5000 edges.
-    for name in ["maze", "maze3d", "gantry", "muller-brown"] {
+    // In the plane, in space, and a linkage: several rounds of most, none with more than 5000 edges.
+    for name in ["maze", "maze3d", "gantry"] {
         let text = fs::read_to_string(repository(&format!("problems/{name}.toml")));
         let text = text.expect("it ships").replace("nodes = 100\n", "nodes = 30\n");
         let text = text.replace("[img]\nsets_per_round = 5\n", "");
@@ -195,7 +195,9 @@ fn pages_can_be_walked_around_in() {
 fn walk(scratch: &Scratch, page: &str, what: &str, size: &str, grows: bool) {
     let watched = page.replacen("<head>", &format!("<head><script>{WALK}</script>"), 1);
     scratch.write("watched.html", &watched);
-    let output = Command::new("chromium")
+    // A browser that never answers is a failure, not a test that never ends.
+    let output = Command::new("timeout")
+        .args(["300", "chromium"])
         .args(["--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader"])
         .args(["--enable-unsafe-swiftshader", "--virtual-time-budget=20000", "--dump-dom"])
         .arg(format!("--window-size={size}"))
