@@ -3,24 +3,7 @@
 mod support;
 
 use std::fs;
-use support::Scratch;
-
-const SMALL: &str = r#"
-[space]
-motion = "translation-2d"
-min = [0.0, 0.0]
-max = [9.0, 9.0]
-bounds = "body"
-[robot]
-bodies = [{ shape = { sphere = { radius = 0.2 } } }]
-[query]
-start = [1.0, 1.0]
-goal = [8.0, 8.0]
-[[strategies]]
-label = "a"
-nodes = 20
-sampler = { uniform = {} }
-"#;
+use support::{SMALL, Scratch};
 
 #[test]
 fn the_version_tells_which_programs_give_the_same_bits() {

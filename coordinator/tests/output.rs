@@ -9,24 +9,7 @@ use by_hand::{frames, ledger_of};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
-use support::{Done, Scratch};
-
-const SMALL: &str = r#"
-[space]
-motion = "translation-2d"
-min = [0.0, 0.0]
-max = [9.0, 9.0]
-bounds = "body"
-[robot]
-bodies = [{ shape = { sphere = { radius = 0.2 } } }]
-[query]
-start = [1.0, 1.0]
-goal = [8.0, 8.0]
-[[strategies]]
-label = "a"
-nodes = 20
-sampler = { uniform = {} }
-"#;
+use support::{Done, SMALL, Scratch};
 
 /// Runs a script in the folder of `scratch`; `$roadmill` is the program.
 fn sh(scratch: &Scratch, script: &str) -> Done {

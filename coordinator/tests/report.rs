@@ -6,7 +6,7 @@ use rustix::process::Signal;
 use serde_json::Value;
 use std::fs;
 use std::process::Command;
-use support::{Scratch, wait_until};
+use support::{Scratch, has_browser, wait_until};
 
 const CHIGNOLIN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/chignolin.toml");
 
@@ -162,19 +162,6 @@ fn a_signal_ends_a_search_without_a_page_and_a_limit_of_time_with_one_that_says_
     assert!(
         page.contains("The time for the search was up before its end") && page.contains("</html>")
     );
-}
-
-/// A headless Chromium, unless there is none and none is required.
-fn has_browser() -> bool {
-    let there = Command::new("chromium").arg("--version").output();
-    let there = there.is_ok_and(|output| output.status.success());
-    if !there {
-        let required =
-            std::env::var_os("ROADMILL_REQUIRE_BROWSER").is_some_and(|value| value == "1");
-        assert!(!required, "no chromium");
-        println!("not tested: no chromium");
-    }
-    there
 }
 
 /// Notes every error from the beginning; uses the controls of the page when all is loaded, and says what came of it in

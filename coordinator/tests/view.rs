@@ -8,7 +8,7 @@ use std::fs;
 use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::process::Command;
-use support::{Scratch, wait_until};
+use support::{Scratch, has_browser, wait_until};
 
 /// What uses a page's controls and notes what comes of it.
 const WALK: &str = include_str!("support/walk.js");
@@ -145,19 +145,6 @@ fn a_build_is_followed_by_who_knows_the_address_until_a_signal_comes() {
     let done = running.finish();
     done.assert_code(6);
     done.assert_stderr(&["a signal came; the page is no longer served"]);
-}
-
-/// A headless Chromium, unless there is none and none is required.
-fn has_browser() -> bool {
-    let there = Command::new("chromium").arg("--version").output();
-    let there = there.is_ok_and(|output| output.status.success());
-    if !there {
-        let required =
-            std::env::var_os("ROADMILL_REQUIRE_BROWSER").is_some_and(|value| value == "1");
-        assert!(!required, "no chromium");
-        println!("not tested: no chromium");
-    }
-    there
 }
 
 /// Opens pages in a browser, wide and narrow, points at nodes, clicks, drags and moves the controls: nothing goes wrong, what is

@@ -1,20 +1,20 @@
 //! Strategies side by side: one build per strategy and seed, each in a run folder of its own.
 
 use super::build::bounded_problem;
+use super::crew::summary_in;
 use super::load::load;
 use crate::cli::CompareArguments;
 use crate::exit::{Code, Failure};
-use crate::files::{cannot_write, open_in_run, write_whole};
+use crate::files::{cannot_write, write_whole};
 use crate::output::{json, line, note};
 use crate::progress::Reporter;
-use crate::run::{SUMMARY_JSON, outside_of_runs};
+use crate::run::outside_of_runs;
 use crate::signals::Signals;
 use crate::work::{Recorded, Run};
 use roadmill::evaluate::{Coverage, Evaluator, EvaluatorKind, Not};
 use roadmill::export::{ComparedBuild, ComparedStrategy, Comparison, RoundOutcome};
 use roadmill::model::Scratch;
 use roadmill::problem::{Problem, StrategySpec};
-use rustix::fs::OFlags;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
@@ -124,10 +124,7 @@ fn read(
     seed: u64,
     folder: &Path,
 ) -> Result<ComparedBuild, Failure> {
-    let summary = open_in_run(&folder.join(SUMMARY_JSON), OFlags::RDONLY).ok();
-    let summary: Option<serde_json::Value> =
-        summary.and_then(|file| serde_json::from_reader(file).ok());
-    let cpu_seconds = summary.and_then(|summary| summary["cpu_seconds"].as_f64());
+    let cpu_seconds = summary_in(folder).and_then(|summary| summary["cpu_seconds"].as_f64());
     let coverage = Coverage::default().evaluate(
         run.context(),
         COVERAGE_PATH,

@@ -10,6 +10,7 @@ use crate::work::{Begun, Ended, Growth, Status, Torn, WORKERS_MAX, Watch, Worker
 use roadmill::problem::Problem;
 use roadmill::survey::Survey;
 use rustix::fs::OFlags;
+use std::path::Path;
 
 /// After so many seconds without a set it is said what is in the way.
 const PATIENCE: f64 = 5.0;
@@ -101,12 +102,16 @@ fn with_way_on(reason: String, ended: &Ended) -> String {
     }
 }
 
+/// The summary in a run folder as an object; `None` where there is none, or none that can be read.
+pub(super) fn summary_in(folder: &Path) -> Option<serde_json::Value> {
+    let file = open_in_run(&folder.join(SUMMARY_JSON), OFlags::RDONLY).ok()?;
+    serde_json::from_reader(file).ok()
+}
+
 /// Says that there is nothing to do, and ends as the build did.
 fn say_finished(ended: &Ended, json: bool) -> Result<Code, Failure> {
     let folder = ended.run().folder();
-    let summary = open_in_run(&folder.join(SUMMARY_JSON), OFlags::RDONLY).ok();
-    let summary =
-        summary.and_then(|file| serde_json::from_reader::<_, serde_json::Value>(file).ok());
+    let summary = summary_in(folder);
     match (json, summary, ended.rounds()) {
         (true, Some(summary), _) => output::json(&summary),
         (false, _, 1..) => output::line(format_args!("digest {}", ended.digest())),

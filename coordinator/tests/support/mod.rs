@@ -16,6 +16,37 @@ use tempfile::TempDir;
 /// Whatever takes longer hangs. Nothing else is ever concluded from a time.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
+/// A small ball in an empty room, whose query is solved at once.
+pub const SMALL: &str = r#"
+[space]
+motion = "translation-2d"
+min = [0.0, 0.0]
+max = [9.0, 9.0]
+bounds = "body"
+[robot]
+bodies = [{ shape = { sphere = { radius = 0.2 } } }]
+[query]
+start = [1.0, 1.0]
+goal = [8.0, 8.0]
+[[strategies]]
+label = "a"
+nodes = 20
+sampler = { uniform = {} }
+"#;
+
+/// A headless Chromium, unless there is none and none is required.
+pub fn has_browser() -> bool {
+    let there = Command::new("chromium").arg("--version").output();
+    let there = there.is_ok_and(|output| output.status.success());
+    if !there {
+        let required =
+            std::env::var_os("ROADMILL_REQUIRE_BROWSER").is_some_and(|value| value == "1");
+        assert!(!required, "no chromium");
+        println!("not tested: no chromium");
+    }
+    there
+}
+
 /// A build without end, in small steps: whoever starts it stops it when enough has happened to
 /// it, however fast the machine is, and then compares it with an undisturbed one of that size.
 pub const ENDLESS: &str = r#"

@@ -2,8 +2,8 @@
 
 use super::super::markup::escaped;
 use super::super::palette::colour;
-use super::PAGE;
 use super::chart::{Chart, Series};
+use super::page;
 use std::fmt::Write;
 
 /// One build of a comparison.
@@ -123,9 +123,7 @@ impl Comparison {
             body += &self.chart(index, name, *threshold).html();
         }
         body += "</div></section>\n</main>\n";
-        let (before, rest) = PAGE.split_once("ROADMILL_NAME").expect("the page has a title");
-        let (between, after) = rest.split_once("ROADMILL_BODY").expect("the page has a body");
-        [before, &escaped(&self.problem), between, &body, after].concat()
+        page(&self.problem, &body)
     }
 
     fn table(&self) -> String {

@@ -100,7 +100,10 @@ pub fn report(report: &Report, scratch: &mut Scratch) -> String {
     if report.folding.is_some() && report.pathways.pathways.is_empty() {
         // Without a pathway there are no ends to show anything between.
         let sections = [folding::section(report), growth::section(report)].concat();
-        return page(report, &format!("{}<main>\n{sections}</main>\n", header::section(report)));
+        return page(
+            report.problem.name(),
+            &format!("{}<main>\n{sections}</main>\n", header::section(report)),
+        );
     }
     let tables = Along::all(report, scratch);
     let motion = Motion::of(report, scratch);
@@ -126,15 +129,15 @@ pub fn report(report: &Report, scratch: &mut Scratch) -> String {
     body += &growth::section(report);
     body += "</main>\n";
     body += &scripts;
-    page(report, &body)
+    page(report.problem.name(), &body)
 }
 
-/// The page with a body.
-fn page(report: &Report, body: &str) -> String {
+/// The page about a problem of this name, with a body.
+fn page(name: &str, body: &str) -> String {
     // A text that comes from files is put in last, so that nothing is looked for in it.
     let (before, rest) = PAGE.split_once("ROADMILL_NAME").expect("the page has a title");
     let (between, after) = rest.split_once("ROADMILL_BODY").expect("the page has a body");
-    [before, &escaped(report.problem.name()), between, body, after].concat()
+    [before, &escaped(name), between, body, after].concat()
 }
 
 /// The scripts of the viewer: the library with its licence, the data, and what plays them.
