@@ -1,5 +1,6 @@
 //! The command line.
 
+mod agent;
 mod compare;
 mod examples;
 mod fold;
@@ -11,6 +12,7 @@ mod replan;
 mod transition;
 mod view;
 
+pub use agent::{AgentArguments, AgentsArguments};
 pub use compare::CompareArguments;
 pub use fold::FoldArguments;
 pub use job::JobArguments;
@@ -50,6 +52,8 @@ pub enum Command {
     /// Go on with a build that was interrupted, or with a finished one by other criteria
     #[command(allow_negative_numbers = true)]
     Resume(ResumeArguments),
+    /// Work for a build on another machine, which speaks to it through standard input and output
+    Agent(AgentArguments),
     /// Say how far a build is, from its files alone
     Status(StatusArguments),
     /// Recompute sets from their seeds and compare
@@ -194,6 +198,8 @@ pub struct CrewArguments {
     /// Do the jobs in N threads of this process instead of worker processes
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
+    #[command(flatten)]
+    pub agents: AgentsArguments,
 }
 
 /// Of `resume`.

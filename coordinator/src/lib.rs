@@ -5,6 +5,7 @@
 //! an executable `roadmill` ([`crew::Executable::at`]), a crew of processes that run it ([`crew::LocalCrew`]), and a
 //! [`dispatch::Dispatcher`] over the crew as the executor of [`roadmill::img::drive`].
 
+pub mod agent;
 mod cli;
 mod commands;
 mod cpu;
@@ -55,6 +56,7 @@ fn run(command: cli::Command) -> Result<Code, Failure> {
         cli::Command::Build(arguments) => commands::build(&arguments),
         cli::Command::Generate(arguments) => commands::generate(&arguments),
         cli::Command::Resume(arguments) => commands::resume(&arguments),
+        cli::Command::Agent(arguments) => commands::agent(&arguments),
         cli::Command::Status(arguments) => commands::status(&arguments),
         cli::Command::Verify(arguments) => commands::verify(&arguments),
         cli::Command::Diff(arguments) => commands::diff(&arguments),

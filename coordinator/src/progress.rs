@@ -1,5 +1,6 @@
 //! Telling people and programs how far a build is.
 
+use crate::dispatch::Machine;
 use crate::output;
 use crate::run::EvaluatorValue;
 use crate::work::Status;
@@ -29,6 +30,8 @@ pub struct Report {
     evaluators: Vec<EvaluatorValue>,
     workers_alive: usize,
     workers_wanted: usize,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    machines: Vec<Machine>,
 }
 
 impl Report {
@@ -48,6 +51,7 @@ impl Report {
             evaluators: EvaluatorValue::all(problem, &progress.verdicts),
             workers_alive: status.workers_alive,
             workers_wanted: status.workers_wanted,
+            machines: status.machines.to_vec(),
         }
     }
 }
@@ -63,7 +67,12 @@ impl std::fmt::Display for Report {
         write!(f, "{nodes} nodes, {edges} edges, {components} components; ")?;
         write!(f, "{sets_generated} sets generated, {sets_joined} joined; ")?;
         write!(f, "{:.0} nodes/s; ", self.nodes_per_second)?;
-        write!(f, "{} of {} workers", self.workers_alive, self.workers_wanted)
+        if self.machines.is_empty() {
+            return write!(f, "{} of {} workers", self.workers_alive, self.workers_wanted);
+        }
+        let ready = self.machines.iter().filter(|machine| machine.state == "ready").count();
+        let wanted = self.machines.len();
+        write!(f, "{} workers of {ready} of {wanted} machines", self.workers_alive)
     }
 }
 

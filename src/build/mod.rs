@@ -133,7 +133,9 @@ impl<'a> Build<'a> {
             };
         match stop {
             Stop::Deadly(job) => return Err(BuildError::Panicked(job)),
-            Stop::Contradiction(job) | Stop::Nonsense(job) => return Err(BuildError::Broken(job)),
+            Stop::Contradiction(job, _) | Stop::Nonsense(job) => {
+                return Err(BuildError::Broken(job));
+            }
             _ => {}
         }
         let mut rounds = past;

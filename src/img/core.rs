@@ -32,6 +32,8 @@ pub enum Event {
     Done(Job, Finished),
     /// A job was lost with the worker that held it.
     Lost(Job, Loss),
+    /// A job was done twice, and with two outcomes; by whom, for people.
+    Contradiction(Job, String),
     /// The build is to end where it is.
     Cut(Cut),
 }
@@ -104,8 +106,8 @@ pub enum Stop {
     },
     /// A job at which [`LOSSES_MAX`] workers died.
     Deadly(Job),
-    /// A job that gave two different outcomes: the machine or the program is broken.
-    Contradiction(Job),
+    /// A job that gave two different outcomes: a machine or the program is broken. By whom, for people, where it is known.
+    Contradiction(Job, String),
     /// An outcome that the job cannot have, or one that nobody asked for.
     Nonsense(Job),
     /// Ended from outside.
@@ -251,10 +253,16 @@ impl Core {
         match event {
             Event::Done(job, finished) => self.done(job, finished, &mut commands),
             Event::Lost(job, loss) => self.lost(job, loss, &mut commands),
+            Event::Contradiction(job, by) => self.stop(Stop::Contradiction(job, by), &mut commands),
             Event::Cut(cut) => self.stop(Stop::Cut(cut), &mut commands),
         }
         self.advance(&mut commands);
         commands
+    }
+
+    /// Changes how many sets beyond the current round may be generated.
+    pub fn look_ahead(&mut self, lookahead: u64) {
+        self.lookahead = lookahead;
     }
 
     /// How far the build is.
@@ -284,7 +292,7 @@ impl Core {
     fn done(&mut self, job: Job, finished: Finished, commands: &mut Vec<Command>) {
         if let Some(digest) = self.done.get(&job) {
             if *digest != finished.digest {
-                self.stop(Stop::Contradiction(job), commands);
+                self.stop(Stop::Contradiction(job, String::new()), commands);
             }
             return;
         }

@@ -29,6 +29,12 @@ pub trait Executor {
     /// How many workers are ready or at work.
     fn alive(&self) -> usize;
 
+    /// How many sets beyond the current round keep all workers busy; `None` where that was known before the build
+    /// began. It changes how long a build takes and nothing else.
+    fn lookahead(&self) -> Option<u64> {
+        None
+    }
+
     /// What the roadmap folded so far comes to.
     fn tally(&self) -> &Tally;
 }
@@ -96,6 +102,9 @@ pub fn drive<E: Executor, O: Observer>(
             Some(cut) => Some(Event::Cut(cut)),
             None => executor.next(TICK),
         };
+        if let Some(lookahead) = executor.lookahead() {
+            core.look_ahead(lookahead);
+        }
         commands = event.map_or_else(Vec::new, |event| core.on_event(event));
     }
 }

@@ -20,7 +20,7 @@ pub use self::core::{
 };
 pub use crate::roadmap::{Joined, Round, RoundSet};
 pub use crate::schedule::Plan;
-pub use canary::canary;
+pub use canary::{canaries, canary};
 pub use drive::{Executor, InProcess, Observer, TICK, drive};
 pub use job::{Finished, Job, Outcome, Task};
 pub use replica::{Front, Replica};

@@ -109,7 +109,7 @@ fn an_answer_that_differs_from_the_first_ends_the_build() {
     assert!(core.on_event(done(&setup, &replica, job)).is_empty());
     let other = Outcome::Increment(Err(GaveUp { attempts: 1 }));
     let commands = core.on_event(Event::Done(job, Finished::new(other)));
-    assert_eq!(stop(&commands), Some(&Stop::Contradiction(job)));
+    assert_eq!(stop(&commands), Some(&Stop::Contradiction(job, String::new())));
 }
 
 #[test]

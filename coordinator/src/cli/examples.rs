@@ -34,6 +34,10 @@ const EXAMPLES: &[(&[&str], &[Example])] = &[
                 "roadmill build problem.toml --out runs/a --or-resume --max-time 2h",
             ),
             (
+                "On two machines that are reached by ssh",
+                "roadmill build problem.toml --agents node1,node2",
+            ),
+            (
                 "A scene of Parasol's",
                 "roadmill build maze.env --query maze.query --max-nodes 20000",
             ),
@@ -51,6 +55,13 @@ const EXAMPLES: &[(&[&str], &[Example])] = &[
                 "roadmill build problem.toml --import part.sets --out runs/a",
             ),
         ],
+    ),
+    (
+        &["agent"],
+        &[(
+            "Started on another machine by a build's --agent-command",
+            "roadmill agent --workers 16",
+        )],
     ),
     (
         &["resume"],

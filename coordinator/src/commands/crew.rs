@@ -1,6 +1,8 @@
 //! What `build`, `resume` and `verify` share: who does the work, and what is said meanwhile.
 
-use crate::cli::CrewArguments;
+use crate::agent::Place;
+use crate::cli::{AgentsArguments, CrewArguments};
+use crate::dispatch::AgentOptions;
 use crate::exit::{Code, Failure};
 use crate::files::open_in_run;
 use crate::output::{self, Plain, note};
@@ -11,6 +13,7 @@ use roadmill::problem::Problem;
 use roadmill::survey::Survey;
 use rustix::fs::OFlags;
 use std::path::Path;
+use std::time::Duration;
 
 /// After so many seconds without a set it is said what is in the way.
 const PATIENCE: f64 = 5.0;
@@ -19,6 +22,16 @@ pub(super) const DRAWS: usize = 1000;
 
 /// Who does the jobs, as the command line says.
 pub(super) fn workers(crew: &CrewArguments) -> Result<Workers, Failure> {
+    let AgentsArguments { agents, agent_command, agent_wait, audit } = &crew.agents;
+    if let Some(names) = agents {
+        let workers = crew.workers.map(|workers| checked("--workers", Some(workers)));
+        return Ok(Workers::agents(AgentOptions {
+            places: Place::list(names, agent_command)?,
+            workers: workers.transpose()?,
+            wait: Duration::from_secs_f64(*agent_wait),
+            audit: audit.unwrap_or(0.0),
+        }));
+    }
     let count = count(crew)?;
     Ok(match crew.threads {
         Some(_) => Workers::threads(count),
@@ -28,11 +41,15 @@ pub(super) fn workers(crew: &CrewArguments) -> Result<Workers, Failure> {
 
 /// How many workers or threads the command line asks for; one for each processor if it does not say.
 pub(super) fn count(crew: &CrewArguments) -> Result<usize, Failure> {
-    let (option, workers) = match (crew.workers, crew.threads) {
-        (Some(workers), _) => ("--workers", workers),
-        (None, Some(threads)) => ("--threads", threads),
-        (None, None) => ("", Workers::available()),
-    };
+    match crew.threads {
+        Some(_) => checked("--threads", crew.threads),
+        None => checked("--workers", crew.workers),
+    }
+}
+
+/// A number of workers that an option gives; one for each processor if it does not.
+pub(super) fn checked(option: &str, workers: Option<usize>) -> Result<usize, Failure> {
+    let workers = workers.unwrap_or_else(Workers::available);
     if (1..=WORKERS_MAX).contains(&workers) {
         Ok(workers)
     } else {

@@ -1,6 +1,6 @@
-use super::crew::count;
+use super::crew::checked;
 use super::load::load;
-use crate::cli::{CrewArguments, GenerateArguments};
+use crate::cli::GenerateArguments;
 use crate::exit::{Code, Failure};
 use crate::output::{Plain, line, note};
 use crate::run::SetsWriter;
@@ -25,7 +25,7 @@ pub fn generate(arguments: &GenerateArguments) -> Result<Code, Failure> {
     let problem = load(&arguments.problem)?;
     let seed = arguments.seed.unwrap_or(problem.seed());
     let problem = problem.with_seed(seed);
-    let threads = count(&CrewArguments { workers: None, threads: arguments.threads })?;
+    let threads = checked("--threads", arguments.threads)?;
     let (label, ordinals) = &arguments.sets;
     let Some(strategy) = problem.strategies().iter().position(|known| known.label() == label)
     else {

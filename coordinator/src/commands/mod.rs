@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod agent;
 mod asker;
 mod batch;
 mod bounded;
@@ -34,6 +35,7 @@ mod view;
 mod worker;
 mod written;
 
+pub use agent::agent;
 pub use build::build;
 pub use check::check;
 pub use compare::compare;

@@ -1,13 +1,20 @@
 use crate::cli::StatusArguments;
+use crate::dispatch::{Machine, Machines};
 use crate::exit::{Code, Failure};
+use crate::files::open_in_run;
 use crate::output::{self, Plain};
-use crate::run::{EvaluatorValue, Holder, Scan};
+use crate::run::{EvaluatorValue, Holder, MACHINES_JSON, Scan};
 use roadmill::problem::Problem;
+use rustix::fs::OFlags;
 use serde::Serialize;
 use std::fmt;
+use std::io::Read;
+use std::path::Path;
 use std::thread::sleep;
 use std::time::Duration;
 
+/// The most bytes that are read of what the machines do.
+const MACHINES_BYTES_MAX: u64 = 4 << 20;
 const PAUSE: Duration = Duration::from_millis(500);
 
 /// How far a build is, as its files tell.
@@ -33,6 +40,9 @@ struct Status {
     #[serde(skip)]
     way_on: Option<String>,
     ledger_bytes: u64,
+    /// What each machine does, where agents of several do the work.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    machines: Vec<Machine>,
     digest: Option<String>,
 }
 
@@ -65,6 +75,15 @@ pub fn status(arguments: &StatusArguments) -> Result<Code, Failure> {
             chapter = (scan.chapters.len(), scan.problem()?);
         }
     }
+}
+
+/// What the machines of a running build do; none where it has none, or has ended.
+fn machines_in(folder: &Path) -> Vec<Machine> {
+    let file = open_in_run(&folder.join(MACHINES_JSON), OFlags::RDONLY);
+    let machines = file.ok().and_then(|file| {
+        serde_json::from_reader::<_, Machines>(file.take(MACHINES_BYTES_MAX)).ok()
+    });
+    machines.unwrap_or_default().machines
 }
 
 impl Status {
@@ -108,6 +127,7 @@ impl Status {
             reason,
             way_on,
             ledger_bytes: scan.end.offset,
+            machines: machines_in(scan.folder()),
             digest: end.map(|end| end.roadmap.to_string()),
         }
     }
@@ -148,6 +168,9 @@ impl fmt::Display for Status {
         write!(f, "state       {}: {}", Plain(&self.state), Plain(&self.reason))?;
         if let Some(way) = &self.way_on {
             write!(f, "\nto go on    {}", Plain(way))?;
+        }
+        for machine in &self.machines {
+            write!(f, "\nmachine     {machine}")?;
         }
         match &self.digest {
             Some(digest) => write!(f, "\ndigest {digest}"),

@@ -1,3 +1,4 @@
+use crate::agent::message::Text;
 use crate::crew::Crew;
 use roadmill::img::{Job, Outcome, Round};
 use roadmill::internal::wire;
@@ -30,6 +31,37 @@ impl EntryLog {
             Job::Join { number, .. } => self.joins.entry(number).or_insert(outcome),
             Job::Evaluate { .. } => return,
         };
+    }
+
+    /// Forgets what was kept of a job: it is no outcome.
+    pub fn forget(&mut self, job: Job) {
+        match job {
+            Job::Generate { number, .. } => self.increments.remove(&number),
+            Job::Join { number, .. } => self.joins.remove(&number),
+            Job::Evaluate { .. } => None,
+        };
+    }
+
+    /// Appends the increment of the set `number`, the next one, as it came from a coordinator. False where it is one that
+    /// was kept, and it was not.
+    pub fn publish_text(&mut self, number: SetNumber, text: Text, crew: &mut impl Crew) -> bool {
+        let kept = self.increments.remove(&number);
+        let bytes = taken(text, kept, crew);
+        let is_there = bytes.is_some();
+        self.entries.extend(bytes.map(Entry::Increment));
+        is_there
+    }
+
+    /// Appends the end of a round, which begins with the set `first`, in the same way.
+    pub fn fold_texts(&mut self, first: SetNumber, texts: Vec<Text>, crew: &mut impl Crew) -> bool {
+        let joins = texts.into_iter().zip(0..).map(|(text, offset)| {
+            let kept = self.joins.remove(&(first + offset));
+            taken(text, kept, crew)
+        });
+        let joins: Option<Vec<Bytes>> = joins.collect();
+        let is_there = joins.is_some();
+        self.entries.extend(joins.map(Entry::Fold));
+        is_there
     }
 
     /// Appends the increment of the set `number`, the next one.
@@ -72,6 +104,24 @@ fn put(outcome: &Outcome, crew: &mut impl Crew) -> Bytes {
     let bytes = wire::encode(outcome);
     let stored = crew.store(&bytes);
     bytes_of(&bytes, stored, Digest::of(&bytes))
+}
+
+/// The bytes of an outcome that came from a coordinator: those that were kept, if they are the same.
+fn taken(text: Text, kept: Option<Bytes>, crew: &mut impl Crew) -> Option<Bytes> {
+    match text {
+        Text::Own(digest) => kept.filter(|kept| digest_of(kept) == digest),
+        Text::Here(bytes) => {
+            let stored = crew.store(&bytes);
+            Some(bytes_of(&bytes, stored, Digest::of(&bytes)))
+        }
+    }
+}
+
+fn digest_of(bytes: &Bytes) -> Digest {
+    match bytes {
+        Bytes::Stored { digest, .. } => *digest,
+        Bytes::Here(bytes) => Digest::of(bytes),
+    }
 }
 
 /// Bytes as an entry names them: where the crew has stored them, or else themselves.

@@ -23,12 +23,24 @@ pub struct Roster {
     waiting: [BTreeSet<Job>; URGENCIES],
     /// How many jobs wait or are held, by urgency.
     open: [usize; URGENCIES],
-    /// The jobs that each ready worker holds.
-    held: BTreeMap<WorkerId, BTreeSet<Job>>,
+    /// What each ready worker holds.
+    held: BTreeMap<WorkerId, Desk>,
+    /// How many jobs all of them can do at once.
+    cores: usize,
     /// Jobs at which a worker died, and which have not been done since.
     suspects: BTreeSet<Job>,
     /// What jobs of a kind take, in seconds: a moving average.
     seconds: BTreeMap<Kind, f64>,
+}
+
+/// What a worker holds, or an agent, which has several workers of its own.
+#[derive(Debug, Default)]
+struct Desk {
+    jobs: BTreeSet<Job>,
+    /// How many jobs are done at once.
+    cores: usize,
+    /// How long a message takes there and back, in seconds.
+    round_trip: f64,
 }
 
 /// How many urgencies there are.
@@ -60,19 +72,42 @@ fn kind(job: &Job) -> Kind {
 }
 
 impl Roster {
-    /// Takes in a worker that is ready for jobs.
-    pub fn enlist(&mut self, worker: WorkerId) {
-        self.held.insert(worker, BTreeSet::new());
+    /// Takes in a worker that is ready for jobs, so many at once.
+    pub fn enlist(&mut self, worker: WorkerId, cores: usize) {
+        self.cores += cores;
+        self.held.insert(worker, Desk { cores, ..Desk::default() });
     }
 
-    /// How many workers are ready for jobs, at work or not.
-    pub fn workers(&self) -> usize {
-        self.held.len()
+    /// Takes note of how long a message takes to a worker and back, in seconds: it is given as much more work.
+    pub fn set_round_trip(&mut self, worker: WorkerId, seconds: f64) {
+        if let Some(desk) = self.held.get_mut(&worker) {
+            desk.round_trip = seconds;
+        }
+    }
+
+    /// How many jobs can be done at once by those who are ready, at work or not.
+    pub fn cores(&self) -> usize {
+        self.cores
     }
 
     /// Whether a worker holds no jobs.
     pub fn is_free(&self, worker: WorkerId) -> bool {
-        self.held.get(&worker).is_none_or(BTreeSet::is_empty)
+        self.held(worker) == 0
+    }
+
+    /// How many jobs a worker holds.
+    pub fn held(&self, worker: WorkerId) -> usize {
+        self.held.get(&worker).map_or(0, |desk| desk.jobs.len())
+    }
+
+    /// Whether a worker died at a job, which has not been done since.
+    pub fn is_suspect(&self, job: &Job) -> bool {
+        self.suspects.contains(job)
+    }
+
+    /// Takes note that a worker died at a job, elsewhere.
+    pub fn suspect(&mut self, job: Job) {
+        self.suspects.insert(job);
     }
 
     /// Whether a job waits: a worker that holds no jobs could be given one.
@@ -90,11 +125,16 @@ impl Roster {
     /// `is_needed` says false are dropped.
     pub fn give(&mut self, worker: WorkerId, is_needed: impl Fn(Job) -> bool) -> Vec<Job> {
         let mut given = Vec::new();
-        let workers = self.held.len();
-        let Some(held) = self.held.get_mut(&worker) else { return given };
-        if held.iter().any(|job| self.suspects.contains(job)) {
+        let all_cores = self.cores;
+        let Some(Desk { jobs: held, cores, round_trip }) = self.held.get_mut(&worker) else {
+            return given;
+        };
+        // Who has several workers keeps a suspect from the other jobs.
+        let is_single = *cores == 1;
+        if is_single && held.iter().any(|job| self.suspects.contains(job)) {
             return given;
         }
+        let enough = *cores as f64 * (HELD_SECONDS + *round_trip);
         let seconds_of = |job: &Job| self.seconds.get(&kind(job)).copied().unwrap_or(HELD_SECONDS);
         let mut seconds: f64 = held.iter().map(seconds_of).sum();
         for (waiting, open) in self.waiting.iter_mut().zip(&mut self.open) {
@@ -104,14 +144,15 @@ impl Roster {
                     *open -= 1;
                     continue;
                 }
-                let is_suspect = self.suspects.contains(&job);
+                let is_suspect = is_single && self.suspects.contains(&job);
                 let more = seconds_of(&job);
-                if !held.is_empty() && (is_suspect || seconds + more > HELD_SECONDS) {
+                let would_wait = held.len() >= *cores;
+                if would_wait && (is_suspect || seconds + more > enough) {
                     return given;
                 }
                 let own = held.iter().filter(|other| urgency(other) == urgency(&job)).count();
                 // The share is rounded down: what remains is for the workers that are done first.
-                if own >= (*open / workers).max(1) {
+                if own >= (*open * *cores / all_cores).max(*cores) {
                     break;
                 }
                 seconds += more;
@@ -126,9 +167,18 @@ impl Roster {
         given
     }
 
+    /// Gives a job that does not wait to a worker: one that is done a second time.
+    pub fn assign(&mut self, worker: WorkerId, job: Job) {
+        if let Some(desk) = self.held.get_mut(&worker)
+            && desk.jobs.insert(job)
+        {
+            self.open[urgency(&job)] += 1;
+        }
+    }
+
     /// Takes note that a worker has done a job, in so many seconds. False if the worker did not hold the job.
     pub fn done(&mut self, worker: WorkerId, job: Job, seconds: f64) -> bool {
-        if !self.held.get_mut(&worker).is_some_and(|held| held.remove(&job)) {
+        if !self.held.get_mut(&worker).is_some_and(|desk| desk.jobs.remove(&job)) {
             return false;
         }
         self.open[urgency(&job)] -= 1;
@@ -141,11 +191,21 @@ impl Roster {
     /// Takes note that a worker is gone, and why. The jobs that are lost with the worker: whoever still needs
     /// them submits them again.
     pub fn dismiss(&mut self, worker: WorkerId, loss: Loss) -> BTreeSet<Job> {
-        let lost = self.held.remove(&worker).unwrap_or_default();
+        let Desk { jobs: lost, cores, .. } = self.held.remove(&worker).unwrap_or_default();
+        self.cores -= cores;
         lost.iter().for_each(|job| self.open[urgency(job)] -= 1);
         if loss == Loss::Death {
             self.suspects.extend(&lost);
         }
+        lost
+    }
+
+    /// Takes note that one of a member's own workers died while it held these jobs; those that are lost.
+    pub fn lose(&mut self, member: WorkerId, jobs: &[Job]) -> Vec<Job> {
+        let Some(desk) = self.held.get_mut(&member) else { return Vec::new() };
+        let lost: Vec<Job> = jobs.iter().copied().filter(|job| desk.jobs.remove(job)).collect();
+        lost.iter().for_each(|job| self.open[urgency(job)] -= 1);
+        self.suspects.extend(&lost);
         lost
     }
 }
@@ -170,7 +230,7 @@ mod tests {
     fn roster(workers: u64, seconds: f64) -> Roster {
         let mut roster = Roster::default();
         for worker in (0..workers).map(WorkerId) {
-            roster.enlist(worker);
+            roster.enlist(worker, 1);
             for job in [join(1_000_000), generate(1_000_000)] {
                 roster.submit(job);
                 assert_eq!(roster.give(worker, |_| true), [job]);
@@ -184,7 +244,7 @@ mod tests {
     fn jobs_of_unknown_length_and_long_ones_are_given_one_by_one() {
         for mut roster in [roster(2, 60.0), Roster::default()] {
             let worker = WorkerId(0);
-            roster.enlist(worker);
+            roster.enlist(worker, 1);
             (0..4).for_each(|number| roster.submit(generate(number)));
             assert_eq!(roster.give(worker, |_| true), [generate(0)]);
             assert_eq!(roster.give(worker, |_| true), []);
@@ -257,7 +317,7 @@ mod tests {
             assert_eq!(roster.give(WorkerId(0), |_| true).len(), 4);
             let lost = roster.dismiss(WorkerId(0), loss);
             assert_eq!((lost.len(), roster.open), (4, [0; URGENCIES]));
-            roster.enlist(WorkerId(1));
+            roster.enlist(WorkerId(1), 1);
             lost.into_iter().for_each(|job| roster.submit(job));
             roster.give(WorkerId(1), |_| true).len()
         };
@@ -278,7 +338,7 @@ mod tests {
             let workers: Vec<WorkerId> = roster.held.keys().copied().collect();
             for worker in workers {
                 roster.give(worker, |_| true);
-                let held: Vec<Job> = roster.held[&worker].iter().copied().collect();
+                let held: Vec<Job> = roster.held[&worker].jobs.iter().copied().collect();
                 for job in held {
                     if job != deadly {
                         assert!(roster.done(worker, job, 1e-4) && done.insert(job));
@@ -288,7 +348,7 @@ mod tests {
                         *losses.entry(lost).or_insert(0) += 1;
                         roster.submit(lost);
                     }
-                    roster.enlist(newcomers.next().expect("endless"));
+                    roster.enlist(newcomers.next().expect("endless"), 1);
                     break;
                 }
             }

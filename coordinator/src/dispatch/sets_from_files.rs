@@ -24,6 +24,11 @@ impl<E: Executor> SetsFromFiles<E> {
     }
 
     /// The executor behind the files.
+    pub fn inner(&self) -> &E {
+        &self.inner
+    }
+
+    /// The executor behind the files.
     pub fn into_inner(self) -> E {
         self.inner
     }
@@ -76,6 +81,10 @@ impl<E: Executor> Executor for SetsFromFiles<E> {
 
     fn alive(&self) -> usize {
         self.inner.alive()
+    }
+
+    fn lookahead(&self) -> Option<u64> {
+        self.inner.lookahead()
     }
 
     fn tally(&self) -> &Tally {

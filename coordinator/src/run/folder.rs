@@ -23,6 +23,8 @@ const BEFORE_LEDGER: [&str; 3] = [super::lock::LOCK, super::ledger::BEGUN, super
 pub const PATH_CSV: &str = "path.csv";
 /// The summary that the build printed.
 pub const SUMMARY_JSON: &str = "summary.json";
+/// What each machine does, while agents of several work on the run.
+pub const MACHINES_JSON: &str = "machines.json";
 /// What names are made of that stand beside a run: of a run being put together, and of one set aside where two
 /// cannot change names.
 const NEW: &str = "new";
@@ -34,7 +36,8 @@ const OPEN_TO_REMOVE: usize = 1;
 pub fn is_of_run(folder: &Path, name: &str) -> bool {
     let rest = name.strip_prefix(LEDGER);
     let is_ledger = rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
-    let is_its = is_ledger || [super::lock::LOCK, PATH_CSV, SUMMARY_JSON].contains(&name);
+    let is_its =
+        is_ledger || [super::lock::LOCK, PATH_CSV, SUMMARY_JSON, MACHINES_JSON].contains(&name);
     is_its && folder.join(LEDGER).is_file()
 }
 

@@ -16,7 +16,9 @@ mod lock;
 mod sets;
 mod summary;
 
-pub use folder::{PATH_CSV, RunFolder, SUMMARY_JSON, is_of_run, outside_of_runs, tidy};
+pub use folder::{
+    MACHINES_JSON, PATH_CSV, RunFolder, SUMMARY_JSON, is_of_run, outside_of_runs, tidy,
+};
 pub use ledger::{Ledger, LedgerWriter, Ledgers, Replay, Scan, Stopped, Told};
 pub(crate) use lock::started;
 pub use lock::{Holder, RunLock};

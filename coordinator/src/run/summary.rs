@@ -1,4 +1,5 @@
 use super::Stopped;
+use crate::dispatch::{Audited, Machine, Machines};
 use crate::output::Plain;
 use roadmill::evaluate::{Bound, CutEdge, EvaluatorKind, Verdict};
 use roadmill::problem::Problem;
@@ -42,6 +43,12 @@ pub struct Summary {
     pub wall_seconds: f64,
     /// Of these, those that went into the ledger: encoding, hashing, writing and syncing.
     pub ledger_seconds: f64,
+    /// What each machine did, where agents of several did the work.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub machines: Vec<Machine>,
+    /// Outcomes that two machines made and that were compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub audited: Option<Audited>,
     /// Digest of the roadmap.
     pub digest: String,
 }
@@ -192,8 +199,16 @@ impl Summary {
             coordinator_cpu: times.coordinator_cpu,
             wall_seconds: times.wall_seconds,
             ledger_seconds: times.ledger_seconds,
+            machines: Vec::new(),
+            audited: None,
             digest: tally.digest().to_string(),
         }
+    }
+
+    /// Adds what the machines did.
+    pub fn set_machines(&mut self, machines: Machines) {
+        let Machines { machines, audited } = machines;
+        (self.machines, self.audited) = (machines, audited);
     }
 }
 
@@ -221,6 +236,12 @@ impl fmt::Display for Summary {
         }
         let ledger = self.ledger_seconds;
         writeln!(f, "wall        {:.2} s, {ledger:.2} s of it for the ledger", self.wall_seconds)?;
+        for machine in &self.machines {
+            writeln!(f, "machine     {machine}")?;
+        }
+        if let Some(audited) = self.audited {
+            writeln!(f, "audit       {audited}")?;
+        }
         write!(f, "digest {}", self.digest)
     }
 }

@@ -2,14 +2,14 @@ use super::change::{Change, Chapter, difference};
 use super::interrupt::Interrupt;
 use super::limits::limited;
 use super::watch::{Begun, Keeper, Status, Torn, Watch, Weighed, path_in};
-use super::workers::{Kind, start};
+use super::workers::{Kind, start, start_agents};
 use super::{Ended, Run, Workers};
 use crate::cpu::CpuClock;
+use crate::crew::CrewError;
 use crate::dispatch::SetsFromFiles;
 use crate::exit::Failure;
-use crate::output::{Plain, note};
 use crate::run::ledger::LEDGER;
-use crate::run::{LedgerWriter, RunFolder, RunLock, Scan, SetFiles, tidy};
+use crate::run::{LedgerWriter, MACHINES_JSON, RunFolder, RunLock, Scan, SetFiles, tidy};
 use crate::signals::Signals;
 use roadmill::img::{Executor, Setup, Threads};
 use roadmill::problem::Problem;
@@ -263,6 +263,9 @@ impl<'a> Growth<'a> {
             may_stop: false,
             weighed: Weighed { after_rounds: rounds, at: None },
             stored: Arc::default(),
+            board: None,
+            machines_file: folder.file(MACHINES_JSON),
+            machines_written: None,
         };
         let (stop, tally, seconds) = match &workers.kind {
             Kind::Threads => {
@@ -282,35 +285,29 @@ impl<'a> Growth<'a> {
                 let stop = keeper.drive(past.as_ref(), &mut threads)?;
                 (stop, threads.tally().clone(), None)
             }
-            Kind::Processes(program) => {
-                let mut dispatcher = match start(&setup, workers.count, program.as_ref()) {
-                    Ok(dispatcher) => dispatcher,
-                    Err(error) => {
-                        if past.is_none() {
-                            folder.discard();
-                        }
-                        return Err(Failure::system(error));
-                    }
-                };
-                if let Some(signals) = interrupt.signals {
-                    dispatcher = dispatcher.with_signals(signals);
+            Kind::Processes(program) => match start(&setup, workers.count, program.as_ref()) {
+                Ok(dispatcher) => {
+                    keeper.dispatch(dispatcher, &mut folder, past.as_ref(), imports)?
                 }
-                folder.begun()?;
-                keeper.stored = dispatcher.stored_bytes();
-                let mut dispatcher = SetsFromFiles::new(dispatcher, imports);
-                let stop = keeper.drive(past.as_ref(), &mut dispatcher);
-                // Closed before a failure is returned, too: the workers have to end before their channel does.
-                let (tally, dispatcher) = (dispatcher.tally().clone(), dispatcher.into_inner());
-                let seconds = (dispatcher.message_seconds(), dispatcher.fold_seconds());
-                if let Err(error) = dispatcher.close() {
-                    let name = Plain(setup.problem().name());
-                    note(format_args!("{name}: {error}; the next run tries again"));
+                Err(error) => return Err(not_started(error, folder, past.is_some())),
+            },
+            Kind::Agents(options) => match start_agents(&setup, options, folder.path()) {
+                Ok(dispatcher) => {
+                    keeper.dispatch(dispatcher, &mut folder, past.as_ref(), imports)?
                 }
-                (stop?, tally, Some(seconds))
-            }
+                Err(error) => return Err(not_started(error, folder, past.is_some())),
+            },
         };
         keeper.end(&folder, &stop, &tally, seconds)
     }
+}
+
+/// The failure of a build whose workers cannot be started: nothing is left of a new one.
+fn not_started(error: CrewError, folder: RunFolder, is_old: bool) -> Failure {
+    if !is_old {
+        folder.discard();
+    }
+    Failure::system(error)
 }
 
 /// A build to be grown, or one that has ended before.

@@ -2,7 +2,8 @@ use super::difference;
 use super::interrupt::Interrupt;
 use super::replanned::check_parent;
 use super::stops::Standing;
-use super::workers::{Kind, Workers, start};
+use super::workers::{Kind, Workers, start, start_agents};
+use crate::dispatch::{Dispatcher, Staff};
 use crate::exit::{Code, Failure};
 use crate::run::ledger::{Chapter, Judged, job_name};
 use crate::run::{Replay, Scan, Told};
@@ -146,14 +147,12 @@ impl Verification {
                     check.run(&mut threads)?
                 }
                 Kind::Processes(program) => {
-                    let mut dispatcher =
-                        start(&setup, workers.count, program.as_ref()).map_err(Failure::system)?;
-                    if let Some(signals) = &interrupt.signals {
-                        dispatcher = dispatcher.with_signals(signals.clone());
-                    }
-                    let counts = check.run(&mut dispatcher);
-                    dispatcher.close().map_err(Failure::system)?;
-                    counts?
+                    let dispatcher = start(&setup, workers.count, program.as_ref());
+                    check.dispatch(dispatcher.map_err(Failure::system)?)?
+                }
+                Kind::Agents(options) => {
+                    let dispatcher = start_agents(&setup, options, &std::env::temp_dir());
+                    check.dispatch(dispatcher.map_err(Failure::system)?)?
                 }
             };
         }
@@ -335,6 +334,17 @@ enum Part {
 }
 
 impl Check<'_> {
+    /// Runs the check by a dispatcher, and ends its staff.
+    fn dispatch<S: Staff>(self, dispatcher: Dispatcher<S>) -> Result<Counts, Failure> {
+        let mut dispatcher = match &self.interrupt.signals {
+            Some(signals) => dispatcher.with_signals(signals.clone()),
+            None => dispatcher,
+        };
+        let counts = self.run(&mut dispatcher);
+        dispatcher.close().map_err(Failure::system)?;
+        counts
+    }
+
     fn run(mut self, executor: &mut impl Executor) -> Result<Counts, Failure> {
         let mut replay = Replay::new(self.scan, self.setup.problem())?.to_end_of(self.chapters.end);
         // The problem of the chapter in which the build was judged last, and what was said.
@@ -476,6 +486,11 @@ impl Check<'_> {
                     }
                     executor.submit(job);
                 }
+            }
+            Some(Event::Contradiction(job, by)) => {
+                let name = job_name(job, self.setup.problem());
+                let message = format!("{name} gave two different outcomes: {by}");
+                return Err(Failure::new(Code::BrokenRun, message));
             }
             Some(Event::Cut(Cut::WorkersLost(why))) => {
                 return Err(Failure::new(Code::WorkersLost, why));

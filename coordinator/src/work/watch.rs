@@ -1,13 +1,14 @@
 use super::interrupt::Interrupt;
 use super::{Ended, Run};
 use crate::cpu::CpuClock;
-use crate::dispatch::SetsFromFiles;
+use crate::dispatch::{Board, Dispatcher, Machine, Machines, SetsFromFiles, Staff};
 use crate::exit::Failure;
 use crate::files::write_whole;
 use crate::memory::resident_bytes;
+use crate::output::{Plain, note};
 use crate::run::{
-    CoordinatorCpu, LedgerWriter, PATH_CSV, Replay, RunFolder, SUMMARY_JSON, Scan, Stopped,
-    Summary, Times, Told,
+    CoordinatorCpu, LedgerWriter, PATH_CSV, Replay, RunFolder, SUMMARY_JSON, Scan, SetFiles,
+    Stopped, Summary, Times, Told,
 };
 use roadmill::evaluate::Verdict;
 use roadmill::export::path_csv;
@@ -17,9 +18,9 @@ use roadmill::img::{
 use roadmill::problem::Problem;
 use roadmill::query::Path;
 use roadmill::roadmap::Tally;
-use std::path::Path as FilePath;
-use std::sync::Arc;
+use std::path::{Path as FilePath, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Sets per worker that may be generated ahead of the current round. Where sets are short these are some
@@ -27,6 +28,9 @@ use std::time::{Duration, Instant};
 const LOOKAHEAD_PER_WORKER: u64 = 8;
 /// Between two times that the memory of all processes is added up, which takes a while.
 const MEMORY_PAUSE: Duration = Duration::from_secs(1);
+
+/// Between two times that what the machines do is written to a file.
+const MACHINES_PAUSE: Duration = Duration::from_secs(2);
 
 /// Whoever is told how a build goes. All of it is called from the thread that grows the roadmap, which waits.
 pub trait Watch {
@@ -93,6 +97,8 @@ pub struct Status<'a> {
     pub workers_alive: usize,
     /// How many workers there are to be.
     pub workers_wanted: usize,
+    /// What each machine does, where agents of several do the work.
+    pub machines: &'a [Machine],
     /// Whether the limit of time is reached, and the build goes on only until a round is finished and judged.
     pub is_late: bool,
 }
@@ -102,6 +108,9 @@ pub(super) fn path_in(verdicts: &[Verdict]) -> Option<Path> {
     let answers = verdicts.iter().filter_map(Verdict::answer);
     answers.filter_map(|answer| answer.path.clone()).next()
 }
+
+/// Why a build stopped, what the roadmap came to, and CPU seconds for messages and for folds, where they are known.
+pub(super) type Driven = (Stop, Tally, Option<(f64, f64)>);
 
 /// Watches a build: writes its ledger, reports how far the build is, and ends it when time is up, memory is
 /// short or a signal comes.
@@ -125,6 +134,11 @@ pub(super) struct Keeper<'a> {
     pub weighed: Weighed,
     /// Bytes stored for the workers in shared memory, which count as no process's own.
     pub stored: Arc<AtomicU64>,
+    /// What each machine does, where there are several.
+    pub board: Option<Board>,
+    /// Where it is written for other programs, and when that was done last.
+    pub machines_file: PathBuf,
+    pub machines_written: Option<Instant>,
 }
 
 /// When the memory was added up last.
@@ -149,6 +163,34 @@ impl Keeper<'_> {
         let mut core = Core::resume(&self.setup, lookahead, past);
         let stop = drive(&mut core, executor, self)?;
         executor.take_failure().map_or(Ok(stop), Err)
+    }
+
+    /// Drives the build by a dispatcher, and ends its staff; why the build stopped, what the roadmap came to, and the
+    /// dispatcher's CPU seconds for messages and for folds.
+    pub fn dispatch<S: Staff>(
+        &mut self,
+        dispatcher: Dispatcher<S>,
+        folder: &mut RunFolder,
+        past: Option<&Scan>,
+        imports: SetFiles,
+    ) -> Result<Driven, Failure> {
+        let dispatcher = match self.interrupt.signals.clone() {
+            Some(signals) => dispatcher.with_signals(signals),
+            None => dispatcher,
+        };
+        folder.begun()?;
+        self.stored = dispatcher.stored_bytes();
+        self.board = dispatcher.board();
+        let mut dispatcher = SetsFromFiles::new(dispatcher, imports);
+        let stop = self.drive(past, &mut dispatcher);
+        // Closed before a failure is returned, too: the workers have to end before their channel does.
+        let (tally, dispatcher) = (dispatcher.tally().clone(), dispatcher.into_inner());
+        let seconds = (dispatcher.message_seconds(), dispatcher.fold_seconds());
+        if let Err(error) = dispatcher.close() {
+            let name = Plain(self.setup.problem().name());
+            note(format_args!("{name}: {error}; the next run tries again"));
+        }
+        Ok((stop?, tally, Some(seconds)))
     }
 
     /// Folds the rounds that the ledger has already.
@@ -198,7 +240,14 @@ impl Keeper<'_> {
             wall_seconds: self.begun.elapsed().as_secs_f64(),
             ledger_seconds: self.ledger.seconds(),
         };
-        let summary = Summary::new(problem, folder.path(), tally, &self.verdicts, &stopped, times);
+        let mut summary =
+            Summary::new(problem, folder.path(), tally, &self.verdicts, &stopped, times);
+        if let Some(board) = &self.board {
+            let machines = board.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            summary.set_machines(machines);
+            // What it says of the machines stands in the summary.
+            let _ = std::fs::remove_file(&self.machines_file);
+        }
         let text = serde_json::to_string_pretty(&summary).map_err(Failure::system)?;
         write_whole(&folder.file(SUMMARY_JSON), text + "\n")?;
         // Written last: a build that is killed before this has no end in its ledger and can go on to here again.
@@ -212,6 +261,20 @@ impl Keeper<'_> {
             path,
             summary: Some(summary),
         })
+    }
+
+    /// What each machine does, which is written for other programs now and then.
+    fn write_machines(&mut self) -> Machines {
+        let Some(board) = &self.board else { return Machines::default() };
+        let machines = board.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        if self.machines_written.is_none_or(|written| written.elapsed() >= MACHINES_PAUSE) {
+            self.machines_written = Some(Instant::now());
+            if let Ok(text) = serde_json::to_string_pretty(&machines) {
+                // A build does not end because nobody can be told how it goes.
+                let _ = write_whole(&self.machines_file, text + "\n");
+            }
+        }
+        machines
     }
 
     /// Whether memory is short. Added up once after a round, since only rounds make the roadmap larger.
@@ -248,6 +311,7 @@ impl Observer for Keeper<'_> {
         alive: usize,
     ) -> Result<Option<Cut>, Failure> {
         self.ledger.sync_if_due()?;
+        let machines = self.write_machines();
         let is_over = self.seconds.is_some_and(|limit| self.begun.elapsed().as_secs_f64() >= limit);
         self.watch.progress(&Status {
             problem: self.setup.problem(),
@@ -255,6 +319,7 @@ impl Observer for Keeper<'_> {
             tally,
             workers_alive: alive,
             workers_wanted: self.workers,
+            machines: &machines.machines,
             is_late: is_over && !self.may_stop,
         });
         Ok(if self.interrupt.came() {

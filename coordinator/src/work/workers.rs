@@ -1,25 +1,27 @@
 use crate::crew::{CrewError, Executable, LocalCrew};
-use crate::dispatch::Dispatcher;
+use crate::dispatch::{AgentOptions, Agents, Dispatcher, Foreman};
 use crate::exit::Failure;
 use roadmill::img::Setup;
-use std::path::PathBuf;
+use roadmill::roadmap::Outline;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The most worker processes or threads.
 pub const WORKERS_MAX: usize = 4096;
 
 /// Who does the jobs of a build. It changes how long the build takes and nothing else.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Workers {
     pub(super) count: usize,
     pub(super) kind: Kind,
 }
 
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Kind {
     Threads,
     /// Worker processes that run the program at this path; `None` stands for that of this process.
     Processes(Option<PathBuf>),
+    Agents(AgentOptions),
 }
 
 impl Workers {
@@ -36,6 +38,11 @@ impl Workers {
     /// Worker processes that run the program of this process, which has to be `roadmill`.
     pub(crate) fn own_processes(count: usize) -> Workers {
         Workers { count, kind: Kind::Processes(None) }
+    }
+
+    /// Agents on other machines, each with workers of its own: see [`crate::agent`].
+    pub fn agents(options: AgentOptions) -> Workers {
+        Workers { count: options.places.len(), kind: Kind::Agents(options) }
     }
 
     /// As many as there are processors that the system lets this process use.
@@ -63,7 +70,17 @@ pub(super) fn start(
     setup: &Arc<Setup>,
     count: usize,
     program: Option<&PathBuf>,
-) -> Result<Dispatcher<LocalCrew>, CrewError> {
+) -> Result<Dispatcher<Foreman<LocalCrew>>, CrewError> {
     let executable = program.map_or_else(Executable::own, |path| Executable::at(path))?;
     Dispatcher::start(setup.clone(), LocalCrew::open(executable, count)?)
+}
+
+/// Makes agents ready to be started; what they have to be told lies in a file in `folder`.
+pub(super) fn start_agents(
+    setup: &Arc<Setup>,
+    options: &AgentOptions,
+    folder: &Path,
+) -> Result<Dispatcher<Agents>, CrewError> {
+    let outline = Outline::new(setup.context().space());
+    Ok(Dispatcher::of(Agents::new(setup.clone(), options.clone(), folder)?, outline))
 }

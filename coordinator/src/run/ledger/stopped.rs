@@ -28,8 +28,12 @@ impl Stopped {
             Stop::Deadly(job) => {
                 ("deadly-job", format!("{} killed its workers", name(*job, problem)))
             }
-            Stop::Contradiction(job) => {
-                ("contradiction", format!("{} gave two different outcomes", name(*job, problem)))
+            Stop::Contradiction(job, by) => {
+                let by = if by.is_empty() { String::new() } else { format!(": {by}") };
+                (
+                    "contradiction",
+                    format!("{} gave two different outcomes{by}", name(*job, problem)),
+                )
             }
             Stop::Nonsense(job) => {
                 ("nonsense", format!("{} gave an outcome that it cannot have", name(*job, problem)))

@@ -1,0 +1,477 @@
+use super::audit::{Audit, Compared};
+use super::fan_out::FanOut;
+use super::roster::Roster;
+use super::staff::{Board, Machine, Machines, Made, Report, Staff};
+use crate::agent::{Fleet, FromAgent, Identity, News, Place, ToAgent};
+use crate::crew::CrewError;
+use crate::output::{Plain, note};
+use roadmill::img::{Front, Job, Loss, Round, Setup, canaries};
+use roadmill::internal::wire;
+use roadmill::roadmap::{Digest, Increment};
+use roadmill_workers::WorkerId;
+use roadmill_workers::message::Done;
+use std::collections::{BTreeMap, VecDeque};
+use std::os::fd::BorrowedFd;
+use std::path::Path;
+use std::sync::{Arc, PoisonError};
+use std::time::{Duration, Instant};
+
+/// The most processes of an agent.
+const CORES_MAX: u32 = 4096;
+/// An agent is sent more only while less than this waits to be written to it, so that the memory of this process does
+/// not grow with the number of agents that are behind.
+const QUEUED_MAX: u64 = 1 << 20;
+/// Sets per core that may be generated ahead of the current round where messages take no time.
+const LOOKAHEAD_PER_CORE: f64 = 8.0;
+/// The work that a core is given at once, in seconds: see [`Roster`].
+const HELD_SECONDS: f64 = 0.02;
+
+/// Between two times that it is written down what each machine does.
+const BOARD_PAUSE: Duration = Duration::from_millis(200);
+
+/// How agents are used.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AgentOptions {
+    /// Where they run.
+    pub places: Vec<Place>,
+    /// Worker processes of each; `None` for one per core that it may use.
+    pub workers: Option<usize>,
+    /// How long a build goes on with no agent at work.
+    pub wait: Duration,
+    /// The share of jobs that two agents do, to be compared.
+    pub audit: f64,
+}
+
+/// How far the conversation with an agent has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    Greeted,
+    SettingUp,
+    Ready,
+}
+
+struct Agent {
+    place: usize,
+    phase: Phase,
+    /// The entries before this one have been sent to it.
+    told: usize,
+    cores: usize,
+    /// Since when it is ready.
+    since: Instant,
+}
+
+/// What is known of a place, whichever agents it has had.
+#[derive(Debug, Clone, Default)]
+struct Account {
+    host: String,
+    cores: usize,
+    done: u64,
+    busy: f64,
+    /// Core-seconds of agents that were ready and are gone.
+    ready: f64,
+    worker_deaths: u64,
+}
+
+/// Agents of several machines as staff. Each is given jobs for all its cores; it says when they are done, when one of its
+/// workers has died, and when it leaves.
+///
+/// An agent that is lost counts against nobody: its jobs are given to others, and it is started again after a while. One that
+/// is another program, computes other numbers or says what cannot be is refused for good. When there is none for longer than
+/// [`AgentOptions::wait`], that is the end ([`Report::Failed`]).
+pub struct Agents {
+    setup: Arc<Setup>,
+    front: Front,
+    entries: FanOut,
+    fleet: Fleet,
+    options: AgentOptions,
+    members: BTreeMap<WorkerId, Agent>,
+    accounts: Vec<Account>,
+    roster: Roster,
+    audit: Audit,
+    /// The message that brings the problem.
+    problem: Arc<Vec<u8>>,
+    /// The digest of every agent's canaries, once there is an agent to be compared.
+    canaries: Option<Digest>,
+    reports: VecDeque<Report>,
+    /// Since when no agent is ready.
+    nobody_since: Option<Instant>,
+    failed: bool,
+    board: Board,
+    /// When the board was written last.
+    written: Option<Instant>,
+}
+
+impl Agents {
+    /// Staff of agents at these places. What they have to be told lies in a file in `folder`.
+    ///
+    /// # Errors
+    /// When the system refuses.
+    pub fn new(
+        setup: Arc<Setup>,
+        options: AgentOptions,
+        folder: &Path,
+    ) -> Result<Agents, CrewError> {
+        let problem = ToAgent::Problem(Box::new(setup.problem().clone()));
+        let places = options.places.clone();
+        let accounts = vec![Account::default(); places.len()];
+        // Relays may have kept frames of another process; two that begin in one microsecond have other ids.
+        let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+        let session =
+            now.map_or(0, |now| now.as_micros() as u64) << 20 ^ u64::from(std::process::id());
+        let spool = FanOut::in_folder(folder)
+            .map_err(CrewError::system(format!("{}: cannot make a file", folder.display())))?;
+        Ok(Agents {
+            front: Front::default(),
+            entries: spool,
+            fleet: Fleet::new(places, session)
+                .map_err(CrewError::system("cannot watch over agents"))?,
+            audit: Audit::new(options.audit),
+            options,
+            members: BTreeMap::new(),
+            accounts,
+            roster: Roster::default(),
+            problem: Arc::new(wire::encode(&problem)),
+            canaries: None,
+            setup,
+            reports: VecDeque::new(),
+            nobody_since: Some(Instant::now()),
+            failed: false,
+            board: Board::default(),
+            written: None,
+        })
+    }
+
+    fn fail(&mut self, why: String) {
+        if !std::mem::replace(&mut self.failed, true) {
+            self.reports.push_back(Report::Failed(why));
+        }
+    }
+
+    fn place_of(&self, member: WorkerId) -> &str {
+        let agent = self.members.get(&member);
+        let place = agent.and_then(|agent| self.fleet.places().nth(agent.place));
+        place.map_or("", Place::name)
+    }
+
+    fn say(&self, member: WorkerId, what: &str) {
+        note(format_args!("agent {}: {}", Plain(self.place_of(member)), Plain(what)));
+    }
+
+    /// Takes leave of an agent; its jobs are lost. `is_refused`: for good.
+    fn leave(&mut self, member: WorkerId, why: &str, is_refused: bool) {
+        self.say(member, why);
+        let Some(agent) = self.members.remove(&member) else { return };
+        if agent.phase == Phase::Ready {
+            let account = &mut self.accounts[agent.place];
+            account.ready += agent.since.elapsed().as_secs_f64() * agent.cores as f64;
+        }
+        let lost = self.roster.dismiss(member, Loss::Departure);
+        for job in lost {
+            // One that was only done again is done again by another, or by nobody.
+            if !self.audit.lose(job, member) {
+                self.reports.push_back(Report::Lost(job, Loss::Departure));
+            }
+        }
+        if is_refused {
+            self.fleet.refuse(member, why);
+        } else {
+            self.fleet.dismiss(member, why);
+        }
+    }
+
+    /// Refuses an agent that is another program, or says what cannot be.
+    fn refuse(&mut self, member: WorkerId, why: &str) {
+        let refused = ToAgent::Refused(format!("this agent {why}"));
+        self.fleet.send(member, Arc::new(wire::encode(&refused)));
+        self.leave(member, &format!("refused: it {why}"), true);
+    }
+
+    /// Sends entries and jobs to agents that can take them.
+    fn feed(&mut self) {
+        let ready = self.members.iter().filter(|(_, agent)| agent.phase == Phase::Ready);
+        let ready: Vec<WorkerId> = ready.map(|(member, _)| *member).collect();
+        for member in ready {
+            if let Some(round_trip) = self.fleet.round_trip(member) {
+                self.roster.set_round_trip(member, round_trip.as_secs_f64());
+            }
+            if self.fleet.queued(member) >= QUEUED_MAX {
+                continue;
+            }
+            let Some(agent) = self.members.get_mut(&member) else { continue };
+            let (entries, told) = match self.entries.part(agent.told, member) {
+                Ok(part) => part,
+                Err(error) => {
+                    return self.fail(format!("cannot read what agents are to know: {error}"));
+                }
+            };
+            agent.told = told;
+            let mut jobs = Vec::new();
+            if told == self.entries.end() {
+                jobs = self.roster.give(member, |job| self.front.has(&self.setup, job));
+                let most = (2 * agent.cores).saturating_sub(self.roster.held(member));
+                for job in self.audit.take_for(member, most) {
+                    self.roster.assign(member, job);
+                    jobs.push(job);
+                }
+            }
+            if entries.is_empty() && jobs.is_empty() {
+                continue;
+            }
+            let alone = jobs.iter().copied().filter(|job| self.roster.is_suspect(job)).collect();
+            let work = ToAgent::Work { entries, jobs, alone };
+            self.fleet.send(member, Arc::new(wire::encode(&work)));
+        }
+    }
+
+    /// Takes in all news of the fleet.
+    fn hear(&mut self) {
+        while let Some(news) = self.fleet.next() {
+            match news {
+                News::Joined { member, place } => {
+                    let workers = self.options.workers.map_or(0, |workers| workers as u32);
+                    let greeting = ToAgent::Greeting { who: Identity::own(), workers };
+                    self.fleet.send(member, Arc::new(wire::encode(&greeting)));
+                    let (phase, since) = (Phase::Greeted, Instant::now());
+                    self.members.insert(member, Agent { place, phase, told: 0, cores: 0, since });
+                }
+                News::Message { member, message } => self.take(member, message),
+                News::Lost { member, why } => {
+                    if !self.members.contains_key(&member) {
+                        // It never came to a conversation.
+                        let place = self.fleet.place_of(member).map(str::to_owned);
+                        note(format_args!(
+                            "agent {}: {}",
+                            Plain(&place.unwrap_or_default()),
+                            Plain(&why)
+                        ));
+                        self.fleet.dismiss(member, &why);
+                    } else {
+                        self.leave(member, &format!("lost: {why}"), false);
+                    }
+                }
+            }
+        }
+    }
+
+    fn take(&mut self, member: WorkerId, message: Vec<u8>) {
+        let Some(agent) = self.members.get_mut(&member) else { return };
+        let message = Arc::new(message);
+        let decoded = match wire::decode_borrowed(&message) {
+            Ok(decoded) => decoded,
+            Err(error) => return self.refuse(member, &format!("sent {error}")),
+        };
+        match (agent.phase, decoded) {
+            (_, FromAgent::Leaving(why)) => self.leave(member, &format!("leaves: {why}"), false),
+            (Phase::Greeted, FromAgent::Hello { who, cores, host }) => {
+                if let Some(why) = Identity::own().differs_from(&who) {
+                    return self.refuse(member, &format!("is another program: {why}"));
+                }
+                if !(1..=CORES_MAX).contains(&cores) {
+                    return self.refuse(
+                        member,
+                        &format!("has {cores} workers, 1 to {CORES_MAX} expected"),
+                    );
+                }
+                agent.cores = cores as usize;
+                agent.phase = Phase::SettingUp;
+                let account = &mut self.accounts[agent.place];
+                account.host = host.chars().take(64).collect();
+                account.cores = cores as usize;
+                self.fleet.send(member, self.problem.clone());
+            }
+            (Phase::SettingUp, FromAgent::Ready { canaries: theirs }) => {
+                let ours = *self.canaries.get_or_insert_with(|| canaries(&self.setup));
+                if theirs != ours {
+                    return self.refuse(
+                        member,
+                        "has another arithmetic: the digest of its canaries differs",
+                    );
+                }
+                agent.phase = Phase::Ready;
+                agent.since = Instant::now();
+                self.roster.enlist(member, agent.cores);
+            }
+            (Phase::Ready, FromAgent::Done(done)) => self.take_outcomes(member, &message, &done),
+            (Phase::Ready, FromAgent::Died { jobs, why }) => {
+                self.accounts[agent.place].worker_deaths += 1;
+                self.say(member, &format!("a worker died: {why}"));
+                for job in self.roster.lose(member, &jobs) {
+                    if !self.audit.lose(job, member) {
+                        self.reports.push_back(Report::Lost(job, Loss::Death));
+                    }
+                }
+            }
+            _ => self.refuse(member, "sent a message out of turn"),
+        }
+    }
+
+    /// Takes in what an agent has done.
+    fn take_outcomes(&mut self, member: WorkerId, message: &Arc<Vec<u8>>, done: &[Done<'_>]) {
+        for Done { job, micros, outcome } in done {
+            let seconds = *micros as f64 * 1e-6;
+            if !self.roster.done(member, *job, seconds) {
+                return self.refuse(member, "sent the outcome of a job that it did not have");
+            }
+            if let Some(agent) = self.members.get(&member) {
+                let account = &mut self.accounts[agent.place];
+                account.done += 1;
+                account.busy += seconds;
+            }
+            let begin = outcome.as_ptr().addr() - message.as_ptr().addr();
+            let made = Made::new(*job, member, *micros, message, begin..begin + outcome.len());
+            let others = self.members.values().filter(|agent| agent.phase == Phase::Ready).count();
+            match self.audit.take(made, others) {
+                Compared::Kept => {}
+                Compared::Same(made) => self.finish(made),
+                Compared::Differs(made, first) => {
+                    let [first, second] =
+                        [first, made.member].map(|member| self.place_of(member).to_owned());
+                    let by = format!("agents {first} and {second} made different outcomes of it");
+                    self.reports.push_back(Report::Contradiction(made.job, by));
+                }
+            }
+        }
+        self.release_audits();
+    }
+
+    /// Takes an outcome in for good.
+    fn finish(&mut self, made: Made) {
+        let is_for_workers = match made.job {
+            Job::Generate { .. } => self.front.is_ahead(made.job),
+            Job::Join { .. } => true,
+            Job::Evaluate { .. } => false,
+        };
+        if is_for_workers && let Err(error) = self.entries.keep(&made) {
+            return self.fail(format!("cannot write what agents are to know: {error}"));
+        }
+        self.reports.push_back(Report::Done(made));
+    }
+
+    /// Outcomes that were to be made a second time, and there is nobody to do it, count as they are.
+    fn release_audits(&mut self) {
+        let ready = self.members.values().filter(|agent| agent.phase == Phase::Ready).count();
+        for made in self.audit.release(ready) {
+            self.finish(made);
+        }
+    }
+
+    /// Notices when there is nobody, and when there has been nobody for too long.
+    fn look_for_anybody(&mut self) {
+        if self.roster.cores() > 0 {
+            self.nobody_since = None;
+            return;
+        }
+        if let Some(why) = self.fleet.all_refused() {
+            return self.fail(format!("no agent can be used; the last: {why}"));
+        }
+        let since = *self.nobody_since.get_or_insert_with(Instant::now);
+        if since.elapsed() >= self.options.wait {
+            let last = self.fleet.last_loss().map_or_else(String::new, |why| format!("; {why}"));
+            self.fail(format!("no agent was at work for {} s{last}", self.options.wait.as_secs()));
+        }
+    }
+}
+
+impl Staff for Agents {
+    fn publish(&mut self, increment: &Increment) {
+        if let Err(error) = self.entries.publish(self.front.next(), increment) {
+            self.fail(format!("cannot write what agents are to know: {error}"));
+        }
+        self.front.publish();
+    }
+
+    fn fold(&mut self, round: &Round) {
+        if let Err(error) = self.entries.fold(round) {
+            self.fail(format!("cannot write what agents are to know: {error}"));
+        }
+        self.front.fold();
+    }
+
+    fn submit(&mut self, job: Job) {
+        self.roster.submit(job);
+    }
+
+    fn next(&mut self, wait: Duration, also: Option<BorrowedFd<'_>>) -> Option<Report> {
+        if let Some(report) = self.reports.pop_front() {
+            return Some(report);
+        }
+        self.write_board();
+        self.fleet.tend();
+        self.look_for_anybody();
+        self.feed();
+        if self.reports.is_empty() {
+            self.fleet.wait(wait, also);
+            self.hear();
+            self.release_audits();
+        }
+        self.reports.pop_front()
+    }
+
+    fn reject(&mut self, made: &Made, why: &str) {
+        self.entries.forget(made.job);
+        self.refuse(made.member, why);
+        self.reports.push_back(Report::Lost(made.job, Loss::Departure));
+    }
+
+    fn ready(&self) -> usize {
+        self.roster.cores()
+    }
+
+    fn lookahead(&self) -> Option<u64> {
+        let ready = self.members.iter().filter(|(_, agent)| agent.phase == Phase::Ready);
+        let each = ready.map(|(member, agent)| {
+            let round_trip = self.fleet.round_trip(*member).unwrap_or_default().as_secs_f64();
+            agent.cores as f64 * LOOKAHEAD_PER_CORE * (1.0 + round_trip / HELD_SECONDS)
+        });
+        Some(each.sum::<f64>().ceil() as u64)
+    }
+
+    fn board(&self) -> Option<Board> {
+        Some(self.board.clone())
+    }
+
+    fn close(self) -> Result<(), CrewError> {
+        self.fleet.close();
+        Ok(())
+    }
+}
+
+impl Agents {
+    /// Writes down what each machine does, now and then.
+    fn write_board(&mut self) {
+        if self.written.is_some_and(|written| written.elapsed() < BOARD_PAUSE) {
+            return;
+        }
+        self.written = Some(Instant::now());
+        let machines = Machines { machines: self.machines(), audited: self.audit.counts() };
+        *self.board.lock().unwrap_or_else(PoisonError::into_inner) = machines;
+    }
+
+    fn machines(&self) -> Vec<Machine> {
+        let machine = |(number, (place, account)): (usize, (&Place, &Account))| {
+            let condition = self.fleet.condition(number);
+            let member = self.members.iter().find(|(_, agent)| agent.place == number);
+            let is_ready = |agent: &Agent| agent.phase == Phase::Ready;
+            let ready = member.filter(|(_, agent)| is_ready(agent));
+            let now = ready
+                .map_or(0.0, |(_, agent)| agent.since.elapsed().as_secs_f64() * agent.cores as f64);
+            Machine {
+                name: place.name().to_owned(),
+                host: account.host.clone(),
+                state: if ready.is_some() { "ready" } else { condition.state }.to_owned(),
+                reason: condition.reason,
+                cores: account.cores,
+                held: member.map_or(0, |(member, _)| self.roster.held(*member)),
+                done: account.done,
+                busy_seconds: account.busy,
+                waiting_seconds: (account.ready + now - account.busy).max(0.0),
+                bytes_received: condition.traffic.came,
+                bytes_sent: condition.traffic.sent,
+                restarts: condition.restarts,
+                worker_deaths: account.worker_deaths,
+                round_trip_seconds: condition.round_trip.map(|round_trip| round_trip.as_secs_f64()),
+            }
+        };
+        self.fleet.places().zip(&self.accounts).enumerate().map(machine).collect()
+    }
+}

@@ -1,0 +1,123 @@
+use super::staff::{Audited, Made};
+use roadmill::img::Job;
+use roadmill::internal::wire;
+use roadmill::roadmap::Digest;
+use roadmill_workers::WorkerId;
+use std::collections::BTreeMap;
+
+/// Jobs that two agents do, so that their outcomes can be compared. Which jobs these are follows from the jobs alone, not
+/// from chance: an agent cannot know, since the share is not told to it.
+///
+/// The first outcome is kept back until the second has come: a wrong one never gets into a roadmap.
+#[derive(Debug)]
+pub struct Audit {
+    share: f64,
+    /// First outcomes, and who is to make or makes the second.
+    open: BTreeMap<Job, Second>,
+    counts: Audited,
+}
+
+#[derive(Debug)]
+struct Second {
+    first: Made,
+    /// `None` while nobody has been given the job.
+    by: Option<WorkerId>,
+}
+
+/// What comes of an outcome.
+#[derive(Debug)]
+pub enum Compared {
+    /// It waits for a second one.
+    Kept,
+    /// It needs none, or the second one is the same.
+    Same(Made),
+    /// It is another than that of this agent.
+    Differs(Made, WorkerId),
+}
+
+impl Audit {
+    /// So large a share of all jobs is done twice.
+    pub fn new(share: f64) -> Audit {
+        Audit { share, open: BTreeMap::new(), counts: Audited::default() }
+    }
+
+    /// Whether a job is one of those that are done twice.
+    fn is_due(&self, job: Job) -> bool {
+        let digest = Digest::of(&wire::encode(&job));
+        let [a, b, c, d, e, f, g, h, ..] = digest.0;
+        let drawn = u64::from_le_bytes([a, b, c, d, e, f, g, h]);
+        // 2^-64 times a number below 2^64 is below 1, so that everything is due at a share of 1.
+        (drawn as f64) * 2f64.powi(-64) < self.share || self.share >= 1.0
+    }
+
+    /// Takes in an outcome; `ready` agents are there.
+    pub fn take(&mut self, made: Made, ready: usize) -> Compared {
+        if self.share <= 0.0 {
+            return Compared::Same(made);
+        }
+        if let Some(second) = self.open.remove(&made.job) {
+            if second.by != Some(made.member) {
+                // Nobody asked for it: it is the first one again.
+                let first = second.first.member;
+                let is_same = second.first.digest == made.digest;
+                self.open.insert(made.job, second);
+                return if is_same { Compared::Kept } else { Compared::Differs(made, first) };
+            }
+            self.counts.compared += 1;
+            if second.first.digest == made.digest {
+                return Compared::Same(second.first);
+            }
+            return Compared::Differs(made, second.first.member);
+        }
+        if !self.is_due(made.job) {
+            return Compared::Same(made);
+        }
+        if ready < 2 {
+            self.counts.left_out += 1;
+            return Compared::Same(made);
+        }
+        self.open.insert(made.job, Second { first: made, by: None });
+        Compared::Kept
+    }
+
+    /// Jobs that this agent is to do a second time, so many at most.
+    pub fn take_for(&mut self, member: WorkerId, most: usize) -> Vec<Job> {
+        let mut jobs = Vec::new();
+        for (job, second) in &mut self.open {
+            if jobs.len() == most {
+                break;
+            }
+            if second.by.is_none() && second.first.member != member {
+                second.by = Some(member);
+                jobs.push(*job);
+            }
+        }
+        jobs
+    }
+
+    /// Takes note that an agent is lost while it held a job. Whether it was to do the job a second time.
+    pub fn lose(&mut self, job: Job, member: WorkerId) -> bool {
+        let Some(second) = self.open.get_mut(&job) else { return false };
+        if second.by == Some(member) {
+            second.by = None;
+        }
+        true
+    }
+
+    /// First outcomes for which there is nobody left to make the second: so many agents are ready.
+    pub fn release(&mut self, ready: usize) -> Vec<Made> {
+        if ready >= 2 {
+            return Vec::new();
+        }
+        let waits = |second: &Second| second.by.is_none();
+        let jobs: Vec<Job> =
+            self.open.iter().filter(|(_, second)| waits(second)).map(|(job, _)| *job).collect();
+        self.counts.left_out += jobs.len() as u64;
+        jobs.iter().filter_map(|job| self.open.remove(job)).map(|second| second.first).collect()
+    }
+
+    /// What was compared so far, where anything is to be.
+    pub fn counts(&self) -> Option<Audited> {
+        (self.share > 0.0).then_some(self.counts)
+    }
+}
