@@ -25,12 +25,12 @@ pub(super) fn workers(crew: &CrewArguments) -> Result<Workers, Failure> {
     let AgentsArguments { agents, agent_command, agent_wait, audit } = &crew.agents;
     if let Some(names) = agents {
         let workers = crew.workers.map(|workers| checked("--workers", Some(workers)));
-        return Ok(Workers::agents(AgentOptions {
-            places: Place::list(names, agent_command)?,
+        let options = AgentOptions {
             workers: workers.transpose()?,
             wait: Duration::from_secs_f64(*agent_wait),
             audit: audit.unwrap_or(0.0),
-        }));
+        };
+        return Ok(Workers::agents(Place::list(names, agent_command)?, options));
     }
     let count = count(crew)?;
     Ok(match crew.threads {

@@ -291,12 +291,14 @@ impl<'a> Growth<'a> {
                 }
                 Err(error) => return Err(not_started(error, folder, past.is_some())),
             },
-            Kind::Agents(options) => match start_agents(&setup, options, folder.path()) {
-                Ok(dispatcher) => {
-                    keeper.dispatch(dispatcher, &mut folder, past.as_ref(), imports)?
+            Kind::Agents(places, options) => {
+                match start_agents(&setup, places, options, folder.path()) {
+                    Ok(dispatcher) => {
+                        keeper.dispatch(dispatcher, &mut folder, past.as_ref(), imports)?
+                    }
+                    Err(error) => return Err(not_started(error, folder, past.is_some())),
                 }
-                Err(error) => return Err(not_started(error, folder, past.is_some())),
-            },
+            }
         };
         keeper.end(&folder, &stop, &tally, seconds)
     }

@@ -150,8 +150,8 @@ impl Verification {
                     let dispatcher = start(&setup, workers.count, program.as_ref());
                     check.dispatch(dispatcher.map_err(Failure::system)?)?
                 }
-                Kind::Agents(options) => {
-                    let dispatcher = start_agents(&setup, options, &std::env::temp_dir());
+                Kind::Agents(places, options) => {
+                    let dispatcher = start_agents(&setup, places, options, &std::env::temp_dir());
                     check.dispatch(dispatcher.map_err(Failure::system)?)?
                 }
             };

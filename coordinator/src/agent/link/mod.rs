@@ -32,3 +32,6 @@ pub use bell::Bell;
 pub use frame::{Frame, FrameError, HEADER_BYTES, Kind, PIECE_BYTES};
 pub use pump::{Ending, Patience, Pump, Traffic};
 pub use state::{Link, LinkError, OPENING, PREAMBLE_BYTES_MAX, WINDOW_BYTES};
+
+#[cfg(test)]
+mod tests;
