@@ -9,7 +9,9 @@ use rustix::process::Signal;
 use serde_json::Value;
 use std::fs;
 use std::time::Duration;
-use support::{ENDLESS, Random, Running, SMALL, Scratch, children, processes_naming, send, wait_until};
+use support::{
+    ENDLESS, Random, Running, SMALL, Scratch, children, processes_naming, send, wait_until,
+};
 
 const ROADMILL: &str = env!("CARGO_BIN_EXE_roadmill");
 const SETS: u64 = 120;

@@ -1,6 +1,8 @@
 use super::link::Traffic;
 use super::place::Place;
+use crate::output::note;
 use roadmill_workers::WorkerId;
+use std::fmt;
 use std::os::fd::BorrowedFd;
 use std::sync::Arc;
 use std::time::Duration;
@@ -87,6 +89,11 @@ pub trait Fleet {
 
     /// The next news, without waiting. After a loss the member is to be [dismissed](Fleet::dismiss).
     fn next(&mut self) -> Option<News>;
+
+    /// Tells people what has happened to an agent.
+    fn tell(&self, text: fmt::Arguments<'_>) {
+        note(text);
+    }
 
     /// Tells all agents to end, and sees to it that they do.
     fn close(self);

@@ -4,7 +4,7 @@ use super::roster::Roster;
 use super::staff::{Board, Machine, Machines, Made, Report, Staff};
 use crate::agent::{Fleet, FromAgent, Identity, News, Place, ToAgent};
 use crate::crew::CrewError;
-use crate::output::{Plain, note};
+use crate::output::Plain;
 use roadmill::img::{Front, Job, Loss, Round, Setup, canaries};
 use roadmill::internal::wire;
 use roadmill::roadmap::{Digest, Increment};
@@ -147,7 +147,7 @@ impl<F: Fleet> Agents<F> {
     }
 
     fn say(&self, member: WorkerId, what: &str) {
-        note(format_args!("agent {}: {}", Plain(self.place_of(member)), Plain(what)));
+        self.fleet.tell(format_args!("agent {}: {}", Plain(self.place_of(member)), Plain(what)));
     }
 
     /// Takes leave of an agent; its jobs are lost. `is_refused`: for good.
@@ -232,7 +232,7 @@ impl<F: Fleet> Agents<F> {
                     if !self.members.contains_key(&member) {
                         // It never came to a conversation.
                         let place = self.fleet.place_of(member).map(str::to_owned);
-                        note(format_args!(
+                        self.fleet.tell(format_args!(
                             "agent {}: {}",
                             Plain(&place.unwrap_or_default()),
                             Plain(&why)
