@@ -72,9 +72,10 @@ proptest! {
         takes in any::<bool>(),
     ) {
         let (mut near, mut far) = (Link::near(7), Link::far());
+        // The coordinator speaks first: only then does an agent know which conversation it is.
+        near.beat(5);
         for (number, length) in there.iter().enumerate() {
             near.send(message(*length, number as u8));
-            near.beat(5);
         }
         for (number, length) in back.iter().enumerate() {
             far.send(message(*length, 100 + number as u8));
@@ -87,7 +88,7 @@ proptest! {
         prop_assert!(heard_far == sent(&there, 0));
         prop_assert!(heard_near == sent(&back, 100));
         prop_assert_eq!((near.queued(), far.queued()), (0, 0));
-        prop_assert_eq!(near.round_trip().is_some(), !there.is_empty());
+        prop_assert!(near.round_trip().is_some());
     }
 
     /// Whatever comes instead of a link: an error or nothing, and never more memory than came.
