@@ -184,9 +184,8 @@ impl<F: Fleet> Agents<F> {
         let ready = self.members.iter().filter(|(_, agent)| agent.phase == Phase::Ready);
         let ready: Vec<WorkerId> = ready.map(|(member, _)| *member).collect();
         for member in ready {
-            if let Some(round_trip) = self.fleet.round_trip(member) {
-                self.roster.set_round_trip(member, round_trip.as_secs_f64());
-            }
+            let round_trip = self.fleet.round_trip(member).unwrap_or_default();
+            self.roster.set_round_trip(member, round_trip.as_secs_f64());
             if self.fleet.queued(member) >= QUEUED_MAX {
                 continue;
             }
@@ -271,10 +270,12 @@ impl<F: Fleet> Agents<F> {
                 account.host = host.chars().take(64).collect();
                 account.cores = cores as usize;
                 self.fleet.send(member, self.problem.clone());
+                // Made while the agent makes its own.
+                let setup = &self.setup;
+                self.canaries.get_or_insert_with(|| canaries(setup));
             }
             (Phase::SettingUp, FromAgent::Ready { canaries: theirs }) => {
-                let ours = *self.canaries.get_or_insert_with(|| canaries(&self.setup));
-                if theirs != ours {
+                if self.canaries != Some(theirs) {
                     return self.refuse(
                         member,
                         "has another arithmetic: the digest of its canaries differs",
