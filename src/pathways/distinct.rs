@@ -157,7 +157,7 @@ fn in_space(
     let mut candidates = ViaNodes::of(ways, Rank::Cost);
     let mut failures = 0;
     while routes.len() < asked.tries && failures <= asked.tries && !cancel.is_cancelled() {
-        let Some(route) = candidates.next(ways, &tried) else { break };
+        let Some(route) = candidates.next(ways, &tried, cancel) else { break };
         if ways.passes(&route, scratch) {
             tried.add(&route);
             routes.push(route);
