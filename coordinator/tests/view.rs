@@ -188,7 +188,7 @@ fn walk(scratch: &Scratch, page: &str, what: &str, size: &str, grows: bool) {
     scratch.write("watched.html", &watched);
     // A browser that never answers is a failure, not a test that never ends.
     let output = Command::new("timeout")
-        .args(["300", "chromium"])
+        .args(["900", "chromium"])
         .args(["--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader"])
         .args(["--enable-unsafe-swiftshader", "--dump-dom"])
         .arg(format!("--window-size={size}"))

@@ -44,8 +44,8 @@ addEventListener("load", () => {
     const pixels = drawn.getImageData(0, 0, flat.width, flat.height).data;
     let count = 0;
     for (let i = 0; i < pixels.length; i += 4) {
-      const [low, high] = [Math.min(...pixels.subarray(i, i + 3)), Math.max(...pixels.subarray(i, i + 3))];
-      if (high - low > 40) count++;
+      const [r, g, b] = [pixels[i], pixels[i + 1], pixels[i + 2]];
+      if (Math.max(r, g, b) - Math.min(r, g, b) > 40) count++;
     }
     return count;
   };
