@@ -3,7 +3,7 @@ use super::batch;
 use super::place::{check_page, check_place};
 use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
-use crate::files::{write_out, write_whole};
+use crate::files::{expect_folder, write_out, write_whole};
 use crate::output::{self, note};
 use crate::work::{Recorded, Run};
 use roadmill::export::animation;
@@ -14,6 +14,8 @@ use roadmill::query::PATH_REFINEMENT;
 pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let out = arguments.out.as_ref().filter(|_| arguments.queries.is_none());
     out.map_or(Ok(()), |file| check_place("--out", file))?;
+    let folder = arguments.out.as_ref().filter(|_| arguments.queries.is_some());
+    folder.map_or(Ok(()), |folder| expect_folder("--out", folder))?;
     arguments.animate.as_ref().map_or(Ok(()), |file| check_page("--animate", file))?;
     let run = Run::at(&arguments.run).read()?;
     match run.stopped() {

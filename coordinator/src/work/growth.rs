@@ -9,11 +9,13 @@ use crate::crew::CrewError;
 use crate::dispatch::SetsFromFiles;
 use crate::exit::Failure;
 use crate::run::ledger::LEDGER;
-use crate::run::{LedgerWriter, MACHINES_JSON, RunFolder, RunLock, Scan, SetFiles, tidy};
+use crate::run::{
+    LedgerWriter, MACHINES_JSON, RunFolder, RunLock, Scan, SetFiles, run_cpu_seconds_in, tidy,
+};
 use crate::signals::Signals;
 use roadmill::img::{Executor, Setup, Threads};
 use roadmill::problem::Problem;
-use roadmill::roadmap::Tally;
+use roadmill::roadmap::{Digest, Tally};
 use roadmill::{BITS_VERSION, Cancel};
 use roadmill_workers::channel::remove_leftovers;
 use std::path::{Path, PathBuf};
@@ -262,6 +264,10 @@ impl<'a> Growth<'a> {
             rounds,
             may_stop: false,
             weighed: Weighed { after_rounds: rounds, at: None },
+            cpu_seconds_before: match &past {
+                None => Some(0.0),
+                Some(past) => cpu_seconds_of(past, setup.problem()),
+            },
             stored: Arc::default(),
             board: None,
             machines_file: folder.file(MACHINES_JSON),
@@ -310,6 +316,20 @@ fn not_started(error: CrewError, folder: RunFolder, is_old: bool) -> Failure {
         folder.discard();
     }
     Failure::system(error)
+}
+
+/// The CPU seconds that have gone into a run. A call that was killed has left no word of its end, and nobody knows its seconds.
+fn cpu_seconds_of(scan: &Scan, problem: &Problem) -> Option<f64> {
+    let has_ended = scan.stopped.is_some();
+    has_ended.then(|| run_cpu_seconds_in(scan.folder(), digest_of(scan, problem)))?
+}
+
+/// The digest of the roadmap of the complete rounds.
+fn digest_of(scan: &Scan, problem: &Problem) -> Digest {
+    match &scan.last_round {
+        Some(end) => end.roadmap,
+        None => Tally::new(&problem.space()).digest(),
+    }
 }
 
 /// A build to be grown, or one that has ended before.
@@ -388,10 +408,7 @@ fn go_on(
     if let Some(stopped) = scan.stopped.as_ref().filter(|stopped| stopped.is_final() && !is_chapter)
     {
         let stopped = stopped.clone();
-        let digest = match &scan.last_round {
-            Some(end) => end.roadmap,
-            None => Tally::new(&problem.space()).digest(),
-        };
+        let digest = digest_of(&scan, &problem);
         return Ok(Err(Box::new(Ended {
             run: Run::at(run),
             problem,
