@@ -26,6 +26,7 @@ mod cost;
 mod description;
 mod elasticity;
 mod figure;
+mod function;
 mod molecule;
 mod pose_goal;
 mod reason;
@@ -42,6 +43,7 @@ pub use cost::{Cost, Directed};
 pub use description::{Description, Documents, ForeignProblem};
 pub use elasticity::{Draw, Elastic};
 pub use figure::{Figure, Placement};
+pub use function::{FunctionFailed, JudgeConfigurations, ValidityFunction, with_functions};
 pub use molecule::{Energies, Molecule};
 pub use pose_goal::{PoseFound, PoseGoal};
 pub use reason::{BodyName, Reason};
@@ -49,6 +51,7 @@ pub use scene_change::SceneChange;
 pub use scratch::{Asked, ModelScratch, Scratch};
 
 pub(crate) use description::{Resolve, import};
+pub(crate) use function::BodiesWithFunction;
 pub(crate) use reason::{SOLE_LINK, link_named, out_of_range};
 
 use crate::scene::Body;

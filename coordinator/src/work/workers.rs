@@ -2,6 +2,7 @@ use crate::crew::{CrewError, Executable, LocalCrew};
 use crate::dispatch::Dispatcher;
 use crate::exit::Failure;
 use roadmill::img::Setup;
+use roadmill::problem::Problem;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -41,6 +42,17 @@ impl Workers {
     /// As many as there are processors that the system lets this process use.
     pub fn available() -> usize {
         std::thread::available_parallelism().map_or(1, usize::from)
+    }
+
+    /// Whether the problem can be worked on like this: a validity function is called in this process only.
+    pub(super) fn check_for(&self, problem: &Problem) -> Result<(), Failure> {
+        match (problem.validity_function(), &self.kind) {
+            (Some(function), Kind::Processes(_)) => Err(Failure::usage(format!(
+                "worker processes found; threads expected, since no other process has the validity function `{}`",
+                function.identity()
+            ))),
+            _ => Ok(()),
+        }
     }
 
     pub(super) fn check(&self) -> Result<(), Failure> {
