@@ -269,6 +269,8 @@ class Roadmap:
         crew = Crew(workers, threads)
         if share is not None and not 0 < share <= 1:
             raise ValueError(f"share: {share} found; more than 0, at most 1 expected")
+        if (share is not None) + everything + bool(sets) > 1:
+            raise ValueError("share, everything or sets expected, not several of them")
         if self.validity is not None:
             return self._verified_here(share, everything, sets, crew.threads_for_function())
         arguments = options(sample=None if share is None else f"{100 * share!r}%")

@@ -66,7 +66,7 @@ pub enum BuildError {
     /// A job that panicked as often as it was tried.
     #[error("{0} panicked {losses} times", losses = img::LOSSES_MAX)]
     Panicked(Job),
-    /// The problem's validity function failed, or gave two answers.
+    /// The problem's validity function failed, gave two answers, or is not here.
     #[error(transparent)]
     Function(FunctionFailed),
     /// A job that came to something it cannot come to, or to two different things: the machine or the program is
@@ -128,6 +128,9 @@ impl<'a> Build<'a> {
             judgement: self.judgement.take(),
             setup: self.setup.clone(),
         };
+        if let Err(message) = self.setup.problem.clone().supplied_with(None) {
+            return Err(BuildError::Function(FunctionFailed { message, cause: None }));
+        }
         let past = std::mem::take(&mut self.past);
         let (setup, judged) = (&self.setup, watch.judgement.clone());
         let judged = judged.filter(|judged| judged.round.next() == RoundNumber(past.len() as u64));

@@ -245,7 +245,7 @@ impl Problem {
     }
 }
 
-/// The layout, then the bytes as a list.
+/// The layout, then the bytes as a list. This is how a problem is sent to other processes, which cannot have a validity function.
 impl Encode for Problem {
     fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
         self.to_bytes().encode(encoder)
@@ -255,6 +255,12 @@ impl Encode for Problem {
 impl<Context> Decode<Context> for Problem {
     fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Problem, DecodeError> {
         let (layout, bytes): (Layout, Vec<u8>) = Decode::decode(decoder)?;
+        if layout == Layout::Third {
+            // Whoever works on a problem that was sent here would find nothing valid.
+            return Err(DecodeError::Other(
+                "a problem with a validity function, which cannot be sent",
+            ));
+        }
         let problem = Problem::from_bytes(layout, &bytes);
         problem.map_err(|error| DecodeError::OtherString(error.to_string()))
     }

@@ -193,7 +193,7 @@ impl<'a> Growth<'a> {
         self.if_again(|chapter| chapter.accept_bits = true)
     }
 
-    /// Of a build that goes on: the validity function of its problem, which the ledger only names.
+    /// The validity function of a problem that came out of a ledger, which only names it.
     pub fn validity_function(self, function: &ValidityFunction) -> Growth<'a> {
         Growth { function: Some(function.clone()), ..self }
     }
@@ -233,7 +233,9 @@ impl<'a> Growth<'a> {
         // A limit of time belongs to this call: the one that is given, or the problem file's, or else the run's own.
         let mut seconds = seconds;
         let prepared = match origin {
-            Origin::Anew(anew) => {
+            Origin::Anew(mut anew) => {
+                let supplied = anew.problem.supplied_with(function.as_ref());
+                anew.problem = supplied.map_err(Failure::usage)?;
                 let of_file = anew.problem.limits().seconds;
                 workers.check_for(&anew.problem)?;
                 let prepared = anew.prepare(seconds, &workers, &interrupt, &mut *watch)?;

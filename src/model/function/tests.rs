@@ -3,6 +3,7 @@ use crate::Build;
 use crate::build::BuildError;
 use crate::problem::{Layout, Problem};
 use crate::roadmap::Digest;
+use crate::wire;
 use proptest::prelude::*;
 use std::path::Path;
 use std::sync::Mutex;
@@ -97,6 +98,24 @@ fn the_identity_is_in_the_digest_and_the_bytes_and_the_function_is_not() {
     // A continuation has the same function.
     assert!(problem.scene_difference(&room()).unwrap().contains("no validity function found"));
     assert_eq!(problem.scene_difference(&supplied), None);
+}
+
+#[test]
+fn without_the_function_nothing_is_built_or_sent() {
+    let (layout, bytes) = judged("disc 1", outside_of_disc).to_bytes();
+    let read = Problem::from_bytes(layout, &bytes).unwrap();
+    let Err(BuildError::Function(failed)) = Build::new(read.clone()).run() else {
+        panic!("it was built")
+    };
+    assert!(failed.message.contains("this function expected"), "{failed}");
+    let sent = wire::decode::<Problem>(&wire::encode(&read)).unwrap_err().to_string();
+    assert!(sent.contains("cannot be sent"), "{sent}");
+    assert_eq!(wire::decode::<Problem>(&wire::encode(&room())).unwrap(), room());
+    // Bytes of a problem that could not have been given a function.
+    let swept = ROOM.replace("edges = \"sampled\"", "");
+    let swept = Problem::parse(Path::new("room.toml"), &swept).unwrap();
+    let (layout, bytes) = Problem { function: read.function.clone(), ..swept }.to_bytes();
+    assert!(Problem::from_bytes(layout, &bytes).unwrap_err().to_string().contains("swept"));
 }
 
 #[test]
