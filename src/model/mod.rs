@@ -51,7 +51,6 @@ pub use scene_change::SceneChange;
 pub use scratch::{Asked, ModelScratch, Scratch};
 
 pub(crate) use description::{Resolve, import};
-pub(crate) use function::BodiesWithFunction;
 pub(crate) use reason::{SOLE_LINK, link_named, out_of_range};
 
 use crate::scene::Body;

@@ -3,8 +3,7 @@
 use super::resolve::suits;
 use super::{Problem, ProblemError};
 use crate::context::Ends;
-use crate::model::bodies::validity::MotionChecking;
-use crate::model::{BodiesWithFunction, Model, ModelKind, ValidityFunction, with_functions};
+use crate::model::{Model, ValidityFunction, with_functions};
 
 impl Problem {
     /// The problem, of whose valid configurations a function allows some: a milestone, and every step of a motion, is valid if the
@@ -81,24 +80,21 @@ impl Problem {
 
     /// Whether a validity function can be added.
     pub(super) fn expect_function_suits(&self) -> Result<(), String> {
-        let found = match self.model.bodies().map(|bodies| bodies.edges()) {
-            Some(MotionChecking::Sampled) => return Ok(()),
-            Some(MotionChecking::Swept) => "space.edges: \"swept\" found",
-            None => "another model than that of bodies found",
-        };
-        Err(format!(
-            "{found}; bodies with edges = \"sampled\" expected, since a validity function judges single configurations, and nothing \
-             is proved of what lies between them"
-        ))
+        let takes = self.model.description().takes_function();
+        takes.map_err(|found| {
+            format!(
+                "{found}; bodies with edges = \"sampled\" expected, since a validity function judges single configurations, and \
+                 nothing is proved of what lies between them"
+            )
+        })
     }
 
     /// The model made ready for work.
     pub(super) fn prepared_model(&self) -> Box<dyn Model> {
-        match (&self.function, &self.model) {
-            (Some(function), ModelKind::Bodies(bodies)) => {
-                Box::new(BodiesWithFunction::new(bodies.validity(), function.clone()))
-            }
-            _ => self.model.description().prepare(),
+        let description = self.model.description();
+        match &self.function {
+            Some(function) => description.prepare_with(function),
+            None => description.prepare(),
         }
     }
 }
