@@ -46,9 +46,9 @@ impl Workers {
 
     /// Whether the problem can be worked on like this: a validity function is called in this process only.
     pub(super) fn check_for(&self, problem: &Problem) -> Result<(), Failure> {
-        match (problem.validity_function(), &self.kind) {
-            (Some(function), Kind::Processes(_)) => Err(Failure::usage(format!(
-                "worker processes found; threads expected, since no other process has the validity function `{}`",
+        match problem.validity_function() {
+            Some(function) if self.kind != Kind::Threads => Err(Failure::usage(format!(
+                "workers in other processes found; threads expected, since no other process has the validity function `{}`",
                 function.identity()
             ))),
             _ => Ok(()),
