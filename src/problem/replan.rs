@@ -137,6 +137,13 @@ impl Problem {
 
     /// What is left of an old run's roadmap, as a method.
     fn survivors_of(&self, old: &OldRun, asked: &Replanning) -> Result<Survivors, String> {
+        if let Some(function) = self.function.as_ref().or(old.problem.function.as_ref()) {
+            return Err(format!(
+                "the validity function `{}` found; a problem without one expected, since it cannot be said what of a roadmap is \
+                 left under another function",
+                function.identity()
+            ));
+        }
         let change = old.problem.model.description().change(&self.model)?;
         if old.roadmap.configs().is_empty() {
             return Err("the old roadmap has no nodes; at least 1 expected".to_owned());

@@ -63,12 +63,14 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
 /// The start and the goal that the command line gives, or else the problem's.
 ///
 /// # Errors
-/// Exit code 2: one is given that cannot be used, or none where the problem has no query.
+/// Exit code 2: one is given that cannot be used, or none where the problem has no query; or the problem has a validity
+/// function, which the program cannot have.
 pub(super) fn ends(
     run: &Recorded,
     start: &Option<String>,
     goal: &Option<String>,
 ) -> Result<(Vec<f64>, Vec<f64>), Failure> {
+    run.expect_validity_function()?;
     let given = run.problem().query();
     let end = |name: &str, text: &Option<String>, given: Option<&Vec<f64>>| match (text, given) {
         (Some(text), _) => configuration(run.context(), text)

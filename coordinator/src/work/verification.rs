@@ -13,7 +13,7 @@ use roadmill::img::{
     Cut, Event, Executor, Finished, Job, LOSSES_MAX, Loss, Outcome, RoundSet, Setup, TICK, Threads,
 };
 use roadmill::internal::wire;
-use roadmill::model::Scratch;
+use roadmill::model::{Scratch, ValidityFunction, with_functions};
 use roadmill::numbers::{Ordinal, RoundNumber, SetNumber};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Roadmap};
@@ -54,6 +54,7 @@ pub struct Verification {
     parent: Option<PathBuf>,
     workers: Workers,
     interrupt: Interrupt,
+    function: Option<ValidityFunction>,
 }
 
 /// What a verification found to be as it is recorded.
@@ -75,7 +76,8 @@ pub struct Verified {
 impl Verification {
     pub(super) fn new(folder: &Path, selection: Selection) -> Verification {
         let (workers, interrupt) = (Workers::default(), Interrupt::default());
-        Verification { folder: folder.to_owned(), selection, parent: None, workers, interrupt }
+        let (folder, function) = (folder.to_owned(), None);
+        Verification { folder, selection, parent: None, workers, interrupt, function }
     }
 
     /// Who recomputes; a thread for every processor if nothing is said.
@@ -87,6 +89,11 @@ impl Verification {
     /// own folder. A run that replans none has no use for it, and is refused.
     pub fn parent(self, folder: impl Into<PathBuf>) -> Verification {
         Verification { parent: Some(folder.into()), ..self }
+    }
+
+    /// The validity function of the run's problem, which the ledger only names.
+    pub fn validity_function(self, function: &ValidityFunction) -> Verification {
+        Verification { function: Some(function.clone()), ..self }
     }
 
     /// Ends when `cancel` says so, with a failure.
@@ -105,13 +112,20 @@ impl Verification {
     ///
     /// # Errors
     /// Exit code 7: something is not as it is recorded, which the message names; 2: there is no run, a run that it replans
-    /// is not found, it replans none and is given one, or a set that is not in it was asked for; 4: the run is damaged; 1: the system refuses; 5: the workers are lost; 6: it was
+    /// is not found, it replans none and is given one, a set that is not in it was asked for, or the problem's validity function
+    /// is missing or fails; 4: the run is damaged; 1: the system refuses; 5: the workers are lost; 6: it was
     /// ended before.
     pub fn check(self) -> Result<Verified, Failure> {
-        let Verification { folder, selection, parent, workers, interrupt } = self;
+        let Verification { folder, selection, parent, workers, mut interrupt, function } = self;
         workers.check()?;
         let scan = Scan::read(&folder)?;
-        let problem = scan.problem()?;
+        let supplied = |problem: Problem| {
+            let refuse = |why| Failure::usage(format!("{}: {why}", folder.display()));
+            problem.supplied_with(function.as_ref()).map_err(refuse)
+        };
+        let problem = supplied(scan.problem()?)?;
+        workers.check_for(&problem)?;
+        interrupt.function = problem.validity_function().cloned();
         match (problem.survivors(), &parent) {
             (Some(_), parent) => check_parent(&folder, &scan.problem_of(0)?, parent.as_deref())?,
             (None, Some(parent)) => {
@@ -126,10 +140,11 @@ impl Verification {
         let choice = Choice::new(&selection, &scan, &problem)?;
         let mut counts = Counts::default();
         for stretch in stretches(&scan, problem)? {
-            let setup = Arc::new(Setup::new(stretch.problem));
+            let setup = Arc::new(Setup::new(supplied(stretch.problem)?));
             let check = Check {
                 scan: &scan,
                 setup: &setup,
+                supplied: &supplied,
                 chapters: stretch.chapters,
                 choice: &choice,
                 interrupt: &interrupt,
@@ -144,7 +159,7 @@ impl Verification {
                     let mut threads = threads.map_err(|error| {
                         Failure::system(format!("cannot start the threads: {error}"))
                     })?;
-                    check.run(&mut threads)?
+                    with_functions(|| check.run(&mut threads)).map_err(Failure::usage)??
                 }
                 Kind::Processes(program) => {
                     let dispatcher = start(&setup, workers.count, program.as_ref());
@@ -289,6 +304,8 @@ struct Check<'a> {
     scan: &'a Scan,
     /// The problem of the stretch.
     setup: &'a Setup,
+    /// A problem with its validity function, which the ledger only names.
+    supplied: &'a dyn Fn(Problem) -> Result<Problem, Failure>,
     /// The chapters of the stretch.
     chapters: Range<usize>,
     choice: &'a Choice,
@@ -426,7 +443,10 @@ impl Check<'_> {
         }
         let (_, setup) = match known {
             Some(known) => known,
-            None => known.insert((chapter, Setup::new(self.scan.problem_of(chapter)?))),
+            None => {
+                let problem = (self.supplied)(self.scan.problem_of(chapter)?)?;
+                known.insert((chapter, Setup::new(problem)))
+            }
         };
         Ok(setup)
     }

@@ -3,6 +3,7 @@ use crate::crew::{CrewError, Executable, LocalCrew};
 use crate::dispatch::{AgentOptions, Agents, Dispatcher, Foreman};
 use crate::exit::Failure;
 use roadmill::img::Setup;
+use roadmill::problem::Problem;
 use roadmill::roadmap::Outline;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -50,6 +51,17 @@ impl Workers {
     /// As many as there are processors that the system lets this process use.
     pub fn available() -> usize {
         std::thread::available_parallelism().map_or(1, usize::from)
+    }
+
+    /// Whether the problem can be worked on like this: a validity function is called in this process only.
+    pub(super) fn check_for(&self, problem: &Problem) -> Result<(), Failure> {
+        match problem.validity_function() {
+            Some(function) if self.kind != Kind::Threads => Err(Failure::usage(format!(
+                "workers in other processes found; threads expected, since no other process has the validity function `{}`",
+                function.identity()
+            ))),
+            _ => Ok(()),
+        }
     }
 
     pub(super) fn check(&self) -> Result<(), Failure> {
