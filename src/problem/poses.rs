@@ -6,7 +6,7 @@ use crate::internal::plain::plain;
 use crate::model::{PoseFound, PoseGoal, Scratch};
 use crate::seed::Seed;
 use crate::source::Step::{self, Key};
-use crate::source::{ProblemError, Source};
+use crate::source::{ProblemError, Source, link_of_hand};
 use serde::Deserialize;
 
 /// A pose of a link as a problem asks for it: `start` or `goal` of a `[query]` with the key `pose`. What is left out has the
@@ -14,7 +14,7 @@ use serde::Deserialize;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PoseSpec {
-    link: String,
+    link: Option<String>,
     position: [f64; 3],
     orientation: Option<[f64; 4]>,
     position_tolerance: Option<f64>,
@@ -24,8 +24,14 @@ pub struct PoseSpec {
 impl PoseSpec {
     /// The origin of a link at a position in the world's frame, lengths, however it is turned.
     pub fn new(link: impl Into<String>, position: [f64; 3]) -> PoseSpec {
+        PoseSpec { link: Some(link.into()), ..PoseSpec::of_end_effector(position) }
+    }
+
+    /// The origin of the link on which the SRDF mounts the end effector of the robot, or of the group that moves: as of
+    /// [`PoseSpec::new`]. There must be one such end effector.
+    pub fn of_end_effector(position: [f64; 3]) -> PoseSpec {
         PoseSpec {
-            link: link.into(),
+            link: None,
             position,
             orientation: None,
             position_tolerance: None,
@@ -48,9 +54,9 @@ impl PoseSpec {
         PoseSpec { orientation_tolerance: Some(angle), ..self }
     }
 
-    fn goal(&self) -> PoseGoal {
+    fn goal(&self, link: &str) -> PoseGoal {
         PoseGoal {
-            link: self.link.clone(),
+            link: link.to_owned(),
             position: self.position,
             rotation: self.orientation,
             position_tolerance: self.position_tolerance,
@@ -105,6 +111,14 @@ fn configurations_of(
             Err(message) => fail(&[], message),
         };
     };
+    let hands = source.hands.borrow();
+    let link = match &pose.link {
+        Some(link) => link,
+        None => match link_of_hand(&hands) {
+            Ok(link) => link,
+            Err(message) => return fail(&[Key("pose")], message),
+        },
+    };
     let seed = Seed::of_evaluator(problem.seed, &format!("query.{key}.pose"));
     let (mut refused, scratch) = (None, &mut Scratch::new());
     let mut accept = |q: &mut [f64]| {
@@ -115,12 +129,11 @@ fn configurations_of(
         is_valid
     };
     let description = problem.model.description();
-    let found = match description.configurations_at(&pose.goal(), &seed, &mut accept) {
+    let found = match description.configurations_at(&pose.goal(link), &seed, &mut accept) {
         Ok(found) => found,
         Err((own, message)) => return fail(&[Key("pose"), Key(own)], message),
     };
     let PoseFound { configurations, starts, reached, tolerances, nearest } = found;
-    let link = &pose.link;
     let [length, angle] = tolerances;
     let and_angle = |angle: f64| match pose.orientation {
         Some(_) => format!(" and {angle:.3e} rad"),

@@ -53,7 +53,7 @@ fn from_urdf(path: &Path, options: &SceneOptions) -> Result<ForeignProblem, Prob
         // The message names the file.
         _ => ProblemError::pathless(message),
     })?;
-    let ReadRobot { mut links, motion, may_touch, states, group, mut notes, sources } = read;
+    let ReadRobot { mut links, motion, may_touch, states, group, mut notes, sources, .. } = read;
     let locks = Locks { lock: &BTreeMap::new(), rest: &[], group: group.as_ref() };
     lock_joints(&mut links, &locks, &states, &mut notes)
         .map_err(|(_, message)| ProblemError::file(path, message))?;

@@ -31,6 +31,7 @@ pub(super) fn robot_of(
             notes.extend(read.notes);
             read.sources.into_iter().for_each(|file| source.read(file));
             source.states.replace(read.states);
+            source.hands.replace(read.hands);
             group = read.group;
             let ReadRobot { links, motion: said, may_touch, .. } = read;
             robot = Robot { motion: motion.unwrap_or(said), links, may_touch, ..robot };

@@ -6,6 +6,7 @@ mod convex;
 mod directions;
 mod element;
 mod frame;
+mod freedom;
 mod inside;
 mod light;
 mod meet;

@@ -5,6 +5,7 @@
 
 use super::bodies::{BodyValidity, Bounds};
 use super::frame::Stance;
+use super::freedom::Freedom;
 use super::meet::Meeting;
 use super::tree::Tree;
 use crate::model::{BodyName, Reason, SOLE_LINK, out_of_range};
@@ -96,8 +97,9 @@ impl BodyValidity {
     /// The shortest translation of the moving body that was found after which `meets` says no: its length and direction.
     ///
     /// Tried are the 26 directions to the sides, edges and corners of a cube, along the world's axes, and the one from the
-    /// middle of the other body's box; of planar robots those of these that lie in the plane. A direction is looked at closer only if the best way so far is longer than what it
-    /// takes along it; then the border is found by halving.
+    /// middle of the other body's box; where the body moves in a plane or along a line only, what these directions have in it
+    /// ([`Freedom`]). A direction is looked at closer only if the best way so far is longer than what it takes along it; then
+    /// the border is found by halving.
     fn way_out(
         &self,
         meeting: &Meeting,
@@ -118,16 +120,8 @@ impl BodyValidity {
         // Moved so far along any direction, the boxes are apart.
         let far = 1.01 * (own.extents().length() + other.extents().length()) + self.slack;
         let mut best = (far, Vector::X);
-        let mut apart = own.center() - other.center();
-        // What moves in the plane has no way out of it.
-        let is_planar = self.robot.motion.translations() == 2;
-        if is_planar {
-            apart.z = 0.0;
-        }
-        for direction in directions(apart) {
-            if is_planar && direction.z != 0.0 {
-                continue;
-            }
+        let freedom = Freedom::of(&self.robot, stance, meeting);
+        for direction in freedom.within(&directions(own.center() - other.center())) {
             let (length, _) = best;
             if !is_free(direction, length) {
                 continue;
