@@ -1,4 +1,5 @@
-//! Ends of a query given by the pose of a link, attached bodies, and links that touch in all configurations or in none.
+//! Ends of a query given by the pose of a link, attached bodies, padding, and links that touch in all configurations or in
+//! none.
 
 use roadmill::math;
 use roadmill::model::bodies::{
@@ -266,6 +267,64 @@ fn attached_bodies_move_with_their_link_and_are_tested() {
     ] {
         let error = parse(&format!("{SLIDE}{}", attach.replacen(from, to, 1))).unwrap_err();
         assert!(error.contains(expected), "{to}: {error}");
+    }
+}
+
+#[test]
+fn padding_is_read_written_and_part_of_the_digest() {
+    let wall = "[[obstacles]]\nshape = { box = { size = [0.2, 2, 2] } }\nposition = [4, 0, 0]\n";
+    let with = |padding: &str| {
+        parse(&format!("{}{wall}", SLIDE.replace("[robot]\n", &format!("[robot]\n{padding}\n"))))
+    };
+    let lengths = |problem: &Problem| {
+        let robot = problem.model().bodies().unwrap().robot().clone();
+        (0..robot.links.len()).map(|link| robot.padding_of(link)).collect::<Vec<f64>>()
+    };
+    let bare = with("").unwrap();
+    for (padding, expected) in [
+        ("padding = 0.25", [0.25; 3]),
+        ("padding = { arm = 0.5 }", [0.0, 0.0, 0.5]),
+        ("padding = { \"*\" = 0.125, arm = 0 }", [0.125, 0.125, 0.0]),
+    ] {
+        let problem = with(padding).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(lengths(&problem), expected, "{padding}");
+        assert_ne!(problem.digest(), bare.digest());
+        let again = parse(&problem.to_toml("meshes").text).unwrap();
+        assert_eq!((again.digest(), lengths(&again)), (problem.digest(), expected.to_vec()));
+        assert_eq!(problem.to_builder().build().unwrap().digest(), problem.digest());
+        let (layout, bytes) = problem.to_bytes();
+        assert_eq!(Problem::from_bytes(layout, &bytes).unwrap(), problem);
+        let told = problem.describe();
+        assert!(told.contains("(padding)") && !bare.describe().contains("(padding)"), "{told}");
+    }
+    // No padding at all is none.
+    for padding in ["padding = 0", "padding = {}", "padding = { arm = -0.0 }"] {
+        assert_eq!(with(padding).unwrap().digest(), bare.digest(), "{padding}");
+    }
+    // The arm reaches 0.7 from the cart's middle, and the wall begins at 3.9: valid up to 3.2, with padding up to 2.95.
+    let padded = with("padding = { arm = 0.25 }").unwrap();
+    let valid = |problem: &Problem, cart: f64| problem.context().accept(&mut [cart, 0.0]).is_ok();
+    assert!(valid(&bare, 2.96) && !valid(&padded, 2.96) && valid(&padded, 2.94));
+    let error = padded.context().accept(&mut [2.96, 0.0]).unwrap_err();
+    assert!(
+        error.contains("link `arm` with its padding of 0.250 collides with obstacles[0]"),
+        "{error}"
+    );
+    let robot = arm().padding(0.25).padding_of("link5", 0.5);
+    let problem = Problem::builder("arm", BodiesSpec::new(SpaceSpec::fixed(), robot));
+    let problem = problem.build().unwrap();
+    assert_eq!(lengths(&problem), [0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.5]);
+    for (padding, expected) in [
+        ("padding = -1", "slide.toml:4: robot.padding: -1 found; a length from 0 to"),
+        ("padding = { arm = nan }", "slide.toml:4: robot.padding.arm: NaN found; a length"),
+        (
+            "padding = { leg = 1 }",
+            "slide.toml:4: robot.padding.leg: `leg` found; the name of a link, or \"*\" for all others",
+        ),
+        ("padding = \"wide\"", "slide.toml:4: expected a length, or a table of links"),
+    ] {
+        let error = with(padding).unwrap_err();
+        assert!(error.contains(expected), "{padding}: {error}");
     }
 }
 

@@ -34,6 +34,8 @@ pub use work::Work;
 #[cfg(test)]
 mod invariance_tests;
 #[cfg(test)]
+mod padding_tests;
+#[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod tree_tests;

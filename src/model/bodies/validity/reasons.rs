@@ -48,7 +48,11 @@ impl BodyValidity {
                     (f64::NAN, [0.0; 3])
                 };
                 let (body, other) = self.names(&meeting, pair);
-                reasons.push(Reason::Collision { body, other, depth, direction });
+                let padding = match meeting.still_link {
+                    None => self.robot.padding_of(meeting.mover_link),
+                    Some(_) => 0.0,
+                };
+                reasons.push(Reason::Collision { body, other, depth, direction, padding });
             }
         }
         reasons
@@ -238,7 +242,7 @@ position = [8.0, 8.0, 8.0]
 
     /// A collision's body, obstacle and depth; the direction is a unit vector.
     fn collision(reason: &Reason) -> (usize, usize, f64, [f64; 3]) {
-        let Reason::Collision { body, other, depth, direction } = reason else {
+        let Reason::Collision { body, other, depth, direction, .. } = reason else {
             panic!("{reason:?} is no collision")
         };
         let (BodyName::Link { body, of: 2, .. }, BodyName::Obstacle { obstacle }) = (body, other)
