@@ -17,6 +17,7 @@ mod output;
 mod progress;
 pub mod run;
 pub mod signals;
+mod waiting;
 pub mod work;
 
 pub use progress::Report as ProgressReport;

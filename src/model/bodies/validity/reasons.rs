@@ -7,7 +7,6 @@ use super::bodies::{BodyValidity, Bounds};
 use super::frame::Stance;
 use super::freedom::Freedom;
 use super::meet::Meeting;
-use super::tree::Tree;
 use crate::model::{BodyName, Reason, SOLE_LINK, out_of_range};
 use parry3d_f64::bounding_volume::BoundingVolume;
 use parry3d_f64::math::Vector;
@@ -33,7 +32,7 @@ impl BodyValidity {
         }
         let mut stack = Vec::new();
         for meeting in self.meetings() {
-            let [own, other] = [meeting.mover, meeting.still].map(|group| body_nodes(&group.tree));
+            let [own, other] = [meeting.mover, meeting.still].map(|group| group.tree.body_nodes());
             for pair in self.near_pairs(&meeting, &stance) {
                 let nodes = (own[pair.0], other[pair.1]);
                 let meets = |stance: &Stance, stack: &mut Vec<(u32, u32)>| {
@@ -184,29 +183,6 @@ fn directions(apart: Vector) -> Vec<Vector> {
     let axes = grid.iter().filter(is_axis).copied();
     let aslant = grid.iter().filter(|way| !is_axis(way)).map(|way| way.normalize());
     axes.chain(apart.try_normalize()).chain(aslant).collect()
-}
-
-/// For each body of a tree the node that holds all of its elements and no others.
-fn body_nodes(tree: &Tree) -> Vec<u32> {
-    let count = tree.elements.iter().map(|element| element.piece as usize + 1).max().unwrap_or(0);
-    let mut nodes = vec![0; count];
-    sole_body(tree, 0, &mut nodes);
-    nodes
-}
-
-/// The body of all elements below a node, if there is only one; notes the node as that of this body, over the nodes below it.
-fn sole_body(tree: &Tree, at: u32, nodes: &mut [u32]) -> Option<u32> {
-    let node = &tree.nodes[at as usize];
-    let piece = if node.is_leaf() {
-        Some(tree.elements[node.element as usize].piece)
-    } else {
-        let children = [node.left, node.left + 1].map(|child| sole_body(tree, child, nodes));
-        children[0].filter(|piece| children[1] == Some(*piece))
-    };
-    if let Some(piece) = piece {
-        nodes[piece as usize] = at;
-    }
-    piece
 }
 
 #[cfg(test)]
