@@ -12,6 +12,7 @@ mod describe;
 mod ends;
 mod file;
 mod folding;
+mod goals;
 mod import;
 mod layout;
 mod limits;
