@@ -317,7 +317,7 @@ fn ends_are_named_by_joints_and_states() {
             "arms.toml:7: `left_elbow` = \"home\" found; a number expected",
         ),
         ("{ left_elbow = [1] }", "arms.toml:7: invalid type: sequence, expected a number"),
-        ("[0, \"a\"]", "arms.toml:7: invalid type: string \"a\", expected f64"),
+        ("[0, \"a\"]", "arms.toml:7: numbers beside configurations found; either"),
         (
             "true",
             "arms.toml:7: invalid type: boolean `true`, expected an array of numbers, the name of a state",
