@@ -20,6 +20,10 @@ _ANSWER_BYTES = 1 << 20
 _WAIT = 10.0
 # An agent that nobody has called for so long is given up, in seconds: the client is gone.
 _SILENCE_MAX = 60.0
+# The same of an agent that has ended, whose last words are still to be fetched; longer than a call may wait.
+_SILENCE_MAX_ENDED = 15.0
+# Between two looks at that, in seconds.
+_LOOK = 5.0
 # So long an agent may take to end when its standard input ends, and then again when it is told to, in seconds.
 _LEAVE = 3.0
 
@@ -98,9 +102,12 @@ class Relay:
 
     async def wait(self) -> None:
         """Waits until `leave` is called, or for so long nothing was."""
-        while not self._over.is_set() and time.monotonic() - self._called < _SILENCE_MAX:
+        while not self._over.is_set():
+            longest = _SILENCE_MAX if self._process.returncode is None else _SILENCE_MAX_ENDED
+            if time.monotonic() - self._called >= longest:
+                return
             try:
-                await asyncio.wait_for(self._over.wait(), timeout=_SILENCE_MAX / 10)
+                await asyncio.wait_for(self._over.wait(), timeout=_LOOK)
             except asyncio.TimeoutError:
                 pass
 
