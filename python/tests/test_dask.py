@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import dataclasses
 import json
 import os
 import pathlib
 import signal
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -94,7 +97,7 @@ def enough() -> None:
 
 
 def ready(now: roadmill.Progress) -> int:
-    return sum(machine.state == "ready" and machine.done > 0 for machine in now.machines)
+    return sum(machine.state == "ready" for machine in now.machines)
 
 
 def check_against_threads(problem: roadmill.Problem, run: pathlib.Path, folder: pathlib.Path) -> None:
@@ -132,13 +135,15 @@ def test_a_dask_worker_killed_and_agents_that_come_late(
         (lambda now: ready(now) == 5, kill_one),
         (lambda now: ready(now) == 5 and sum(machine.restarts for machine in now.machines) > 0, enough),
     )
+    # More sets at a time than agents.
+    wide = dataclasses.replace(endless, sets_per_round=8)
     try:
         with pytest.raises(Enough):
-            roadmill.dask.build(endless, client, out=tmp_path / "run", agents=5, progress=script)
+            roadmill.dask.build(wide, client, out=tmp_path / "run", agents=5, progress=script)
     finally:
         cluster.scale(4)
     assert script.last is not None and {machine.cores for machine in script.last.machines} == {1}
-    check_against_threads(endless, tmp_path / "run", tmp_path)
+    check_against_threads(wide, tmp_path / "run", tmp_path)
 
 
 def test_ctrl_c_keeps_the_last_complete_round(client: Any, endless: roadmill.Problem, tmp_path: pathlib.Path) -> None:
@@ -174,6 +179,17 @@ def test_a_build_goes_on_after_its_coordinator_was_killed(
     limit = len(killed) + 200
     roadmap = roadmill.dask.resume(tmp_path / "run", client, max_nodes=limit)
     assert roadmap.digest == roadmill.build(endless, out=tmp_path / "threads", threads=2, max_nodes=limit).digest
+
+
+def test_the_coordinator_ends_when_the_client_is_gone(tmp_path: pathlib.Path) -> None:
+    from roadmill.dask import _carrier
+
+    # A coordinator that starts a carrier, and would then go on for ever.
+    carrier = [sys.executable, "-I", "-S", _carrier.__file__, str(tmp_path / "agents"), "dask-0"]
+    script = f"import subprocess, signal; subprocess.run({carrier!r}); signal.pause()"
+    ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=PATIENCE)
+    assert ended.returncode == -signal.SIGTERM
+    assert "the process with the Dask client is gone" in ended.stderr
 
 
 def test_sets_are_generated_and_imported(client: Any, problems: pathlib.Path, tmp_path: pathlib.Path) -> None:

@@ -6,11 +6,15 @@ so that it starts in a few milliseconds.
 It hands its standard input and output, which are pipes to the coordinator, to the process that listens at SOCKET, and with them NAME, the
 name of the agent's place. What that process then sends is written to standard error. This process ends when the connection does,
 and the connection when this process does: so each side sees that the other is gone.
+
+Where nobody listens at SOCKET, the process that had the Dask client has been killed. No agent can be started any more, so this process tells
+the coordinator, which has started it, to end: by SIGTERM, at which it saves the last complete round.
 """
 
 from __future__ import annotations
 
 import os
+import signal
 import socket
 import sys
 
@@ -23,7 +27,8 @@ def main() -> int:
             connection.connect(path)
             socket.send_fds(connection, [name.encode()], [0, 1])
         except OSError as error:
-            print(f"the process that has the Dask client is gone: {error}", file=sys.stderr)
+            print(f"the process with the Dask client is gone: {error}", file=sys.stderr)
+            os.kill(os.getppid(), signal.SIGTERM)
             return 1
         # The coordinator sees the end of a pipe when nobody has the pipe open any more.
         os.close(0)
