@@ -241,7 +241,7 @@ def test_an_agent_that_cannot_be_started_is_told(
 def test_without_tls_only_if_it_is_asked_for(problems: pathlib.Path, tmp_path: pathlib.Path) -> None:
     with (
         distributed.LocalCluster(
-            n_workers=1, threads_per_worker=2, processes=False, protocol="tcp://", dashboard_address=None
+            n_workers=1, threads_per_worker=2, processes=False, protocol="tcp://", dashboard_address=":0"
         ) as cluster,
         distributed.Client(cluster) as client,
     ):

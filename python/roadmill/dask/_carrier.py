@@ -8,7 +8,7 @@ name of the agent's place. What that process then sends is written to standard e
 and the connection when this process does: so each side sees that the other is gone.
 
 Where nobody listens at SOCKET, the process that had the Dask client has been killed. No agent can be started any more, so this process tells
-the coordinator, which has started it, to end: by SIGTERM, at which it saves the last complete round.
+the coordinator, which has started it, to end. What is complete is in the run folder by then.
 """
 
 from __future__ import annotations
