@@ -43,7 +43,7 @@ from .problem import (
 )
 from .roadmap import Roadmap
 from .shapes import Body, Box, Capsule, Cylinder, Frame, Mesh, Point, Sphere
-from .status import Evaluation, Progress, Status
+from .status import Evaluation, Machine, Progress, Status
 from .validity import ValidityFunction
 
 try:
@@ -64,6 +64,7 @@ __all__ = [
     "Interrupted",
     "Landscape",
     "Link",
+    "Machine",
     "Mesh",
     "NoSuccess",
     "NotTheSame",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, fields
 from typing import Any, TypeVar
 
-__all__ = ["Evaluation", "Progress", "Status"]
+__all__ = ["Evaluation", "Machine", "Progress", "Status"]
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,40 @@ class Evaluation:
 
 
 @dataclass(frozen=True)
+class Machine:
+    """What one of several machines does for a build. Each has an agent, with worker processes of its own."""
+
+    name: str
+    """Its name in this build."""
+    host: str
+    """What it calls itself; empty before its agent has said so."""
+    state: str
+    """`ready`, `starting`, `waiting` (its agent is to be started again) or `refused`."""
+    reason: str
+    """Why it is not ready, where there is a reason."""
+    cores: int
+    """How many jobs it does at once."""
+    held: int
+    """Jobs that it holds."""
+    done: int
+    """Jobs that it has done."""
+    busy_seconds: float
+    """Seconds that its jobs took, added up over its cores."""
+    waiting_seconds: float
+    """Core-seconds that it was ready and did nothing."""
+    bytes_received: int
+    """Bytes that it sent."""
+    bytes_sent: int
+    """Bytes that it was sent."""
+    restarts: int
+    """How often its agent was started after it had been lost."""
+    worker_deaths: int
+    """Deaths of its worker processes."""
+    round_trip_seconds: float | None
+    """How long a sign of life takes there and back; None before the first."""
+
+
+@dataclass(frozen=True)
 class Progress:
     """How far a build is while it runs."""
 
@@ -44,6 +78,8 @@ class Progress:
     evaluators: list[Evaluation]
     workers_alive: int
     workers_wanted: int
+    machines: list[Machine] = field(default_factory=list)
+    """Of a build on several machines."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +125,8 @@ def _evaluation(values: dict[str, Any]) -> Evaluation:
 
 def progress_of(event: dict[str, Any]) -> Progress:
     """What an event `progress` says."""
-    return _made(Progress, {**event, "evaluators": [_evaluation(it) for it in event["evaluators"]]})
+    machines = [_made(Machine, it) for it in event.get("machines", [])]
+    return _made(Progress, {**event, "evaluators": [_evaluation(it) for it in event["evaluators"]], "machines": machines})
 
 
 def status_of(event: dict[str, Any]) -> Status:
