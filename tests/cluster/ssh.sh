@@ -11,7 +11,9 @@ fi
 shift
 mount -t tmpfs -o size=512m tmpfs /dev/shm
 ip link set lo up
-root=$(realpath "$(dirname "$0")/../..")
+here=$(dirname "$(realpath "$0")")
+root=$(realpath "$here/../..")
+. "$here/sshd.sh"
 program=$(realpath "${1:?the program}")
 stopped=${2:-60}
 begun=$SECONDS
@@ -21,39 +23,7 @@ fail() { echo "ssh: $*" >&2; tail -n 30 ./*.txt >&2; exit 1; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
-mkdir tmp
-ssh-keygen -q -t ed25519 -N '' -f host
-ssh-keygen -q -t ed25519 -N '' -f user
-cp user.pub authorized_keys
-printf 'Unauthorised use of this machine is not allowed.\n' > banner
-# ForceCommand prints to the stream that is the agent's afterwards, as start files of shells may do.
-cat > sshd_config <<CONF
-ListenAddress 127.0.0.1
-Port 2222
-HostKey $scratch/host
-PidFile $scratch/sshd.pid
-AuthorizedKeysFile $scratch/authorized_keys
-Banner $scratch/banner
-ForceCommand echo "Welcome. Updates are available."; export TMPDIR=$scratch/tmp; eval "exec \$SSH_ORIGINAL_COMMAND"
-StrictModes no
-UsePAM no
-PasswordAuthentication no
-KbdInteractiveAuthentication no
-PermitRootLogin prohibit-password
-CONF
-# The folder into which the server locks those who are not yet logged in.
-mkdir -p /run/sshd
-/usr/sbin/sshd -f "$scratch/sshd_config" -E "$scratch/sshd.txt"
-printf '[127.0.0.1]:2222 %s\n' "$(cat host.pub)" > known_hosts
-cat > ssh_config <<CONF
-Host *
-    HostName 127.0.0.1
-    Port 2222
-    IdentityFile $scratch/user
-    IdentitiesOnly yes
-    UserKnownHostsFile $scratch/known_hosts
-    StrictHostKeyChecking yes
-CONF
+sshd_up 127.0.0.1
 # The default of --agent-command, with the settings of this test and the path of the program.
 command="ssh -F $scratch/ssh_config -T -o BatchMode=yes {} $program agent"
 
