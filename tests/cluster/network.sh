@@ -4,7 +4,7 @@
 # what there is.
 #   network.sh ROADMILL           ROADMILL: the program
 #   network.sh ROADMILL RUN       measures how long an agent takes to be told all of RUN, a copy of which goes on
-# LINK: other options of link.py for the measurement. Needs root, the Debian packages openssh-server, openssh-client, iproute2 and
+# LINK: other options of link.py for the measurement; CONGESTION: the kernel's congestion control, bbr, say. Needs root, the Debian packages openssh-server, openssh-client, iproute2 and
 # python3, and a kernel with TUN.
 set -euo pipefail
 if [ "${1:-}" != --inside ]; then
@@ -29,6 +29,11 @@ mount -t tmpfs tmpfs /run/netns
 ip netns add near
 ip netns add far
 near() { ip netns exec near "$@"; }
+if [ -n "${CONGESTION:-}" ]; then
+    for host in near far; do
+        ip netns exec "$host" sh -c "echo $CONGESTION > /proc/sys/net/ipv4/tcp_congestion_control"
+    done
+fi
 link_up() {
     nice -n -10 python3 "$here/link.py" near 10.0.0.1 far 10.0.0.2 "$@" > link.txt &
     link=$!
@@ -43,15 +48,17 @@ export -f sshd_up
 ip netns exec far bash -c 'sshd_up 10.0.0.2'
 ssh=(ssh -F "$scratch/ssh_config" -T -o BatchMode=yes)
 command="${ssh[*]} {} $program agent"
-# So much comes through ssh itself, in MB/s.
+# So much goes through ssh itself to the far host, in MB/s.
 carried() {
-    python3 - "${ssh[@]}" far head -c 20000000 /dev/zero <<'PY'
+    python3 - "${ssh[@]}" far 'cat > /dev/null' <<'PY'
 import subprocess, sys, time
-with subprocess.Popen(sys.argv[1:], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as ssh:
-    ssh.stdout.read(1)
+with subprocess.Popen(sys.argv[1:], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as ssh:
+    ssh.stdout.readline()  # the greeting: the login is over
     begin = time.monotonic()
-    rest = len(ssh.stdout.read())
-print(f"{rest / (time.monotonic() - begin) / 1e6:.1f}")
+    ssh.stdin.write(bytes(40_000_000))
+    ssh.stdin.close()
+    ssh.wait()
+print(f"{40 / (time.monotonic() - begin):.1f}")
 PY
 }
 export -f carried
@@ -61,7 +68,6 @@ if [ -n "$run" ]; then
     link_down
     # shellcheck disable=SC2086
     link_up ${LINK:-"${wide_open[@]}"}
-    # In the order of the arguments of ssh, which `near` would otherwise lose.
     say "ssh alone carries $(near bash -c "$(declare -p ssh); carried") MB/s"
     cp -r "$run" run
     nodes=$("$program" status run --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["nodes"])')

@@ -23,8 +23,14 @@ have() {
 if have ip iproute2 && have sshd openssh-server && have ssh openssh-client; then
     echo "-- ssh"
     "$here/ssh.sh" "$program"
+    if have python3 python3 && [ -c /dev/net/tun ]; then
+        echo "-- ssh along a slow link"
+        "$here/network.sh" "$program"
+    else
+        echo "cluster: no /dev/net/tun: no slow link can be made"
+    fi
 fi
-if have slurmctld slurm-wlm munge && have slurmd slurm-wlm && have munged munge; then
+if have ip iproute2 && have slurmctld slurm-wlm munge && have slurmd slurm-wlm && have munged munge; then
     echo "-- Slurm"
     "$here/slurm.sh" "$program"
 fi

@@ -1,8 +1,16 @@
 #!/usr/bin/env bash
 # The recipes of docs/cluster.md, as they stand there, under a Slurm of six nodes on this machine. Whatever ends jobs, steps and
 # nodes, the digest is that of a build in threads.
-#   slurm.sh ROADMILL                          ROADMILL: the program; needs root, slurm-wlm and munge
+#   slurm.sh ROADMILL                          ROADMILL: the program; needs root, slurm-wlm, munge, iproute2
 set -euo pipefail
+# Processes and network of its own: other Slurms on this machine use the same ports, and nothing outlives this test.
+if [ "${1:-}" != --inside ]; then
+    exec unshare --pid --fork --kill-child --mount-proc --net --mount "$0" --inside "$@"
+fi
+shift
+ip link set lo up
+# Where the only address is 127.0.0.1 the system's resolver takes it for no network at all.
+ip addr add 10.0.0.1/32 dev lo
 here=$(dirname "$(realpath "$0")")
 root=$(realpath "$here/../..")
 PATH=$(dirname "$(realpath "${1:?the program}")"):$PATH
@@ -14,7 +22,7 @@ show_logs() { tail -n 30 slurm-*.out "$SLURM_TEST_DIR/log/slurmctld.log" 2>/dev/
 # Calls a function, in a folder of its own with the recipes, and at the same time as others.
 tracks=()
 track() {
-    (mkdir "$1" && cp ./*.sh problem.toml "$1" && cd "$1" && "$1") &
+    (mkdir "$1" && cp ./*.sh "$1" && cd "$1" && "$1") &
     tracks+=($!)
 }
 
@@ -25,7 +33,6 @@ cleanup() {
     slurm down
     # Nodes that were killed hold their mounts until all their processes are gone.
     for _ in $(seq 50); do rm -rf "$scratch" 2>/dev/null && return; sleep 0.1; done
-    echo "slurm: $scratch cannot be removed" >&2
 }
 trap cleanup EXIT
 slurm up 6 16
@@ -40,11 +47,19 @@ awk '/^```sh$/ { getline; if ($0 == "#!/bin/bash") { reading = 1; text = "" } }
 import=$(sed -n "s/.*--or-resume \(--import '[^']*'\).*/\1/p" "$root/docs/cluster.md" | head -1)
 sed "s|--or-resume|--or-resume $import|" walls.sh > walls-import.sh
 
-# A build without criteria ends at its limit of nodes, with success.
-{ sed '/^\[query\]/,$d' "$root/problems/walls.toml"; printf '[limits]\nnodes = 40000\n'; } > problem.toml
-roadmill build problem.toml --threads 2 --out reference > reference.txt 2>&1
-full=$(stat -c %s reference/ledger)
-say "threads: $(grep '^digest' reference.txt)"
+# Builds without criteria end at their limit of nodes, with success. By that many nodes a problem is named.
+for nodes in 20000 40000; do
+    { sed '/^\[query\]/,$d' "$root/problems/walls.toml"; printf '[limits]\nnodes = %s\n' "$nodes"; } > "$nodes.toml"
+    cp "$nodes.toml" problem.toml
+    roadmill build problem.toml --threads 2 --out "threads-$nodes" > "threads-$nodes.txt" 2>&1
+    say "threads, $nodes nodes: $(grep '^digest' "threads-$nodes.txt")"
+done
+# Makes one of them the problem of the recipes.
+use() {
+    reference=$(realpath "../threads-$1")
+    full=$(stat -c %s "$reference/ledger")
+    cp "../$1.toml" problem.toml
+}
 
 # Waits until a job has ended with success. A requeued one need not wait for two minutes.
 ended() {
@@ -90,17 +105,18 @@ agent_restarts() {
 }
 # The run has the reference's roadmap.
 same() {
-    roadmill diff ../reference runs/walls > diff.txt || fail "$1: another roadmap: $(cat diff.txt)"
+    roadmill diff "$reference" runs/walls > diff.txt || fail "$1: another roadmap: $(cat diff.txt)"
     say "$1: the same digest"
     rm -rf runs
 }
 # The run has the reference's ledger: nobody was told to stop, so that nothing is written down of what happened.
 same_bytes() {
-    cmp ../reference/ledger runs/walls/ledger || fail "$1: another ledger"
+    cmp "$reference/ledger" runs/walls/ledger || fail "$1: another ledger"
     same "$1"
 }
 
 one_node() {
+    use 40000
     # A build that does not end: a job on another node sees that whoever holds the run is alive.
     sed -i 's/^nodes = .*/nodes = 4000000000/' problem.toml
     job=$(sbatch --parsable walls.sh)
@@ -113,7 +129,7 @@ one_node() {
     say "a second job on one run: refused"
     rm -rf runs
 
-    sed -i 's/^nodes = .*/nodes = 40000/' problem.toml
+    use 40000
     job=$(sbatch --parsable walls.sh)
     past "$job" 10
     # What Slurm does before the time limit.
@@ -132,21 +148,36 @@ one_node() {
 }
 
 array() {
+    use 40000
     sets=$(sbatch --parsable walls-sets.sh)
     job=$(sbatch --parsable --dependency=afterok:"$sets" walls-import.sh)
     ended "$job"
     same_bytes "an array and its import, $(find parts -name '*.sets' | wc -l) files"
+
+    # A build that ends at a limit without success, exit code 3, is a failure to Slurm: what is to follow success does not.
+    cp "$root/problems/sealed.toml" problem.toml
+    job=$(sbatch --parsable walls.sh)
+    after=$(sbatch --parsable --dependency=afterok:"$job" --output=/dev/null --wrap=true)
+    whatever=$(sbatch --parsable --dependency=afterany:"$job" --output=/dev/null --wrap=true)
+    ended "$whatever"
+    [[ $(scontrol show job "$job") == *ExitCode=3:0* ]] || fail "a sealed room was not left with exit code 3"
+    [[ $(squeue -h -j "$after" -o %r) == DependencyNeverSatisfied ]] || fail "afterok does not mind exit code 3"
+    scancel "$after"
+    say "exit code 3: afterok does not follow, afterany does"
 }
 
 # Starts the recipe with agents, on two nodes.
-agents() { sbatch --parsable --nodes=2 "$@" walls-agents.sh; }
+agents() {
+    use 20000
+    job=$(sbatch --parsable --nodes=2 "$@" walls-agents.sh)
+}
 # The nodes of a job: the first has the coordinator, and each an agent.
 nodes_of() { scontrol show hostnames "$(squeue -h -j "$1" -o %N)"; }
 # The last step of a job that runs on this node: its agent.
 agent_of() { squeue -h -s -j "$1" -o '%i %N' | awk -v node="$2" '$2 == node && $1 !~ /batch/ { step = $1 } END { print step }'; }
 
 agents_lost() {
-    job=$(agents)
+    agents
     past "$job" 10
     mapfile -t nodes < <(nodes_of "$job")
     # scancel may say of a step that it cannot be signalled, and signals it.
@@ -158,7 +189,7 @@ agents_lost() {
     same_bytes "agents, one's step cancelled, the other's signalled"
 
     # Told not to, Slurm does not end a job that loses a node.
-    job=$(agents --no-kill)
+    agents --no-kill
     past "$job" 10
     mapfile -t nodes < <(nodes_of "$job")
     slurm node_down "${nodes[1]#n}"
@@ -170,7 +201,7 @@ agents_lost() {
 }
 
 agents_preempted() {
-    job=$(agents)
+    agents
     for share in 10 20 30; do
         past "$job" "$share"
         urgent=$(sbatch --parsable --partition=urgent --nodes=2 --nodelist="$(squeue -h -j "$job" -o %N)" --ntasks-per-node=1 \
@@ -181,7 +212,7 @@ agents_preempted() {
     [ "$(restarts "$job")" = 3 ] || fail "preempted $(restarts "$job") times, 3 expected"
     same "agents, preempted three times"
 
-    job=$(agents)
+    agents
     past "$job" 10
     node=$(nodes_of "$job" | tail -1)
     slurm node_down "${node#n}"
@@ -192,7 +223,7 @@ agents_preempted() {
 }
 
 coordinator_lost() {
-    job=$(agents)
+    agents
     past "$job" 10
     node=$(nodes_of "$job" | head -1)
     slurm node_down "${node#n}"

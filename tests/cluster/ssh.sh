@@ -97,6 +97,16 @@ nothing_left
 
 begin
 past 10
+kill -KILL "$build"
+wait "$build" 2>/dev/null || true
+nothing_left
+"$program" resume run > resume.txt 2>&1
+cmp reference/ledger run/ledger || fail "a resumed build has another ledger"
+say "the coordinator killed: its agents end, and the resumed build has the same ledger"
+rm -rf run
+
+begin
+past 10
 agent=$(agents | head -1)
 kill -STOP "$agent"
 at=$SECONDS
