@@ -295,22 +295,31 @@ fn among(name: &str) -> AmongKind {
     }
 }
 
-/// A row of dots for each scene and program.
+/// A row of dots for each scene and program; a scene's builds stand together.
 fn picture(all: &[Builds]) -> String {
-    let step = all.iter().take_while(|builds| builds.scene == all[0].scene).count();
+    let scenes: Vec<&[Builds]> = all.chunk_by(|a, b| a.scene == b.scene).collect();
+    let mut programs: Vec<&str> = Vec::new();
+    for builds in all {
+        if !programs.contains(&&*builds.program) {
+            programs.push(&builds.program);
+        }
+    }
+    let coloured = || programs.iter().zip(COLOURS.iter().cycle());
     // An empty row below each scene.
-    let rows = (all.len() + all.len() / step) as f64;
+    let rows = (all.len() + scenes.len()) as f64;
     let x = Scale::decades(all.iter().flat_map(|builds| &builds.seconds).copied());
     let y = Scale { low: 0.0, high: rows, log: false };
     let title = "CPU seconds until the query is solved; bars are medians, rings were not solved";
     let mut plot = Plot::new(title, ["CPU seconds", ""], [900.0, 120.0 + 24.0 * rows], x, y);
     let ticks: Vec<_> = x.powers().iter().map(|power| (*power, plain(*power))).collect();
     plot.columns(&ticks);
-    for (i, builds) in all.chunks(step).enumerate() {
-        let top = rows - (i * (step + 1)) as f64 - 0.5;
-        plot.rows(&[(top - 0.5 * step as f64, builds[0].scene.clone())]);
-        for (row, (builds, colour)) in builds.iter().zip(COLOURS).enumerate() {
+    let mut top = rows - 0.5;
+    for of_scene in scenes {
+        plot.rows(&[(top - 0.5 * of_scene.len() as f64, of_scene[0].scene.clone())]);
+        for (row, builds) in of_scene.iter().enumerate() {
             let y = top - 0.5 - row as f64;
+            let own = coloured().find(|(program, _)| **program == builds.program);
+            let (_, colour) = own.expect("all programs are listed");
             for (i, (seconds, solved)) in builds.seconds.iter().zip(&builds.solved).enumerate() {
                 // A little up and down, so that dots do not cover one another.
                 let point = [*seconds, y + 0.12 * ((i % 5) as f64 - 2.0)];
@@ -322,14 +331,15 @@ fn picture(all: &[Builds]) -> String {
             }
             plot.bar([median(&mut builds.seconds.clone()), y], 10.0, colour);
         }
+        top -= of_scene.len() as f64 + 1.0;
     }
-    let legend = all[..step].iter().zip(COLOURS).map(|(builds, colour)| {
-        let name = match &*builds.program {
+    let legend = coloured().map(|(program, colour)| {
+        let name = match *program {
             "OMPL prm" => "OMPL's PRM".to_owned(),
             "OMPL rrt-connect" => "OMPL's RRT-Connect".to_owned(),
             ours => format!("roadmill, {ours}"),
         };
-        (name, colour)
+        (name, *colour)
     });
     plot.legend(&legend.collect::<Vec<_>>());
     plot.finish()
