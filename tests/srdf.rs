@@ -165,7 +165,8 @@ fn a_pose_without_a_link_is_that_of_the_end_effector() {
     for group in ["group = \"left\"", ""] {
         let problem = goal(group).unwrap_or_else(|error| panic!("{error}"));
         let [x, y, z] = place(&problem);
-        assert!(((x - 1.6).powi(2) + (y - 1.2).powi(2) + z * z).sqrt() <= 0.01, "{x} {y} {z}");
+        let (dx, dy) = (x - 1.6, y - 1.2);
+        assert!((dx * dx + dy * dy + z * z).sqrt() <= 0.01, "{x} {y} {z}");
         assert!(problem.describe().contains("at which `palm` is within"));
     }
     // Of another group: since its joints do not move the palm, or by the file's word.
