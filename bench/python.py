@@ -27,6 +27,9 @@ from roadmill._program import find_program
 
 WALLS = pathlib.Path(__file__).resolve().parents[1] / "problems" / "walls.toml"
 LEAK_QUERIES = 10_000
+# Queries that are asked before their times count.
+BEFORE_LANDMARKS = 30
+WARM = 40
 
 
 def endless(folder: pathlib.Path) -> pathlib.Path:
@@ -103,12 +106,16 @@ def measure(name: str, run: pathlib.Path, count: int, compared: int) -> None:
     assert roadmap.query() is not None
     watch.say("first query")
     ends = queries(roadmap, count)
-    # The first searches make the index of the nodes.
+    # The first searches make the index of the nodes, and the 33rd of a large roadmap makes the landmarks.
     watch = Stopwatch()
-    for each in ends[:20]:
+    for each in ends[:BEFORE_LANDMARKS]:
         roadmap.query(*each)
-    watch.say("the next 20 queries")
-    say_queries("between nodes drawn at random", [asked(roadmap, each) for each in ends[20:]])
+    watch.say(f"the next {BEFORE_LANDMARKS} queries")
+    watch = Stopwatch()
+    for each in ends[BEFORE_LANDMARKS:WARM]:
+        roadmap.query(*each)
+    watch.say(f"the next {WARM - BEFORE_LANDMARKS}, which make landmarks")
+    say_queries("between nodes drawn at random", [asked(roadmap, each) for each in ends[WARM:]])
     say_queries("the problem's own", [asked(roadmap, None) for _ in range(max(10, count // 10))])
     for each in ends[:compared]:
         path = roadmap.query(*each)
@@ -139,7 +146,7 @@ def main() -> None:
         print(f"roadmill {roadmill.__version__}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
         measure("walls", small, 1000, 20)
         leak(small)
-        measure("large", large, 60, 2)
+        measure("large", large, WARM + 100, 2)
 
 
 if __name__ == "__main__":

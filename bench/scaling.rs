@@ -3,6 +3,7 @@
 //! ```text
 //! cargo bench -p roadmill-coordinator --bench scaling [-- [--rounds N] [--sampler SAMPLER] [NODES [SET]] [SCENE]]
 //! cargo bench -p roadmill-coordinator --bench scaling -- memory [judged] [NODES [SET]] [SCENE]
+//! cargo bench -p roadmill-coordinator --bench scaling -- agents [--rounds N] [--sampler SAMPLER] [NODES [SET]] [SCENE]
 //! ```
 //!
 //! The cage, or SCENE with SAMPLER (`'obprm = { step = 2 }'`), without its query is built up to NODES nodes
@@ -17,6 +18,9 @@
 //! columns say what the coordinator took, of all CPU time and per set, and what for. At the end: what a set
 //! costs the coordinator and what it costs the workers; the first over the sum of both is the coordinator's
 //! share, and how long a worker must be busy with a set of this size for that to be under 1 %.
+//!
+//! With *agents* it is built by two workers, and in turn by two agents of one worker each, over plain pipes on this
+//! machine: the time of the first over that of the second is the share of the speed-up that is left.
 //!
 //! With *memory* it is built with 1, 2 and 4 workers. Per build: the most bytes that all processes held at
 //! once, and what that is per node beyond a build of a tenth. *Judged* by an evaluator, so that workers keep edges.
@@ -49,6 +53,7 @@ struct Run {
 struct Arguments {
     rounds: usize,
     memory: bool,
+    agents: bool,
     is_judged: bool,
     nodes: u64,
     set: u32,
@@ -58,7 +63,7 @@ struct Arguments {
 
 impl Arguments {
     fn read() -> Arguments {
-        let (mut rounds, mut memory, mut is_judged) = (5, false, false);
+        let (mut rounds, mut memory, mut agents, mut is_judged) = (5, false, false, false);
         let (mut sampler, mut scene) = (None, None);
         let mut numbers = Vec::new();
         let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
@@ -68,6 +73,7 @@ impl Arguments {
                 ("--rounds", _) => rounds = next().parse().expect("a number of rounds"),
                 ("--sampler", _) => sampler = Some(next()),
                 ("memory", _) => memory = true,
+                ("agents", _) => agents = true,
                 ("judged", _) => is_judged = true,
                 (_, Ok(number)) => numbers.push(number),
                 _ => scene = Some(word),
@@ -75,7 +81,7 @@ impl Arguments {
         }
         let nodes = numbers.first().copied().unwrap_or(300_000);
         let set = numbers.get(1).map_or(50, |set| *set as u32);
-        Arguments { rounds, memory, is_judged, nodes, set, sampler, scene }
+        Arguments { rounds, memory, agents, is_judged, nodes, set, sampler, scene }
     }
 
     /// The problem with so many nodes.
@@ -96,6 +102,8 @@ fn main() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     if arguments.memory {
         hold(folder.path(), &arguments);
+    } else if arguments.agents {
+        reach(folder.path(), &arguments);
     } else {
         scale(folder.path(), &arguments);
     }
@@ -166,17 +174,47 @@ fn scale(folder: &Path, arguments: &Arguments) {
     );
 }
 
+/// Two agents beside two workers.
+fn reach(folder: &Path, arguments: &Arguments) {
+    let problem = arguments.problem(folder, arguments.nodes);
+    let agent = format!("{} agent", env!("CARGO_BIN_EXE_roadmill"));
+    let mut ratios = Vec::new();
+    println!("round  2 workers  2 agents  ratio");
+    for round in 0..arguments.rounds {
+        let out = |name: &str| folder.join(format!("{name}{round}"));
+        let workers = finish(start(&problem, 2, &out("workers")), &out("workers"));
+        let agents = ["--agents", "a,b", "--agent-command", &agent];
+        let agents = start_with(&problem, 1, &out("agents"), &agents);
+        let agents = finish(agents, &out("agents"));
+        assert!(workers.digest == agents.digest, "the same bits");
+        ratios.push(workers.wall / agents.wall);
+        println!(
+            "{:5}  {:7.2} s  {:6.2} s  {:.3}",
+            round + 1,
+            workers.wall,
+            agents.wall,
+            ratios[round]
+        );
+    }
+    println!("median {:.3}", median(&mut ratios));
+}
+
 fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
 }
 
 fn start(problem: &Path, workers: usize, out: &Path) -> Child {
+    start_with(problem, workers, out, &[])
+}
+
+fn start_with(problem: &Path, workers: usize, out: &Path, options: &[&str]) -> Child {
     Command::new(env!("CARGO_BIN_EXE_roadmill"))
         .arg("build")
         .arg(problem)
         .args(["--workers", &workers.to_string(), "--json", "--out"])
         .arg(out)
+        .args(options)
         .stdout(Stdio::null())
         .spawn()
         .expect("roadmill starts")

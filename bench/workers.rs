@@ -3,6 +3,7 @@
 //! ```text
 //! cargo bench --bench workers -- [--nodes N] [--set NODES] [--slower F] [--shared] [--set-us U]
 //!     [--message-us U] [--latency-us U] [--gigabytes G] [--svg FILE] SCENE
+//! cargo bench --bench workers -- --agents CORES [--way-us U] [--network-gigabits G] [--nodes N] [--set NODES] … SCENE
 //! ```
 //!
 //! First the scene is grown up to N nodes (default 20 000), in sets of NODES (as the scene says), by doing
@@ -18,6 +19,11 @@
 //! configurations, edges and segments lie in memory once, but which component a node is in each keeps for
 //! itself. With `--shared` that is done once for all.
 //!
+//! With `--agents` the workers are those of agents with CORES workers each: every agent is sent every set that it has not
+//! made itself, over a network of G gigabits a second (default 1) at the coordinator, a message taking U microseconds
+//! (default 250) from one end to the other, and workers hold as much more work as a round trip takes. The bytes are those of the
+//! encoded outcomes.
+//!
 //! Printed per number of workers and sets per round: the efficiency, that is the share of the workers' time
 //! in which they do what a single process would do for the same sets; and what most of the loss goes
 //! into where that is under 0.9: `copies`, that is taking in sets, the `coordinator` (at work for over 70 % of the
@@ -30,17 +36,16 @@ mod virtual_pool;
 
 use roadmill::img::{Core, Job, Joined, Observer, Outcome, Replica, Setup, Task, drive};
 use roadmill::internal::wire;
-use roadmill::model::{ModelSpec, Scratch};
+use roadmill::model::Scratch;
 use roadmill::numbers::{EvaluatorIndex, SetName, SetNumber};
 use roadmill::problem::{NODES_MAX, Problem};
 use roadmill::roadmap::Increment;
-use roadmill::sampler::SamplerKind;
 use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
 use support::plot::{COLOURS, Plot, Scale};
 use support::{cpu_seconds, median};
-use virtual_pool::{Costs, Machine, Spent, TOLD_BYTES, VirtualPool};
+use virtual_pool::{Costs, Machine, Network, Spent, TOLD_BYTES, VirtualPool};
 
 const WORKERS: [usize; 7] = [1, 4, 16, 64, 256, 1024, 4096];
 const SETS_PER_ROUND: [u32; 5] = [5, 50, 500, 5000, 20_000];
@@ -48,6 +53,22 @@ const SETS_PER_ROUND: [u32; 5] = [5, 50, 500, 5000, 20_000];
 const LOOKAHEAD_PER_WORKER: u64 = 8;
 /// A coordinator that is at work for a larger share of the time is what workers wait for.
 const BUSY: f64 = 0.7;
+/// What is built in virtual time: a point in an empty room, judged as other problems are.
+const NOTHING: &str = r#"
+[space]
+motion = "translation-2d"
+min = [0.0, 0.0]
+max = [9.0, 9.0]
+[robot]
+bodies = [{ shape = { sphere = { radius = 0.2 } } }]
+[query]
+start = [1.0, 1.0]
+goal = [8.0, 8.0]
+[[strategies]]
+label = "a"
+nodes = 1
+sampler = { uniform = {} }
+"#;
 /// Sets joined as one round.
 const ROUND: u64 = 256;
 
@@ -67,7 +88,10 @@ fn arguments() -> Option<Arguments> {
         bytes_per_second: 0.8e9,
         slower: 1.0,
         shared: false,
+        network: None,
     };
+    let mut network =
+        Network { cores: 0, latency: 250e-6, bytes_per_second: 0.125e9, set_bytes: 0.0 };
     let (mut nodes, mut machine, mut svg, mut scene) = (20_000, machine, None, None);
     let mut set = None;
     let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
@@ -81,6 +105,9 @@ fn arguments() -> Option<Arguments> {
             "--set" => set = Some(number() as u32),
             "--slower" => machine.slower = number(),
             "--shared" => machine.shared = true,
+            "--agents" => network.cores = number() as usize,
+            "--way-us" => network.latency = number() * 1e-6,
+            "--network-gigabits" => network.bytes_per_second = number() * 0.125e9,
             "--set-us" => machine.set_seconds = number() * 1e-6,
             "--message-us" => machine.message_seconds = number() * 1e-6,
             "--latency-us" => machine.latency = number() * 1e-6,
@@ -89,11 +116,12 @@ fn arguments() -> Option<Arguments> {
             _ => scene = Some(word),
         }
     }
+    machine.network = (network.cores > 0).then_some(network);
     Some(Arguments { nodes, set, machine, svg, scene: scene? })
 }
 
 fn main() {
-    let Some(Arguments { nodes, set, machine, svg, scene }) = arguments() else {
+    let Some(Arguments { nodes, set, mut machine, svg, scene }) = arguments() else {
         println!("workers: skipped, no scene given");
         return;
     };
@@ -102,7 +130,10 @@ fn main() {
         None => Ok(problem),
     });
     let problem = problem.unwrap_or_else(|error| panic!("{error}"));
-    let costs = measure(&problem, nodes);
+    let (costs, set_bytes) = measure(&problem, nodes);
+    if let Some(network) = &mut machine.network {
+        network.set_bytes = set_bytes;
+    }
     let mean = |values: &[f64]| 1e6 * values.iter().sum::<f64>() / values.len() as f64;
     println!(
         "{}: sets of {} nodes: generate {:.0} µs, take in {:.0}, join {:.0} and {:.2} for every earlier set of the round, fold {:.0}; evaluate {:.0} µs",
@@ -145,13 +176,13 @@ fn main() {
     }
 }
 
-/// The real jobs, once each.
-fn measure(problem: &Problem, nodes: u64) -> Costs {
+/// The real jobs, once each; and the bytes of a set and the edges that join it.
+fn measure(problem: &Problem, nodes: u64) -> (Costs, f64) {
     let single = problem.to_builder().sets_per_round(1).build();
     let setup = Setup::new(single.expect("a sound problem"));
     let (mut replica, scratch) = (Replica::new(&setup), &mut Scratch::new());
     let mut costs = Costs::default();
-    let (mut take_in, mut fold) = (Vec::new(), Vec::new());
+    let (mut take_in, mut fold, mut sizes) = (Vec::new(), Vec::new(), Vec::new());
     let (mut number, mut met) = (SetNumber(0), problem.evaluators().is_empty());
     while (replica.roadmap().configs().len() as u64) < nodes {
         let (bytes, generate) = timed(|| generate(&setup, &replica, number, scratch));
@@ -173,6 +204,8 @@ fn measure(problem: &Problem, nodes: u64) -> Costs {
             costs.generate.push(generate);
             costs.join.push(join);
             take_in.push(taking);
+            let joined = Joined { edges: edges.clone(), asked: Default::default() };
+            sizes.push((bytes.len() + wire::encode(&joined).len()) as f64);
             fold.push(folding);
         }
     }
@@ -189,7 +222,7 @@ fn measure(problem: &Problem, nodes: u64) -> Costs {
     let late = median(&mut joins[3 * quarter..].to_vec());
     let early = median(&mut joins[..quarter].to_vec());
     costs.join_more = (late - early) / (3 * quarter) as f64;
-    costs
+    (costs, sizes.iter().sum::<f64>() / sizes.len() as f64)
 }
 
 fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
@@ -229,16 +262,16 @@ fn run(
     workers: usize,
     sets_per_round: u32,
 ) -> (f64, &'static str) {
-    // No job is done: a scene of nothing is ready at once, and uniform sampling suits it.
-    let cleared = |model: ModelSpec| model.change_bodies(|bodies| bodies.obstacles([]));
-    let endless = problem
-        .to_builder()
+    // No job is done, so that any model will do: nothing in an empty room is ready at once.
+    let nothing = Problem::parse("nothing".as_ref(), NOTHING).expect("a sound problem");
+    let (mut endless, judged) = (nothing.to_builder(), !problem.evaluators().is_empty());
+    if !judged {
+        endless = endless.evaluators([]);
+    }
+    let endless = endless
         .sets_per_round(sets_per_round.into())
-        .change_model(cleared)
-        .evaluators(problem.evaluators().iter().take(1).cloned())
         .most_nodes(NODES_MAX)
         .most_sets(u64::MAX)
-        .change_strategies(|strategy| strategy.nodes(1).sampler(SamplerKind::default()))
         .build();
     let setup = Setup::new(endless.unwrap_or_else(|error| panic!("{error}")));
     let sets = (12 * workers as u64).max(6 * u64::from(sets_per_round)).max(1000);

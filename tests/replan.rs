@@ -543,6 +543,12 @@ fn a_program_replans_in_memory() {
         place: "",
     };
     let replanned = problem.replanned(&old, &Replanning::default()).expect("the same robot");
+    let cancel = Cancel::new();
+    let until = |cancel: &Cancel| problem.replanned_until(&old, &Replanning::default(), cancel);
+    let whole = until(&cancel).expect("the same robot").expect("nothing ends it");
+    assert_eq!(whole.survived, replanned.survived);
+    cancel.cancel();
+    assert!(until(&cancel).expect("the same robot").is_none());
     let after = roadmill::Build::new(replanned.problem).run().expect("a build");
     assert!(after.path().is_some_and(|path| path.length > 0.0));
     assert!(after.roadmap().sets() > 1);

@@ -44,6 +44,21 @@ pub struct Machine {
     pub slower: f64,
     /// Whether one takes sets in for all, instead of every worker for itself.
     pub shared: bool,
+    /// Where the workers are those of agents on several machines.
+    pub network: Option<Network>,
+}
+
+/// What lies between the coordinator's machine and those of its agents.
+#[derive(Clone, Copy, Debug)]
+pub struct Network {
+    /// Workers of each agent.
+    pub cores: usize,
+    /// From one end to the other, in seconds.
+    pub latency: f64,
+    /// What the coordinator's machine can send, and receive, in all.
+    pub bytes_per_second: f64,
+    /// Of a set and the edges that join it, as they are sent to every agent but the one that made them.
+    pub set_bytes: f64,
 }
 
 /// Time spent since the beginning, of all workers together but for the coordinator's.
@@ -82,6 +97,11 @@ pub struct VirtualPool<'a> {
     /// Bytes and CPU seconds of all entries up to each.
     log: Vec<[f64; 2]>,
     roadmap: Roadmap,
+    /// How much of the log each agent has been sent.
+    agents: Vec<usize>,
+    /// When all that was sent so far, and all that came, is through the coordinator's network.
+    sent_at: f64,
+    came_at: f64,
     pub spent: Spent,
     /// [`VirtualPool::spent`] when a third of the sets were folded.
     pub warm: Option<Spent>,
@@ -107,6 +127,9 @@ impl<'a> VirtualPool<'a> {
             heard: VecDeque::new(),
             log: vec![[0.0; 2]],
             roadmap: Roadmap::new(setup.context().space()),
+            agents: vec![0; machine.network.map_or(0, |network| workers.div_ceil(network.cores))],
+            sent_at: 0.0,
+            came_at: 0.0,
             spent: Spent::default(),
             warm: None,
         }
@@ -155,13 +178,18 @@ impl<'a> VirtualPool<'a> {
             let (bytes, copying) = (to[0] - from[0], to[1] - from[1]);
             let mut copies = 0.0;
             if !self.machine.shared {
-                self.coordinate(bytes / self.machine.bytes_per_second);
                 copies = copying;
+                // An agent tells its own workers where a set lies.
+                if self.machine.network.is_none() {
+                    self.coordinate(bytes / self.machine.bytes_per_second);
+                }
             }
+            let held_seconds = HELD_SECONDS + self.round_trip();
+            let way = self.send_to_agent_of(worker);
             let (mut jobs, mut all) = (Vec::new(), 0.0);
             while let Some(job) = self.waiting[urgency].first().copied() {
                 let [seconds, more] = self.seconds_of(job);
-                let is_full = jobs.len() == share || all + seconds > HELD_SECONDS;
+                let is_full = jobs.len() == share || all + seconds > held_seconds;
                 if !jobs.is_empty() && is_full {
                     break;
                 }
@@ -175,9 +203,39 @@ impl<'a> VirtualPool<'a> {
             }
             self.spent.jobs += all;
             self.spent.copies += copies;
-            let arrival = self.spent.now + 2.0 * self.machine.latency + copies + all;
+            let done = self.spent.now + 2.0 * self.machine.latency + way + copies + all;
+            let arrival = self.arrival(done, jobs.len());
             self.answers.push(Reverse(((arrival * 1e9) as u64, worker, jobs)));
         }
+    }
+
+    /// How long a message takes to an agent and back.
+    fn round_trip(&self) -> f64 {
+        self.machine.network.map_or(0.0, |network| 2.0 * network.latency)
+    }
+
+    /// Sends what has happened to the agent of a worker, once for all its workers; how long until it is there. Nothing is
+    /// taken to go on besides, so that this is rather too long: an agent holds jobs for a round trip more.
+    fn send_to_agent_of(&mut self, worker: usize) -> f64 {
+        let Some(network) = self.machine.network else { return 0.0 };
+        let agent = &mut self.agents[worker / network.cores];
+        let end = self.log.len() - 1;
+        // Each set is published, and folded with its round; the agent that made it has it already.
+        let sets = (self.log[end][0] - self.log[*agent][0]) / TOLD_BYTES;
+        *agent = end;
+        let others = 1.0 - network.cores as f64 / self.places.len() as f64;
+        let bytes = sets * network.set_bytes * others;
+        self.sent_at = self.sent_at.max(self.spent.now) + bytes / network.bytes_per_second;
+        self.sent_at - self.spent.now + network.latency
+    }
+
+    /// When the outcomes of jobs that are done at this time have come.
+    fn arrival(&mut self, done: f64, jobs: usize) -> f64 {
+        let Some(network) = self.machine.network else { return done };
+        // A set and its join are two outcomes.
+        let bytes = jobs as f64 / 2.0 * network.set_bytes;
+        self.came_at = self.came_at.max(done) + bytes / network.bytes_per_second;
+        self.came_at + network.latency
     }
 
     /// An outcome that the job could have.

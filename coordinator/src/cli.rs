@@ -23,7 +23,8 @@ pub use replan::{KeptComponents, ReplanArguments};
 pub use transition::{ChainArguments, EndsArguments, TransitionArguments};
 pub use view::ViewArguments;
 
-use clap::builder::{PossibleValue, PossibleValuesParser};
+use crate::files::{FOLDER_EXPECTED, is_standard_output};
+use clap::builder::{PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use roadmill::BITS_VERSION;
 use roadmill::export::{Direction, FORMATS, RoadmapFormat};
@@ -129,7 +130,7 @@ pub struct BuildArguments {
     #[arg(long, value_name = "SEED")]
     pub seed: Option<u64>,
     /// Run folder to be made [default: runs/NAME, or the first free of runs/NAME-2, …]
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", value_parser = folder())]
     pub out: Option<PathBuf>,
     /// Replace the run that --out names
     #[arg(long, requires = "out")]
@@ -156,7 +157,7 @@ pub struct GenerateArguments {
     #[arg(long, value_name = "LABEL:FIRST..END", value_parser = sets)]
     pub sets: (String, Range<Ordinal>),
     /// The file to be written
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = file())]
     pub out: PathBuf,
     /// Replace the file that --out names
     #[arg(long)]
@@ -458,7 +459,7 @@ pub struct CompletionsArguments {
 #[derive(Debug, Args)]
 pub struct ManArguments {
     /// A folder for the pages of all commands; it is made if it is not there, and pages in it are replaced
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", value_parser = folder())]
     pub out: Option<PathBuf>,
 }
 
@@ -474,6 +475,23 @@ pub struct WorkerArguments {
     /// Process id of the coordinator.
     #[arg(long)]
     pub coordinator: u32,
+}
+
+/// A folder: `-`, which stands for standard output elsewhere, is refused, since several files are written.
+fn folder() -> impl TypedValueParser<Value = PathBuf> {
+    no_standard_output(FOLDER_EXPECTED)
+}
+
+/// A file that has its name once it is whole, which standard output cannot be.
+fn file() -> impl TypedValueParser<Value = PathBuf> {
+    no_standard_output("the name of a regular file expected (./- is a file of that name)")
+}
+
+fn no_standard_output(expected: &'static str) -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(move |path| match is_standard_output(&path) {
+        true => Err(expected),
+        false => Ok(path),
+    })
 }
 
 fn bytes(text: &str) -> Result<u64, String> {

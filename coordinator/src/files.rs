@@ -2,7 +2,7 @@
 
 use crate::exit::{Code, Failure};
 use crate::output;
-pub(crate) use roadmill::internal::regular::open_regular;
+pub(crate) use roadmill::internal::regular::{open_regular, read_regular_text};
 use rustix::fs::{CWD, OFlags, RenameFlags, fcntl_getfl, fcntl_setfl, renameat_with};
 use rustix::io::Errno;
 use std::fs::{self, File, Permissions};
@@ -119,6 +119,20 @@ fn open_with_reader(path: &Path) -> io::Result<File> {
     let flags = fcntl_getfl(&file)?;
     fcntl_setfl(&file, flags - OFlags::NONBLOCK)?;
     Ok(file)
+}
+
+/// What is said of `-` where a folder is asked for.
+pub(crate) const FOLDER_EXPECTED: &str = "standard output takes one document; a folder expected, since several files are written (./- is a folder of that name)";
+
+/// Refuses `-` where a folder is asked for.
+///
+/// # Errors
+/// Exit code 2: the path is `-`.
+pub(crate) fn expect_folder(option: &str, path: &Path) -> Result<(), Failure> {
+    match is_standard_output(path) {
+        true => Err(Failure::usage(format!("{option}: - found; {FOLDER_EXPECTED}"))),
+        false => Ok(()),
+    }
 }
 
 /// Makes a folder, or takes one that is empty.

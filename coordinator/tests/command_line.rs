@@ -203,6 +203,28 @@ fn strategies_are_compared_and_a_comparison_that_was_cut_off_goes_on() {
     let page = fs::read_to_string(scratch.path("c/compare.html")).expect("a page");
     assert!(page.contains("How large a roadmap?"));
 
+    // Runs that were asked for otherwise are not mixed with these.
+    let start = ["compare", "wall.toml", "--samplers", "own", "--seeds", "1", "--threads", "1"];
+    for (otherwise, said) in [
+        (&["--max-nodes", "2000", "--go-on"][..], "by other criteria, or with or without --go-on"),
+        (&["--max-nodes", "3000"], "within other limits"),
+    ] {
+        let done = scratch.run(&[&start[..], &["--out", "c"], otherwise].concat());
+        done.assert_code(2);
+        done.assert_stderr(&["c/runs/own-1: ", said, "another --out is expected"]);
+    }
+    // A comparison that cannot go on has all that there is in its tables, not only what comes before.
+    fs::create_dir(scratch.path("c/runs/gap-1")).expect("a folder can be made");
+    scratch.write("c/runs/gap-1/notes.txt", "mine");
+    let gap = "gap = { sampler = { gaussian = { deviation = 0.5 } } }";
+    let more =
+        ["compare", "wall.toml", "--samplers", "own", gap, "--seeds", "1-3", "--threads", "1"];
+    let done = scratch.run(&[&more[..], &["--max-nodes", "2000", "--out", "c"]].concat());
+    done.assert_code(2);
+    done.assert_stderr(&["c/runs/gap-1: holds `notes.txt`"]);
+    let own: Vec<String> = table(&scratch, "c/compare.csv");
+    assert_eq!(own.iter().filter(|line| line.starts_with("own,")).count(), 3, "{own:?}");
+
     // Beyond the criteria: to the limit, and yet it is told when they were met.
     let done = command("1", &["--go-on", "--json"]);
     for line in done.stdout.lines() {
@@ -215,6 +237,7 @@ fn strategies_are_compared_and_a_comparison_that_was_cut_off_goes_on() {
     for (strategies, expected) in [
         ("unifrm", "unknown variant `unifrm`"),
         ("a/b = { sampler = { uniform = {} } }", "a label of letters"),
+        ("own = { sampler = { uniform = {} } }", "another label expected"),
     ] {
         let done = scratch.run(&["compare", "wall.toml", "--samplers", strategies, "--out", "d"]);
         done.assert_code(2);

@@ -331,6 +331,29 @@ fn many_queries_go_into_a_folder_of_their_own() {
         refused.assert_code(2);
         refused.assert_stderr(&[expected]);
     }
+    // A device has no end; several paths have no place on standard output.
+    scratch.write("many.csv", good);
+    for (arguments, expected) in [
+        (
+            &["query", "run", "--queries", "/dev/zero", "--out", "other"][..],
+            "/dev/zero: cannot read the queries: a device",
+        ),
+        (&["query", "run", "--queries", "many.csv", "--out", "-"], "a folder expected"),
+        (&["paths", "run", "--out", "-"], "a folder expected"),
+        (&["build", "maze.toml", "--out", "-"], "a folder expected"),
+        (
+            &["generate", "maze.toml", "--sets", "uniform:0..1", "--out", "-"],
+            "a regular file expected",
+        ),
+    ] {
+        let refused = scratch.run(arguments);
+        refused.assert_code(2);
+        refused.assert_stderr(&[expected]);
+        assert_eq!(refused.stdout, "", "{arguments:?}");
+    }
+    assert!(!scratch.path("other").exists() && !scratch.path("-").exists());
+    scratch.run(&["paths", "run", "--out", "./-"]).assert_code(0);
+    assert!(scratch.path("-/paths.csv").exists());
 }
 
 #[test]

@@ -155,6 +155,28 @@ fn a_place_that_is_taken_is_told_before_anything_is_computed() {
     }
 }
 
+#[test]
+fn a_run_of_something_else_is_told_before_anything_is_computed() {
+    let scratch = scratch();
+    let sets = ["--max-sets", "6", "--threads", "1"];
+    replan(&scratch, "new", &sets).assert_code(0);
+    scratch.build("plain", &["endless.toml", "--threads", "1", "--max-sets", "1"], 0);
+    scratch.build("other", &["endless.toml", "--threads", "1", "--max-sets", "13"], 0);
+    scratch.write("third.toml", &changed().replace("[1.0, 2.0, 2.0]", "[1.2, 2.0, 2.0]"));
+    for (call, said) in [
+        (&["old", "--with", "changed.toml", "--out", "plain"][..], "it goes on from no other run"),
+        (&["old", "--with", "third.toml", "--out", "new"], "is not what it was"),
+        (&["old", "--with", "changed.toml", "--out", "new", "--seed", "9"], "the seed is 9"),
+        (&["other", "--with", "changed.toml", "--out", "new"], "its ledger has the hash"),
+    ] {
+        let done = scratch.run(&[&["replan"], call, &["--or-resume"], &sets[..]].concat());
+        done.assert_code(2);
+        done.assert_stderr(&["cannot go on: ", said, "another --out expected"]);
+        assert_eq!(done.stdout, "", "{call:?}");
+    }
+    replan(&scratch, "new", &[&sets[..], &["--or-resume"]].concat()).assert_code(0);
+}
+
 /// A roadmap with more ways than anybody waits for, of which all are looked for.
 #[test]
 fn the_search_for_old_paths_ends_with_the_time_or_a_signal() {

@@ -41,6 +41,8 @@ fn a_killed_build_goes_on_with_any_crew_and_writes_the_same_bytes() {
     done.assert_stderr(&["goes on after"]);
     assert_eq!(scratch.summary("run").digest, undisturbed(&scratch));
     assert!(scratch.ledger("run") == scratch.ledger("undisturbed"), "the ledgers differ");
+    // What went into the parts that were killed nobody knows.
+    assert_eq!(scratch.summary("run").run_cpu_seconds, None);
 
     // There is nothing left to do, and it says so.
     for arguments in [&["resume", "run"][..], &[&build[..], &["--max-sets", SETS]].concat()] {
@@ -59,11 +61,15 @@ fn an_interrupted_build_goes_on_and_has_the_stop_besides() {
     scratch.wait_for_rounds("run", 2);
     running.signal(Signal::TERM);
     running.finish().assert_code(6);
-    assert_eq!(scratch.summary("run").stop, "interrupted");
+    let first = scratch.summary("run");
+    assert_eq!((&*first.stop, first.run_cpu_seconds), ("interrupted", Some(first.cpu_seconds)));
     let shorter = scratch.run(&["status", "run", "--json"]);
     assert!(shorter.stdout.contains("\"state\":\"interrupted\""), "{}", shorter.stdout);
     scratch.run(&["resume", "run", "--threads", "1"]).assert_code(0);
-    assert_eq!(scratch.summary("run").digest, undisturbed(&scratch));
+    let second = scratch.summary("run");
+    let whole = second.run_cpu_seconds.expect("both parts told their ends");
+    assert!((whole - first.cpu_seconds - second.cpu_seconds).abs() < 1e-9);
+    assert_eq!(second.digest, undisturbed(&scratch));
     let done = scratch.run(&["diff", "run", "undisturbed"]);
     done.assert_code(0);
     assert!(done.stdout.contains("the same 600 sets and judgements"), "{}", done.stdout);

@@ -117,6 +117,9 @@ fn a_build_is_followed_by_who_knows_the_address_until_a_signal_comes() {
     };
     wait_until("the page is served", || address().is_some());
     let (port, path) = address().expect("it was said");
+    // Connections that say nothing, more than are kept open: they keep nobody out, and hold up no signal.
+    let silent = || TcpStream::connect(("127.0.0.1", port)).expect("it listens");
+    let silent: Vec<TcpStream> = (0..40).map(|_| silent()).collect();
     let get = |target: &str| {
         ask(port, &format!("GET {target} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n"))
     };
@@ -143,8 +146,9 @@ fn a_build_is_followed_by_who_knows_the_address_until_a_signal_comes() {
     assert!(nodes(&last) > nodes(&first));
     running.signal(Signal::INT);
     let done = running.finish();
-    done.assert_code(6);
-    done.assert_stderr(&["a signal came; the page is no longer served"]);
+    done.assert_code(0);
+    done.assert_stderr(&["the page is no longer served"]);
+    drop(silent);
 }
 
 /// Opens pages in a browser, wide and narrow, points at nodes, clicks, drags and moves the controls: nothing goes wrong, what is
@@ -155,8 +159,8 @@ fn pages_can_be_walked_around_in() {
         return;
     }
     let scratch = Scratch::new();
-    // In the plane, in space, and a linkage: several rounds of most, none with more than 5000 edges.
-    for name in ["maze", "maze3d", "gantry"] {
+    // In the plane, in space, a linkage, and a landscape: several rounds of most, none with more than 5000 edges.
+    for name in ["maze", "maze3d", "gantry", "muller-brown"] {
         let text = fs::read_to_string(repository(&format!("problems/{name}.toml")));
         let text = text.expect("it ships").replace("nodes = 100\n", "nodes = 30\n");
         let text = text.replace("[img]\nsets_per_round = 5\n", "");
@@ -184,9 +188,9 @@ fn walk(scratch: &Scratch, page: &str, what: &str, size: &str, grows: bool) {
     scratch.write("watched.html", &watched);
     // A browser that never answers is a failure, not a test that never ends.
     let output = Command::new("timeout")
-        .args(["300", "chromium"])
+        .args(["900", "chromium"])
         .args(["--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader"])
-        .args(["--enable-unsafe-swiftshader", "--virtual-time-budget=20000", "--dump-dom"])
+        .args(["--enable-unsafe-swiftshader", "--dump-dom"])
         .arg(format!("--window-size={size}"))
         .arg(format!("--user-data-dir={}", scratch.path("browser").display()))
         .arg(scratch.path("watched.html"))

@@ -44,6 +44,7 @@ from .problem import (
 from .roadmap import Roadmap
 from .shapes import Body, Box, Capsule, Cylinder, Frame, Mesh, Point, Sphere
 from .status import Evaluation, Machine, Progress, Status
+from .validity import ValidityFunction
 
 try:
     __version__ = version("roadmill")
@@ -81,6 +82,7 @@ __all__ = [
     "Strategy",
     "SystemFailure",
     "UsageError",
+    "ValidityFunction",
     "WorkersLost",
     "build",
     "errors",

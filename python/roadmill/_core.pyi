@@ -3,16 +3,21 @@
 import os
 import pathlib
 from collections.abc import Callable, Sequence
+from typing import TypedDict
 
 BITS_VERSION: int
 
 _FoundPath = tuple[bytes, float]
+_Validity = tuple[str, Callable[[bytes], bool]]
+_Grown = tuple[pathlib.Path, str, str, int, BaseException | None]
 
 class Failure(Exception):
     """Its arguments are an exit code and a message."""
 
 class LoadedRun:
-    def __init__(self, folder: str | os.PathLike[str]) -> None: ...
+    def __init__(self, folder: str | os.PathLike[str], validity: _Validity | None) -> None: ...
+    @property
+    def validity(self) -> str | None: ...
     @property
     def digest(self) -> str: ...
     @property
@@ -32,17 +37,34 @@ class LoadedRun:
     ) -> tuple[_FoundPath | None, str | None, int]: ...
     def write_npz(self, file: str | os.PathLike[str]) -> None: ...
 
+class Course(TypedDict):
+    """How a build goes."""
+
+    threads: int
+    max_nodes: int | None
+    max_sets: int | None
+    max_seconds: float | None
+    max_memory: int | None
+    progress: Callable[[str], object] | None
+    validity: _Validity | None
+
 def grow(
     problem: str | os.PathLike[str],
     out: str | os.PathLike[str] | None,
-    threads: int,
     seed: int | None,
-    max_nodes: int | None,
-    max_sets: int | None,
-    max_seconds: float | None,
-    max_memory: int | None,
     force: bool,
     or_resume: bool,
-    progress: Callable[[str], object] | None,
-) -> tuple[pathlib.Path, str, str, int, BaseException | None]: ...
+    course: Course,
+) -> _Grown: ...
+def go_on(
+    run: str | os.PathLike[str], changed: str | os.PathLike[str] | None, course: Course
+) -> _Grown: ...
+def verify(
+    run: str | os.PathLike[str],
+    share: float | None,
+    everything: bool,
+    sets: Sequence[str],
+    threads: int,
+    validity: _Validity,
+) -> tuple[int, int, int, str | None]: ...
 def check_problem(file: str | os.PathLike[str]) -> tuple[str, str, list[str]]: ...

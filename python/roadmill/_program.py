@@ -36,13 +36,24 @@ def find_program() -> str:
     return found
 
 
+def command(*arguments: Argument) -> list[str]:
+    """The program with these arguments. A path is never taken for an option, whatever its name begins with."""
+
+    def text(argument: Argument) -> str:
+        if not isinstance(argument, os.PathLike):
+            return str(argument)
+        path = os.fspath(argument)
+        return f"./{path}" if path.startswith("-") else path
+
+    return [find_program(), *map(text, arguments)]
+
+
 def call(*arguments: Argument) -> str:
     """Runs the program and gives what it printed on standard output.
 
     Raises the exception for its exit code, with what it printed on standard error, if that is not 0.
     """
-    command = [find_program(), *(os.fspath(a) if isinstance(a, os.PathLike) else str(a) for a in arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    done = subprocess.run(command(*arguments), capture_output=True, text=True, stdin=subprocess.DEVNULL)
     if done.returncode != 0:
         raise failure(done.returncode, said(done.stderr))
     return done.stdout

@@ -9,14 +9,19 @@ import signal
 import subprocess
 import tempfile
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import TYPE_CHECKING
 
 from . import _core
-from ._program import Argument, find_program, said
+from ._options import Crew, Limits, options, path_of, seed_of
+from ._program import Argument, command, said
 from .errors import Interrupted, failure, problem_failure
 from .problem import Problem
 from .roadmap import Roadmap
 from .status import Progress, progress_of
+from .validity import ValidityFunction
+
+if TYPE_CHECKING:
+    from ._core import Course
 
 __all__ = ["build"]
 
@@ -40,6 +45,7 @@ def build(
     progress: Callable[[Progress], object] | None = None,
     force: bool = False,
     or_resume: bool = False,
+    validity: ValidityFunction | None = None,
 ) -> Roadmap:
     """Grows a roadmap until the problem's criteria are met or a limit is reached, and gives it.
 
@@ -56,25 +62,24 @@ def build(
         progress: Is called with a `Progress` about once a second; an exception that it raises ends the build.
         force: Replace the run that `out` names.
         or_resume: Go on with the run that `out` names, if there is one of this problem.
+        validity: A function of one's own that judges configurations beside the problem's model, in `threads`.
 
     Raises:
+        ValueError, TypeError: A number cannot be what it is.
         Interrupted: Ctrl-C came; its `roadmap` is that of the last complete round.
         ProblemError: Something is wrong with a `Problem`; the message names the key.
         RoadmillError: The build could not begin or go on; see `roadmill.errors`.
     """
-    if workers is not None and threads is not None:
-        raise ValueError("workers or threads expected, not both")
-    limits = {"max_nodes": max_nodes, "max_sets": max_sets, "max_seconds": max_time, "max_memory": max_memory}
+    crew, seed = Crew(workers, threads), seed_of(seed)
+    limits = Limits(max_nodes, max_sets, max_time, max_memory)
+    in_threads = crew.threads if validity is None else crew.threads_for_function()
     with tempfile.TemporaryDirectory(prefix="roadmill-") as folder:
-        if isinstance(problem, Problem):
-            file = problem.write(pathlib.Path(folder) / _PROBLEM_FILE)
-            raised = _problem_raised(file)
-        else:
-            file, raised = pathlib.Path(problem), failure
-        if threads is not None:
-            return _in_threads(file, raised, out, threads, seed, limits, force, or_resume, progress)
+        file, raised = file_of(problem, pathlib.Path(folder))
+        if in_threads is not None:
+            course = _course(in_threads, limits, progress, validity)
+            return _in_threads(lambda: _core.grow(file, path_of(out), seed, force, or_resume, course), raised, validity)
         arguments: list[Argument] = ["build", file]
-        arguments += _options(out=out, workers=workers, seed=seed, **limits)
+        arguments += [*options(out=path_of(out), seed=seed), *crew.options(), *limits.options()]
         arguments += [flag for flag, given in (("--force", force), ("--or-resume", or_resume)) if given]
         return grown(arguments, raised, progress)
 
@@ -82,52 +87,60 @@ def build(
 def resumed(
     run: pathlib.Path,
     changed: str | os.PathLike[str] | Problem | None,
-    options: dict[str, Any],
+    crew: Crew,
+    limits: Limits,
     progress: Callable[[Progress], object] | None,
+    validity: ValidityFunction | None,
 ) -> Roadmap:
     """Goes on with a run: see `Roadmap.resume`."""
-    arguments: list[Argument] = ["resume", run, *_options(**options)]
-    if not isinstance(changed, Problem):
-        return grown([*arguments, *(["--with", changed] if changed is not None else [])], failure, progress)
     with tempfile.TemporaryDirectory(prefix="roadmill-") as folder:
-        file = changed.write(pathlib.Path(folder) / _PROBLEM_FILE)
-        return grown([*arguments, "--with", file], _problem_raised(file), progress)
+        file, raised = (None, failure) if changed is None else file_of(changed, pathlib.Path(folder))
+        if validity is not None:
+            course = _course(crew.threads_for_function(), limits, progress, validity)
+            return _in_threads(lambda: _core.go_on(run, file, course), raised, validity)
+        arguments: list[Argument] = ["resume", run, *options(**{"with": file}), *crew.options(), *limits.options()]
+        return grown(arguments, raised, progress)
 
 
-def _problem_raised(file: pathlib.Path) -> Callable[[int, str], BaseException]:
-    return lambda code, message: problem_failure(code, message, str(file))
+def file_of(
+    problem: str | os.PathLike[str] | Problem, folder: pathlib.Path
+) -> tuple[pathlib.Path, Callable[[int, str], BaseException]]:
+    """The file of a problem, written into the folder if it has none, and the exception for an exit code and a message."""
+    if not isinstance(problem, Problem):
+        return pathlib.Path(problem), failure
+    file = problem.write(folder / _PROBLEM_FILE)
+    return file, lambda code, message: problem_failure(code, message, str(file))
 
 
-def _options(**values: Argument | None) -> list[Argument]:
-    """Options of the command line for those of the values that are given."""
-    names = {"max_seconds": "max-time"}
-    options: list[Argument] = []
-    for name, value in values.items():
-        if value is not None:
-            options += [f"--{names.get(name, name).replace('_', '-')}", value]
-    return options
+def _course(
+    threads: int,
+    limits: Limits,
+    progress: Callable[[Progress], object] | None,
+    validity: ValidityFunction | None,
+) -> Course:
+    """What `roadmill._core` is told of a build."""
+    return {
+        "threads": threads,
+        "max_nodes": limits.max_nodes,
+        "max_sets": limits.max_sets,
+        "max_seconds": limits.max_time,
+        "max_memory": limits.max_memory,
+        "progress": None if progress is None else (lambda text: progress(progress_of(json.loads(text)))),
+        "validity": None if validity is None else validity.for_core(),
+    }
 
 
 def _in_threads(
-    file: pathlib.Path,
+    grow: Callable[[], tuple[pathlib.Path, str, str, int, BaseException | None]],
     raised: Callable[[int, str], BaseException],
-    out: str | os.PathLike[str] | None,
-    threads: int,
-    seed: int | None,
-    limits: dict[str, Any],
-    force: bool,
-    or_resume: bool,
-    progress: Callable[[Progress], object] | None,
+    validity: ValidityFunction | None,
 ) -> Roadmap:
     """Builds in threads of this process."""
-    told = None if progress is None else (lambda text: progress(progress_of(json.loads(text))))
     try:
-        run, _, reason, code, error = _core.grow(
-            file, out, threads, seed, force=force, or_resume=or_resume, progress=told, **limits
-        )
+        run, _, reason, code, error = grow()
     except _core.Failure as failed:
         raise raised(*failed.args) from None
-    roadmap = Roadmap(run)
+    roadmap = Roadmap(run, validity=validity)
     if isinstance(error, KeyboardInterrupt):
         raise Interrupted(reason, roadmap) from None
     if error is not None:
@@ -144,10 +157,9 @@ def grown(
 ) -> Roadmap:
     """Runs a command of the program that grows a roadmap, and tells how far it is. The program gets a session of its own, so
     that Ctrl-C at a terminal reaches this process alone, which passes it on once."""
-    command = [find_program(), *(os.fspath(a) if isinstance(a, os.PathLike) else str(a) for a in arguments), "--json"]
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as errors:
         child = subprocess.Popen(
-            command,
+            command(*arguments, "--json"),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=errors,

@@ -10,7 +10,7 @@
 | 6 | `Interrupted` | a signal, as Ctrl-C, ended a build; the last complete round is saved |
 | 7 | `NotTheSame` | what was recomputed by `Roadmap.verify` differs from what is recorded |
 
-`build` does not raise `NoSuccess` for a build that ends at a limit: there is a roadmap then, whose `status()` says why it ended.
+A number that cannot be, as 0 workers, is a `ValueError` before anything is begun. `build` does not raise `NoSuccess` for a build that ends at a limit: there is a roadmap then, whose `status()` says why it ended.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Problems made of values: what a problem file says, said in Python.
 
-Every key of docs/problems.md has the same name here. What is said is written as a problem file, which the program reads, so
+Every key of docs/problems.md has the same name here, but those of `[limits]`, which are called as in `build`. What is said is written as a problem file, which the program reads, so
 that the program alone decides what is right: its errors come back as `ProblemError`, with the key.
 """
 

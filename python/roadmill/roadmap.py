@@ -18,7 +18,8 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import Arrays, mapped
-from ._program import Argument, call
+from ._options import Crew, Limits, options, whole
+from ._program import call
 from .errors import NoSuccess, RoadmillError, failure
 from .paths import Answer, Path, of_bytes
 from .status import Progress, Status, status_of
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     import networkx
 
     from .problem import Problem
+    from .validity import ValidityFunction
 
 __all__ = ["Roadmap"]
 
@@ -43,16 +45,21 @@ class Roadmap:
 
     Nothing is read before it is needed. Then the ledger is read once and checked, and kept for queries; the arrays are
     read-only views of a file in memory. A `Roadmap` does not follow a build that goes on: make a new one for that.
+
+    A run whose configurations a function judged (`build(…, validity=…)`) needs that function, with the same identity, for `query`,
+    `ask`, `resume` and `verify`; `paths` of such a run cannot be had, since the program, which looks for them, has no function.
     """
 
-    def __init__(self, run: str | os.PathLike[str]) -> None:
+    def __init__(self, run: str | os.PathLike[str], *, validity: ValidityFunction | None = None) -> None:
         self.run = pathlib.Path(run)
         """The run folder."""
+        self.validity = validity
+        """The function that judges configurations beside the model."""
 
     @cached_property
     def _loaded(self) -> _core.LoadedRun:
         try:
-            return _core.LoadedRun(self.run)
+            return _core.LoadedRun(self.run, None if self.validity is None else self.validity.for_core())
         except _core.Failure as failed:
             raise failure(*failed.args) from None
 
@@ -166,7 +173,7 @@ class Roadmap:
             shorten: Whether the path is made shorter, by 200 shortcuts or the number that is given.
 
         Raises:
-            UsageError: A configuration is not valid.
+            UsageError: A configuration is not valid, or the run's validity function is missing.
         """
         return self.ask(start, goal, shorten=shorten).path
 
@@ -179,7 +186,7 @@ class Roadmap:
     ) -> Answer:
         """As `query`; says also why there is no path."""
         start, goal = self._ends(start, goal)
-        tries = (_SHORTEN_TRIES if shorten else None) if isinstance(shorten, bool) else shorten
+        tries = (_SHORTEN_TRIES if shorten else None) if isinstance(shorten, bool) else whole("shorten", shorten, 0, 2**32 - 1)
         try:
             found, reason, dropped = self._loaded.query(start, goal, tries)
         except _core.Failure as failed:
@@ -215,18 +222,19 @@ class Roadmap:
             dissimilar: Only paths that far apart from each other, or as far as the program chooses.
             distinct: The shortest of each class of paths that pass the obstacles alike.
         """
-        options: list[Argument] = ["--count", count]
-        for name, q in (("--start", start), ("--goal", goal)):
-            if q is not None:
-                options += [name, " ".join(repr(float(value)) for value in q)]
+        told = {
+            name: None if q is None else " ".join(repr(float(value)) for value in q)
+            for name, q in (("start", start), ("goal", goal))
+        }
+        arguments = options(count=whole("count", count), **told)
         if dissimilar:
-            options += ["--dissimilar"] if dissimilar is True else [f"--dissimilar={dissimilar!r}"]
+            arguments += ["--dissimilar"] if dissimilar is True else options(dissimilar=dissimilar)
         if distinct:
-            options.append("--distinct")
+            arguments.append("--distinct")
         with tempfile.TemporaryDirectory(prefix="roadmill-") as folder:
             out = pathlib.Path(folder) / "paths"
             try:
-                call("paths", self.run, *options, "--out", out)
+                call("paths", self.run, *arguments, *options(out=out))
             except NoSuccess:
                 return []
             with open(out / "paths.csv", newline="", encoding="utf-8") as table:
@@ -258,17 +266,30 @@ class Roadmap:
         Raises:
             NotTheSame: Something differs.
         """
-        options: list[Argument] = []
-        if share is not None:
-            options += ["--sample", f"{100 * share!r}%"]
+        crew = Crew(workers, threads)
+        if share is not None and not 0 < share <= 1:
+            raise ValueError(f"share: {share} found; more than 0, at most 1 expected")
+        if (share is not None) + everything + bool(sets) > 1:
+            raise ValueError("share, everything or sets expected, not several of them")
+        if self.validity is not None:
+            return self._verified_here(share, everything, sets, crew.threads_for_function())
+        arguments = options(sample=None if share is None else f"{100 * share!r}%")
         if everything:
-            options.append("--all")
+            arguments.append("--all")
         for name in sets:
-            options += ["--set", name]
-        for name, count in (("--workers", workers), ("--threads", threads)):
-            if count is not None:
-                options += [name, count]
-        return call("verify", self.run, *options)
+            arguments += options(set=name)
+        return call("verify", self.run, *arguments, *crew.options())
+
+    def _verified_here(self, share: float | None, everything: bool, sets: Sequence[str], threads: int) -> str:
+        """The report of `verify`, by this process, which has the validity function."""
+        assert self.validity is not None
+        try:
+            found = _core.verify(self.run, share, everything, list(sets), threads, self.validity.for_core())
+        except _core.Failure as failed:
+            raise failure(*failed.args) from None
+        recomputed, recorded, judgements, digest = found
+        report = f"{recomputed} of {recorded} sets and {judgements} judgements recomputed: all as recorded\n"
+        return report if digest is None else f"{report}digest {digest}\n"
 
     def resume(
         self,
@@ -293,14 +314,14 @@ class Roadmap:
         """
         from .build import resumed
 
-        limits = {"max_nodes": max_nodes, "max_sets": max_sets, "max_seconds": max_time, "max_memory": max_memory}
-        return resumed(self.run, changed, {"workers": workers, "threads": threads, **limits}, progress)
+        limits = Limits(max_nodes, max_sets, max_time, max_memory)
+        return resumed(self.run, changed, Crew(workers, threads), limits, progress, self.validity)
 
     def export(self, file: str | os.PathLike[str], format: str | None = None) -> pathlib.Path:
         """Writes the roadmap for other programs and gives the file's path. The format is that of the file's extension
         (`graphml`, `csv`, `npz`, `map`, `svg`, `vtk`, `pdb`, `dcd`, `xtc`) if none is named; docs/formats.md describes them."""
         place = pathlib.Path(file)
-        call("export", self.run, "--format", format or place.suffix.removeprefix("."), "--out", place)
+        call("export", self.run, *options(format=format or place.suffix.removeprefix("."), out=place))
         return place
 
     def to_networkx(self) -> networkx.Graph[int]:

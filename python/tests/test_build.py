@@ -118,6 +118,55 @@ def test_workers_or_threads(problems: pathlib.Path) -> None:
         roadmill.build(problems / "maze.toml", workers=1, threads=1)
 
 
+@pytest.mark.parametrize(
+    ("wrong", "kind", "told"),
+    [
+        ({"workers": 0}, ValueError, "workers: 0 found; 1 to 4096 expected"),
+        ({"threads": 0}, ValueError, "threads: 0 found; 1 to 4096 expected"),
+        ({"threads": 5000}, ValueError, "threads: 5000 found; 1 to 4096 expected"),
+        ({"seed": -1}, ValueError, "seed: -1 found; 0 to 18446744073709551615 expected"),
+        ({"seed": -1, "threads": 1}, ValueError, "seed: -1 found"),
+        ({"seed": 2**64, "threads": 1}, ValueError, "seed: 18446744073709551616 found"),
+        ({"seed": 1.5}, TypeError, "seed: 1.5 found; a whole number expected"),
+        ({"max_nodes": 0}, ValueError, "max_nodes: 0 found; 1 to"),
+        ({"max_nodes": True}, TypeError, "max_nodes: True found; a whole number expected"),
+        ({"max_sets": -3, "threads": 1}, ValueError, "max_sets: -3 found; 1 to"),
+        ({"max_memory": 0, "threads": 1}, ValueError, "max_memory: 0 found; 1 to"),
+        ({"max_time": 0.0}, ValueError, "max_time: 0.0 found; a positive number of seconds expected"),
+        ({"max_time": float("nan"), "threads": 1}, ValueError, "max_time: nan found"),
+    ],
+)
+def test_numbers_that_cannot_be_are_errors_of_the_caller(
+    problems: pathlib.Path, tmp_path: pathlib.Path, wrong: dict[str, Any], kind: type[Exception], told: str
+) -> None:
+    with pytest.raises(kind, match=f"^{re.escape(told)}"):
+        roadmill.build(problems / "maze.toml", out=tmp_path / "run", **wrong)
+    if "seed" not in wrong:
+        with pytest.raises(kind, match=f"^{re.escape(told)}"):
+            roadmill.Roadmap(tmp_path / "run").resume(**wrong)
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize("crew", [{"workers": 1}, {"threads": 1}])
+def test_a_name_that_begins_with_a_hyphen_is_no_option(
+    problems: pathlib.Path, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch, crew: dict[str, Any]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    pathlib.Path("-maze.toml").write_text((problems / "maze.toml").read_text())
+    roadmap = roadmill.build("-maze.toml", out="--run", **crew)
+    assert roadmap.status().satisfied and pathlib.Path("--run/ledger").is_file()
+    assert roadmap.export("-map.csv", format="csv").exists()
+    assert "all as recorded" in roadmap.verify(threads=1)
+    assert roadmap.resume(**crew).digest == roadmap.digest
+
+
+def test_a_number_below_zero_is_no_option(tmp_path: pathlib.Path) -> None:
+    ball = roadmill.Robot([roadmill.Body(roadmill.Sphere(0.1))])
+    room = roadmill.Problem("room", space=roadmill.Space("translation-2d", [-1, -1], [1, 1]), robot=ball)
+    roadmap = roadmill.build(room, out=tmp_path / "room", threads=1, max_sets=2)
+    assert len(roadmap.paths(1, start=[-0.5, -0.5], goal=[0.5, 0.5])) == 1
+
+
 def test_every_exit_code_has_its_exception() -> None:
     kinds = {code: roadmill.errors.failure(code, "why") for code in range(1, 8)}
     assert {code: kind.code for code, kind in kinds.items()} == {code: code for code in range(1, 8)}

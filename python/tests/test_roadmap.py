@@ -130,6 +130,10 @@ def test_verify(walls: roadmill.Roadmap) -> None:
     assert walls.verify(threads=1)
     assert walls.verify(sets=["uniform:0"], workers=1)
     assert walls.verify(share=0.1, threads=2)
+    with pytest.raises(ValueError, match="share: 0 found; more than 0, at most 1 expected"):
+        walls.verify(share=0)
+    with pytest.raises(ValueError, match="not several of them"):
+        walls.verify(share=0.1, everything=True)
 
 
 def test_what_differs_or_is_damaged_is_an_error(walls: roadmill.Roadmap, tmp_path: pathlib.Path) -> None:

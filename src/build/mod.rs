@@ -11,6 +11,7 @@ use crate::cancel::Cancel;
 use crate::img::{
     self, Cut, InProcess, Job, Judgement, Observer, Progress, Round, Serial, Setup, Stop, Threads,
 };
+use crate::model::{FunctionFailed, with_functions};
 use crate::numbers::RoundNumber;
 use crate::problem::Problem;
 use crate::roadmap::{Roadmap, Tally};
@@ -65,6 +66,9 @@ pub enum BuildError {
     /// A job that panicked as often as it was tried.
     #[error("{0} panicked {losses} times", losses = img::LOSSES_MAX)]
     Panicked(Job),
+    /// The problem's validity function failed, gave two answers, or is not here.
+    #[error(transparent)]
+    Function(FunctionFailed),
     /// A job that came to something it cannot come to, or to two different things: the machine or the program is
     /// broken.
     #[error("{0} came to what it cannot come to: the machine or the program is broken")]
@@ -103,7 +107,7 @@ impl<'a> Build<'a> {
     /// cancelled; [`Built::stop`] says which.
     ///
     /// # Errors
-    /// When threads cannot be started, or jobs panic or contradict themselves.
+    /// When threads cannot be started, jobs panic or contradict themselves, or the problem's validity function fails.
     pub fn run(mut self) -> Result<Built, BuildError> {
         let setup = self.setup.clone();
         match self.threads {
@@ -122,15 +126,23 @@ impl<'a> Build<'a> {
             cancel: self.cancel.clone(),
             rounds: Vec::new(),
             judgement: self.judgement.take(),
+            setup: self.setup.clone(),
         };
+        if let Err(message) = self.setup.problem.clone().supplied_with(None) {
+            return Err(BuildError::Function(FunctionFailed { message, cause: None }));
+        }
         let past = std::mem::take(&mut self.past);
         let (setup, judged) = (&self.setup, watch.judgement.clone());
         let judged = judged.filter(|judged| judged.round.next() == RoundNumber(past.len() as u64));
+        let grow = || img::grow(setup, executor, lookahead, &past, judged, &mut watch);
         let (stop, roadmap): (Stop, Roadmap) =
-            match img::grow(setup, executor, lookahead, &past, judged, &mut watch) {
+            match with_functions(grow).map_err(BuildError::Function)? {
                 Ok(ended) => ended,
                 Err(never) => match never {},
             };
+        if let Some(failed) = function_failure(&self.setup) {
+            return Err(BuildError::Function(failed.clone()));
+        }
         match stop {
             Stop::Deadly(job) => return Err(BuildError::Panicked(job)),
             Stop::Contradiction(job, _) | Stop::Nonsense(job) => {
@@ -151,6 +163,12 @@ struct Watch<'a> {
     cancel: Cancel,
     rounds: Vec<Round>,
     judgement: Option<Judgement>,
+    setup: Arc<Setup>,
+}
+
+/// Why the problem's validity function failed, if it did.
+fn function_failure(setup: &Setup) -> Option<&FunctionFailed> {
+    setup.problem.validity_function()?.failure()
 }
 
 impl Observer for Watch<'_> {
@@ -175,6 +193,7 @@ impl Observer for Watch<'_> {
         if let Some(tell) = &mut self.progress {
             tell(progress);
         }
-        Ok(self.cancel.is_cancelled().then_some(Cut::Interrupted))
+        let ends = self.cancel.is_cancelled() || function_failure(&self.setup).is_some();
+        Ok(ends.then_some(Cut::Interrupted))
     }
 }

@@ -1,4 +1,5 @@
 use super::{Generator, Parent, Reads};
+use crate::cancel::Cancel;
 use crate::context::Context;
 use crate::digest::Digest;
 use crate::finder::{Finder, KNearest};
@@ -7,7 +8,7 @@ use crate::methods::Complaint;
 use crate::model::{SceneChange, Scratch};
 use crate::numbers::NodeId;
 use crate::query::{Attachment, attach};
-use crate::replan::{Revalidation, retried};
+use crate::replan::{Revalidation, retried_until};
 use crate::roadmap::{Configs, Edge, Increment, Roadmap};
 use crate::sampler::GaveUp;
 use crate::seed::Seed;
@@ -154,12 +155,26 @@ impl Survivors {
 
     /// What is left of the parent's roadmap in the scene of `cx`.
     pub fn survived(&self, cx: &Context, scratch: &mut Scratch) -> Survived {
+        let survived = self.survived_until(cx, &Cancel::new(), scratch);
+        survived.expect("nothing ends it before it is done")
+    }
+
+    /// [`Survivors::survived`]; `None` where `cancel` ends it before it is done. It is asked between two nodes or edges.
+    pub fn survived_until(
+        &self,
+        cx: &Context,
+        cancel: &Cancel,
+        scratch: &mut Scratch,
+    ) -> Option<Survived> {
         let parent = self.parent.roadmap();
         let mut revalidation = Revalidation::new(cx, &self.change);
         let mut made = Increment::empty(cx.space.len());
         // What each node of the parent is called now.
         let mut names: Vec<Option<NodeId>> = Vec::with_capacity(parent.len());
         for node in 0..parent.len() {
+            if cancel.is_cancelled() {
+                return None;
+            }
             let q = parent.config(node);
             let name = NodeId(made.configs.len() as u32);
             names.push(revalidation.keeps_node(q, scratch).then(|| {
@@ -168,6 +183,9 @@ impl Survivors {
             }));
         }
         for ([low, high], tag) in parent.edges().iter().zip(&*self.planners) {
+            if cancel.is_cancelled() {
+                return None;
+            }
             let (Some(low), Some(high)) = (names[low.index()], names[high.index()]) else {
                 continue;
             };
@@ -181,7 +199,11 @@ impl Survivors {
         let checked = revalidation.checked();
         let planners = self.planners_of_edges();
         let graph = (&made.configs, &made.edges[..]);
-        let new = retried(cx, &self.change, graph, self.neighbors, &planners, scratch);
+        let asked = (self.neighbors, &planners[..]);
+        let new = retried_until(cx, &self.change, graph, asked, cancel, scratch);
+        if cancel.is_cancelled() {
+            return None;
+        }
         let new_edges = new.len();
         made.edges.extend(new);
         let increment = match &self.start {
@@ -189,7 +211,7 @@ impl Survivors {
             None => made,
         };
         let dropped_nodes = valid_nodes - increment.configs.len();
-        Survived { increment, valid_nodes, valid_edges, checked, new_edges, dropped_nodes }
+        Some(Survived { increment, valid_nodes, valid_edges, checked, new_edges, dropped_nodes })
     }
 
     /// The planners that joined the parent's edges, in the order of their tags; straight lines where it has none.

@@ -3,6 +3,7 @@ use crate::connect::JoinInput;
 use crate::digest::Digest;
 use crate::model::Scratch;
 use crate::numbers::{EvaluatorIndex, Ordinal, StrategyIndex};
+use crate::problem::Problem;
 use crate::roadmap::Roadmap;
 use crate::seed::Seed;
 use crate::wire;
@@ -19,7 +20,7 @@ pub fn canary(setup: &Setup) -> Digest {
     // A strategy that grows finds no node to grow from.
     let frozen = setup.grows(strategy).then(|| Arc::new(Roadmap::new(&setup.cx.space)));
     let task = Task::Generate { strategy, ordinal: Ordinal(u64::MAX), frozen };
-    let outcome: Outcome = task.run(&small, &mut Scratch::new());
+    let outcome: Outcome = task.run_by(&small, &setup.cx, &mut Scratch::new());
     Digest::of(&wire::encode(&outcome))
 }
 
@@ -28,43 +29,44 @@ pub fn canary(setup: &Setup) -> Digest {
 /// machines that need not be alike.
 pub fn canaries(setup: &Setup) -> Digest {
     let small = small(setup);
-    let mut replica = Replica::new(&small);
+    let mut replica = Replica::new(setup);
     let mut scratch = Scratch::new();
     let mut all = Vec::new();
-    for index in 0..small.problem.strategies.len() as u32 {
+    for index in 0..small.strategies.len() as u32 {
         let strategy = StrategyIndex(index);
         let ordinal = Ordinal(u64::MAX);
-        let frozen = small.grows(strategy).then(|| replica.roadmap().clone());
-        let made = Task::Generate { strategy, ordinal, frozen }.run(&small, &mut scratch);
+        let frozen = setup.grows(strategy).then(|| replica.roadmap().clone());
+        let made =
+            Task::Generate { strategy, ordinal, frozen }.run_by(&small, &setup.cx, &mut scratch);
         all.extend(wire::encode(&made));
         // One that found nothing is joined to nothing.
         let Outcome::Increment(Ok(increment)) = made else { continue };
-        replica.publish(&small, Arc::new(increment));
-        let label = small.problem.strategies[strategy.index()].label();
+        replica.publish(setup, Arc::new(increment));
+        let label = small.strategies[strategy.index()].label();
         let input = JoinInput {
             roadmap: replica.roadmap().clone(),
             increments: replica.increments().to_vec(),
-            seed: Seed::of_set(small.cx.base_seed, label, ordinal),
+            seed: Seed::of_set(setup.cx.base_seed, label, ordinal),
         };
-        let joined = Task::Join { strategy, input }.run(&small, &mut scratch);
+        let joined = Task::Join { strategy, input }.run_by(&small, &setup.cx, &mut scratch);
         all.extend(wire::encode(&joined));
         if let Outcome::Joined(joined) = joined {
-            replica.fold(&small, std::iter::once(&joined.edges[..]));
+            replica.fold(setup, std::iter::once(&joined.edges[..]));
         }
     }
-    for evaluator in (0..small.problem.evaluators.len() as u32).map(EvaluatorIndex) {
+    for evaluator in (0..small.evaluators.len() as u32).map(EvaluatorIndex) {
         let roadmap = replica.roadmap().clone();
-        let verdict = Task::Evaluate { evaluator, roadmap }.run(&small, &mut scratch);
+        let verdict = Task::Evaluate { evaluator, roadmap }.run_by(&small, &setup.cx, &mut scratch);
         all.extend(wire::encode(&verdict));
     }
     Digest::of(&all)
 }
 
 /// The same problem with sets of a few nodes.
-fn small(setup: &Setup) -> Setup {
+fn small(setup: &Setup) -> Problem {
     let mut problem = setup.problem.clone();
     for strategy in &mut problem.strategies {
         strategy.nodes = strategy.nodes.min(NODES);
     }
-    Setup { problem, cx: setup.problem.context(), plan: setup.plan.clone() }
+    problem
 }

@@ -1,8 +1,10 @@
 use super::Setup;
 use crate::connect::JoinInput;
+use crate::context::Context;
 use crate::evaluate::Verdict;
 use crate::model::Scratch;
 use crate::numbers::{EvaluatorIndex, Ordinal, RoundNumber, SetNumber, StrategyIndex};
+use crate::problem::Problem;
 use crate::roadmap::{Digest, Full, Increment, Joined, Roadmap};
 use crate::sampler::GaveUp;
 use bincode::de::{Decode, Decoder};
@@ -145,21 +147,25 @@ impl Task {
     /// Does the work. The outcome depends on the problem and the task alone, never on what
     /// `scratch` held.
     pub fn run(&self, setup: &Setup, scratch: &mut Scratch) -> Outcome {
-        let cx = &setup.cx;
+        self.run_by(&setup.problem, &setup.cx, scratch)
+    }
+
+    /// The same by the strategies and evaluators of this problem, of whose space and model `cx` is made.
+    pub(super) fn run_by(&self, problem: &Problem, cx: &Context, scratch: &mut Scratch) -> Outcome {
         match self {
             Task::Generate { strategy, ordinal, frozen } => {
-                let strategy = &setup.problem.strategies[strategy.index()];
+                let strategy = &problem.strategies[strategy.index()];
                 let frozen = frozen.as_deref();
                 Outcome::Increment(strategy.generate(cx, *ordinal, frozen, scratch))
             }
             Task::Join { strategy, input } => {
-                let strategy = &setup.problem.strategies[strategy.index()];
+                let strategy = &problem.strategies[strategy.index()];
                 scratch.take_asked();
                 let edges = strategy.among.method().connect(cx, input, scratch);
                 Outcome::Joined(Joined { edges, asked: scratch.take_asked() })
             }
             Task::Evaluate { evaluator, roadmap } => {
-                let method = setup.problem.evaluators[evaluator.index()].method();
+                let method = problem.evaluators[evaluator.index()].method();
                 let verdict = method.evaluate(cx, &evaluator.to_string(), roadmap, scratch);
                 Outcome::Verdict(Box::new(verdict))
             }

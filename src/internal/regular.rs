@@ -2,7 +2,7 @@
 
 use rustix::fs::{Mode, OFlags, open};
 use std::fs::{self, File, FileType};
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Read};
 use std::os::unix::fs::FileTypeExt;
 use std::path::Path;
 
@@ -30,6 +30,49 @@ pub fn open_regular(path: &Path, access: OFlags) -> io::Result<File> {
     match not_regular(file.metadata()?.file_type()) {
         Some(error) => Err(error),
         None => Ok(file),
+    }
+}
+
+/// The most bytes of a file that is read whole into memory, 2 GiB: far more than any problem, mesh or structure has. A larger file
+/// is a mistake, and reading it would take the memory of the whole machine.
+pub const WHOLE_MAX: u64 = 2 << 30;
+
+/// The bytes of a regular file, opened as [`open_regular`] does; at most [`WHOLE_MAX`].
+///
+/// # Errors
+/// As [`open_regular`]; what the system says; or that the file has more bytes.
+pub fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
+    read_bounded(path, WHOLE_MAX)
+}
+
+/// [`read_regular`] as text.
+///
+/// # Errors
+/// As [`read_regular`]; or that the bytes are no UTF-8.
+pub fn read_regular_text(path: &Path) -> io::Result<String> {
+    String::from_utf8(read_regular(path)?).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let message = format!("no UTF-8 from byte {at} on; text expected");
+        io::Error::new(ErrorKind::InvalidData, message)
+    })
+}
+
+fn read_bounded(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let file = open_regular(path, OFlags::RDONLY)?;
+    let length = file.metadata()?.len();
+    let too_long = |found: String| {
+        let message = format!("{found} found; at most {most} expected");
+        Err(io::Error::new(ErrorKind::FileTooLarge, message))
+    };
+    if length > most {
+        return too_long(format!("{length} bytes"));
+    }
+    let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
+    // A file may grow while it is read.
+    file.take(most + 1).read_to_end(&mut bytes)?;
+    match bytes.len() as u64 > most {
+        true => too_long(format!("more than {most} bytes")),
+        false => Ok(bytes),
     }
 }
 
@@ -79,5 +122,25 @@ mod tests {
             let error = open_regular(&path, access).unwrap_err().to_string();
             assert!(error.starts_with(found), "{}: {error}", path.display());
         }
+    }
+
+    #[test]
+    fn files_are_read_whole_or_not_at_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        fs::write(&file, "text").unwrap();
+        assert_eq!(read_bounded(&file, 4).unwrap(), b"text");
+        assert_eq!(read_regular_text(&file).unwrap(), "text");
+        let error = read_bounded(&file, 3).unwrap_err().to_string();
+        assert_eq!(error, "4 bytes found; at most 3 expected");
+        fs::write(&file, b"te\xff").unwrap();
+        let error = read_regular_text(&file).unwrap_err().to_string();
+        assert_eq!(error, "no UTF-8 from byte 2 on; text expected");
+        // It has no blocks on the disk: only its length is looked at.
+        File::create(&file).unwrap().set_len(WHOLE_MAX + 1).unwrap();
+        let error = read_regular(&file).unwrap_err().to_string();
+        assert!(error.starts_with("2147483649 bytes found"), "{error}");
+        let error = read_regular(Path::new("/dev/zero")).unwrap_err().to_string();
+        assert!(error.starts_with("a device found"), "{error}");
     }
 }

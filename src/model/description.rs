@@ -1,5 +1,8 @@
 use super::bodies::foreign::SceneOptions;
-use super::{Figure, Model, ModelKind, Molecule, NodeValue, PoseFound, PoseGoal, SceneChange};
+use super::{
+    Figure, Model, ModelKind, Molecule, NodeValue, PoseFound, PoseGoal, SceneChange,
+    ValidityFunction,
+};
 use crate::digest::SourceFile;
 use crate::seed::Seed;
 use crate::source::{ProblemError, Source};
@@ -38,6 +41,20 @@ pub trait Description {
 
     /// Makes the model ready for work.
     fn prepare(&self) -> Box<dyn Model>;
+
+    /// Whether a program's own function can judge configurations beside the model: of a model of whose motions nothing is promised
+    /// but that they are valid at steps.
+    ///
+    /// # Errors
+    /// What was found that is in the way.
+    fn takes_function(&self) -> Result<(), &'static str> {
+        Err("another model than that of bodies found")
+    }
+
+    /// [`Description::prepare`], with a function beside the model; without it of a model that takes none.
+    fn prepare_with(&self, _function: &ValidityFunction) -> Box<dyn Model> {
+        self.prepare()
+    }
 
     /// The first thing in which another description of the same kind of model differs, for people to read
     /// ("the robot"); `None` where they are equal.

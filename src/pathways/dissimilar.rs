@@ -166,7 +166,7 @@ fn over_nodes(
     let mut routes = Vec::new();
     let mut candidates = ViaNodes::of(ways, asked.rank);
     while routes.len() < asked.tries && ways.failed.len() <= FAILED_MAX && !cancel.is_cancelled() {
-        let Some(route) = candidates.next(ways, tried) else { break };
+        let Some(route) = candidates.next(ways, tried, cancel) else { break };
         if ways.passes(&route, scratch) {
             tried.add(&route);
             routes.push(route);
@@ -191,14 +191,11 @@ fn far_route(
     let mut candidates = ViaNodes::of(ways, asked.rank);
     while ways.failed.len() <= FAILED_MAX && !cancel.is_cancelled() {
         let is_far = |node: NodeId| {
-            if cancel.is_cancelled() {
-                return false;
-            }
             let q = ways.config(node);
             let is_far = |of: &&Frames| of.apart(ways.cx, q, scratch) >= asked.distance;
             node != from && node != to && accepted.iter().all(is_far)
         };
-        let route = candidates.next_over(ways, tried, is_far)?;
+        let route = candidates.next_over(ways, tried, cancel, is_far)?;
         tried.add(&route);
         if ways.passes(&route, scratch) {
             return Some(route);

@@ -46,8 +46,8 @@ pub struct DistinctPathways {
 /// the class that it has come to, if it is the shortest there, but in the plane for none. Costs are lengths, or whatever
 /// the model's motions cost.
 ///
-/// The search ends when `cancel` says so, with what is found by then ([`Pathways::is_cut`]): routes that are not shortened yet are
-/// given as they are.
+/// The search ends when `cancel` says so, with what is found by then ([`Pathways::is_cut`]): the classes of routes that were looked at
+/// closely. If there is none yet, the first route that has a class is given as it is.
 ///
 /// # Errors
 /// A path would have too many frames.
@@ -77,6 +77,10 @@ pub fn distinct(
     let mut best: BTreeMap<PathClass, Pathway> = BTreeMap::new();
     let tried = routes.len();
     for route in &routes {
+        // To tell a route's class may take long.
+        if cancel.is_cancelled() && !best.is_empty() {
+            break;
+        }
         let path = ways.path(route);
         let mut of_route = None;
         for form in forms(cx, path, asked, cancel, scratch) {
@@ -157,7 +161,7 @@ fn in_space(
     let mut candidates = ViaNodes::of(ways, Rank::Cost);
     let mut failures = 0;
     while routes.len() < asked.tries && failures <= asked.tries && !cancel.is_cancelled() {
-        let Some(route) = candidates.next(ways, &tried) else { break };
+        let Some(route) = candidates.next(ways, &tried, cancel) else { break };
         if ways.passes(&route, scratch) {
             tried.add(&route);
             routes.push(route);

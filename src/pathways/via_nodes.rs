@@ -1,6 +1,7 @@
 //! Candidates for alternative routes: over each node by the best route to it and the best route from it.
 
 use super::k_best::value;
+use crate::cancel::Cancel;
 use crate::numbers::NodeId;
 use crate::query::Ways;
 use crate::roadmap::{Rank, Route};
@@ -38,9 +39,10 @@ impl ViaNodes {
         ViaNodes { candidates, trees, next: 0 }
     }
 
-    /// The next best route that visits no node twice and is not too much like one that was tried, and what it comes to.
-    pub fn next(&mut self, ways: &Ways, tried: &Tried) -> Option<Route> {
-        self.next_over(ways, tried, |_| true)
+    /// The next best route that visits no node twice and is not too much like one that was tried, and what it comes to. `None`
+    /// where there is none, or once `cancel` says so: many candidates may have to be passed over.
+    pub fn next(&mut self, ways: &Ways, tried: &Tried, cancel: &Cancel) -> Option<Route> {
+        self.next_over(ways, tried, cancel, |_| true)
     }
 
     /// The same, over nodes that are wanted alone.
@@ -48,9 +50,12 @@ impl ViaNodes {
         &mut self,
         ways: &Ways,
         tried: &Tried,
+        cancel: &Cancel,
         mut is_wanted: impl FnMut(NodeId) -> bool,
     ) -> Option<Route> {
-        while let Some((_, node)) = self.candidates.get(self.next) {
+        while let Some((_, node)) =
+            self.candidates.get(self.next).filter(|_| !cancel.is_cancelled())
+        {
             self.next += 1;
             if !is_wanted(*node) {
                 continue;

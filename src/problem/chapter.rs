@@ -2,6 +2,7 @@
 //! strategies. What is there already stays what it was.
 
 use super::Problem;
+use crate::model::ValidityFunction;
 use crate::numbers::StrategyIndex;
 use crate::schedule::Adaptive;
 use crate::strategy::Strategy;
@@ -112,6 +113,7 @@ impl Problem {
         let Problem {
             seed,
             model,
+            function,
             name: _,
             query: _,
             strategies: _,
@@ -127,6 +129,14 @@ impl Problem {
         } = self;
         if *seed != other.seed {
             return Some(format!("the seed is {}, {seed} expected", other.seed));
+        }
+        if *function != other.function {
+            let name = |function: &Option<ValidityFunction>| match function {
+                Some(function) => format!("the validity function `{}`", function.identity()),
+                None => "no validity function".to_owned(),
+            };
+            let (found, expected) = (name(&other.function), name(function));
+            return Some(format!("{found} found, {expected} expected"));
         }
         let what = model.description().difference(&other.model)?;
         // A changed mesh shows in the file that it comes from.

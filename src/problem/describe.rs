@@ -20,6 +20,11 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
     writeln!(out, "problem          {} (seed {})", plain(&problem.name), problem.seed)?;
     writeln!(out, "configuration    {}", plain(&space.form()))?;
     problem.model.description().describe(out);
+    if let Some(function) = &problem.function {
+        let judges =
+            "judges configurations too; it is sampled along motions, of which nothing is proved";
+        writeln!(out, "function         {}: {judges}", plain(function.identity()))?;
+    }
     if let Some(query) = &problem.query {
         for (name, q) in [("start", &query.start), ("goal", &query.goal)] {
             let values = &q[..q.len().min(VALUES_SHOWN)];

@@ -20,6 +20,7 @@ pub(super) fn problem_of(path: &Path, imported: ForeignProblem) -> Result<Proble
         name,
         seed: DEFAULT_SEED,
         model,
+        function: None,
         query: None,
         strategies,
         schedule,

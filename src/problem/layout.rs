@@ -3,7 +3,7 @@
 //! A layout never changes: a ledger of years ago must stay readable, and its problem's digest what it was. A
 //! problem that the first layout can say, one of bodies whose sets are all sampled, has it; every other
 //! problem has the second. New models, generators and other methods come as new variants at the end of their enums,
-//! which changes the bytes of no problem without them; what even the second layout cannot say will be a third.
+//! which changes the bytes of no problem without them. A problem with a validity function has the third layout.
 
 use super::{EarlierSchedule, Limits, Problem};
 use crate::BITS_VERSION;
@@ -12,8 +12,8 @@ use crate::context::Ends;
 use crate::digest::{Digest, SourceFile};
 use crate::evaluate::EvaluatorKind;
 use crate::generator::{GeneratorKind, Sample};
-use crate::model::ModelKind;
 use crate::model::bodies::Bodies;
+use crate::model::{ModelKind, ValidityFunction};
 use crate::numbers::StrategyIndex;
 use crate::sampler::SamplerKind;
 use crate::schedule::Adaptive;
@@ -31,6 +31,8 @@ pub enum Layout {
     First,
     /// Any model and any strategy.
     Second,
+    /// The same, and a validity function.
+    Third,
 }
 
 /// A strategy in the first layout.
@@ -70,7 +72,15 @@ struct SecondProblem {
     rest: Rest<SecondStrategy>,
 }
 
-/// What both layouts end with.
+/// A problem in the third layout.
+#[derive(Encode, Decode)]
+struct ThirdProblem {
+    second: SecondProblem,
+    /// The identity of the validity function.
+    function: String,
+}
+
+/// What all layouts end with.
 #[derive(Encode, Decode)]
 struct Rest<S> {
     query: Option<Ends>,
@@ -151,6 +161,7 @@ impl<S> Rest<S> {
             name,
             seed,
             model,
+            function: None,
             query: self.query,
             strategies: self.strategies.into_iter().map(Strategy::from).collect(),
             schedule: self.schedule,
@@ -168,6 +179,9 @@ impl<S> Rest<S> {
 
 /// What the first layout has to say a problem: its model and its strategies, if it can.
 fn first(problem: &Problem) -> Option<(&Bodies, Vec<FirstStrategy>)> {
+    if problem.function.is_some() {
+        return None;
+    }
     Some((problem.model.bodies()?, first_strategies(&problem.strategies)?))
 }
 
@@ -183,7 +197,14 @@ impl Problem {
             None => {
                 let strategies = second_strategies(&self.strategies);
                 let (model, rest) = (self.model.clone(), Rest::of(self, strategies));
-                (Layout::Second, wire::encode(&SecondProblem { name, seed, model, rest }))
+                let second = SecondProblem { name, seed, model, rest };
+                match &self.function {
+                    None => (Layout::Second, wire::encode(&second)),
+                    Some(function) => {
+                        let function = function.identity().to_owned();
+                        (Layout::Third, wire::encode(&ThirdProblem { second, function }))
+                    }
+                }
             }
         }
     }
@@ -203,6 +224,14 @@ impl Problem {
                 let SecondProblem { name, seed, model, rest } = wire::decode(bytes)?;
                 rest.with(name, seed, model)?
             }
+            Layout::Third => {
+                let ThirdProblem { second, function } = wire::decode(bytes)?;
+                let SecondProblem { name, seed, model, rest } = second;
+                let function = ValidityFunction::absent(function).map_err(WireError::unsound)?;
+                let problem = rest.with(name, seed, model)?;
+                problem.expect_function_suits().map_err(WireError::unsound)?;
+                Problem { function: Some(function), ..problem }
+            }
         };
         let dofs = problem.space().len();
         let fits = |q: &[f64]| q.len() == dofs && q.iter().all(|value| value.is_finite());
@@ -216,7 +245,7 @@ impl Problem {
     }
 }
 
-/// The layout, then the bytes as a list.
+/// The layout, then the bytes as a list. This is how a problem is sent to other processes, which cannot have a validity function.
 impl Encode for Problem {
     fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
         self.to_bytes().encode(encoder)
@@ -226,6 +255,12 @@ impl Encode for Problem {
 impl<Context> Decode<Context> for Problem {
     fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Problem, DecodeError> {
         let (layout, bytes): (Layout, Vec<u8>) = Decode::decode(decoder)?;
+        if layout == Layout::Third {
+            // Whoever works on a problem that was sent here would find nothing valid.
+            return Err(DecodeError::Other(
+                "a problem with a validity function, which cannot be sent",
+            ));
+        }
         let problem = Problem::from_bytes(layout, &bytes);
         problem.map_err(|error| DecodeError::OtherString(error.to_string()))
     }
@@ -241,15 +276,22 @@ pub(super) fn digest(problem: &Problem) -> Digest {
         }
         None => {
             let strategies = second_strategies(&problem.strategies);
-            // No first layout begins with this text.
-            let name = "roadmill problem 2";
+            // No first layout begins with these texts.
+            let name = match problem.function {
+                None => "roadmill problem 2",
+                Some(_) => "roadmill problem 3",
+            };
             let whole = (name, BITS_VERSION, problem.seed, &problem.model, strategies, schedule);
             let reads = |strategy: &Strategy| strategy.generator.method().reads_query();
             // Where no strategy reads it, the query determines no set.
-            match problem.strategies.iter().any(reads) {
+            let mut bytes = match problem.strategies.iter().any(reads) {
                 true => wire::encode(&(whole, &problem.query)),
                 false => wire::encode(&whole),
+            };
+            if let Some(function) = &problem.function {
+                bytes.extend(wire::encode(&function.identity().to_owned()));
             }
+            bytes
         }
     };
     Digest::of(&bytes)

@@ -12,6 +12,7 @@ mod describe;
 mod ends;
 mod file;
 mod folding;
+mod function;
 mod import;
 mod layout;
 mod limits;
@@ -42,7 +43,7 @@ use crate::context::{Context, Ends};
 use crate::digest::{Digest, SourceFile};
 use crate::evaluate::EvaluatorKind;
 use crate::generator::{NoRuns, Runs};
-use crate::model::{self, ModelKind, SceneOptions};
+use crate::model::{self, ModelKind, SceneOptions, ValidityFunction};
 use crate::numbers::StrategyIndex;
 use crate::query::Attachment;
 use crate::scene::is_mesh_file;
@@ -65,6 +66,8 @@ pub struct Problem {
     pub(crate) seed: u64,
     /// What is planned for.
     pub(crate) model: ModelKind,
+    /// A function that judges configurations beside the model, if the problem has one.
+    pub(crate) function: Option<ValidityFunction>,
     /// Start and goal.
     pub(crate) query: Option<Ends>,
     /// The strategies.
@@ -267,7 +270,7 @@ impl Problem {
     pub fn context(&self) -> Context {
         Context {
             space: self.space(),
-            model: self.model.description().prepare(),
+            model: self.prepared_model(),
             base_seed: self.seed,
             query: self.query.clone(),
             tries_direct_motion: true,

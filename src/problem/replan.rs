@@ -1,6 +1,7 @@
 //! Going on from another run's roadmap after the obstacles have changed.
 
 use super::{EarlierSchedule, Problem, ProblemError};
+use crate::cancel::Cancel;
 use crate::connect::AmongKind;
 use crate::digest::{Digest, SourceFile};
 use crate::generator::{GeneratorKind, Parent, Start, Survived, Survivors};
@@ -81,6 +82,20 @@ impl Problem {
     /// roadmap, or too much; components with the start are asked for, but the problem has no query; a setting that cannot
     /// be, or a strategy called `survivors` already.
     pub fn replanned(&self, old: &OldRun, asked: &Replanning) -> Result<Replanned, ProblemError> {
+        let replanned = self.replanned_until(old, asked, &Cancel::new())?;
+        Ok(replanned.expect("nothing ends it before it is done"))
+    }
+
+    /// [`Problem::replanned`]; `None` where `cancel` ends it before it is known what is left of the old roadmap.
+    ///
+    /// # Errors
+    /// As [`Problem::replanned`].
+    pub fn replanned_until(
+        &self,
+        old: &OldRun,
+        asked: &Replanning,
+        cancel: &Cancel,
+    ) -> Result<Option<Replanned>, ProblemError> {
         let refuse = |message: String| Err(ProblemError::pathless(message));
         let survivors = match self.survivors_of(old, asked) {
             Ok(survivors) => survivors,
@@ -89,7 +104,8 @@ impl Problem {
         if self.strategies.iter().any(|strategy| strategy.label == LABEL) {
             return refuse(format!("a strategy `{LABEL}` found; other labels expected"));
         }
-        let survived = survivors.survived(&self.context(), &mut Scratch::new());
+        let survived = survivors.survived_until(&self.context(), cancel, &mut Scratch::new());
+        let Some(survived) = survived else { return Ok(None) };
         let nodes = survived.increment.configs.len();
         let was = format!("of the {} nodes of the old roadmap", old.roadmap.configs().len());
         if nodes == 0 {
@@ -116,11 +132,18 @@ impl Problem {
         problem.earlier.insert(0, first);
         let place = SourceFile { path: old.place.to_owned(), digest: old.ledger };
         problem.sources.push(place);
-        Ok(Replanned { problem, change, survived })
+        Ok(Some(Replanned { problem, change, survived }))
     }
 
     /// What is left of an old run's roadmap, as a method.
     fn survivors_of(&self, old: &OldRun, asked: &Replanning) -> Result<Survivors, String> {
+        if let Some(function) = self.function.as_ref().or(old.problem.function.as_ref()) {
+            return Err(format!(
+                "the validity function `{}` found; a problem without one expected, since it cannot be said what of a roadmap is \
+                 left under another function",
+                function.identity()
+            ));
+        }
         let change = old.problem.model.description().change(&self.model)?;
         if old.roadmap.configs().is_empty() {
             return Err("the old roadmap has no nodes; at least 1 expected".to_owned());

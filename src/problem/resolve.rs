@@ -4,6 +4,7 @@ use super::building::{Sets, adaptive_of, evaluators_of, limits_of, sets_of};
 use super::file::{File, KEYS};
 use super::poses::ends_of;
 use super::{DEFAULT_SEED, Problem};
+use crate::context::Context;
 use crate::generator::{Runs, Sample};
 use crate::internal::plain::plain;
 use crate::model::{ModelKind, ModelSpec};
@@ -49,6 +50,7 @@ pub(super) fn resolve(
         name,
         seed,
         model,
+        function: None,
         query: None,
         strategies,
         schedule,
@@ -105,16 +107,7 @@ fn accepted(source: &Source, file: &File, mut problem: Problem) -> Result<Proble
         let calibrating = Seed::of_calibration(seed, &strategy.label);
         strategy.generator.method_mut().calibrate(&cx, &calibrating);
         let given = file.strategies.get(index).is_some_and(|table| table.generator.is_some());
-        let made = match strategy.generator.as_sample() {
-            // The keys of the short form.
-            Some(Sample { sampler, within }) if !given => vec![
-                ("sampler", sampler.method().suits(&cx)),
-                ("within", within.method().suits(&cx)),
-            ],
-            _ => vec![("generator", strategy.generator.method().suits(&cx))],
-        };
-        let among = ("among", strategy.among.method().suits(&cx));
-        for (key, suits) in made.into_iter().chain([among]) {
+        for (key, suits) in suits(strategy, given, &cx) {
             let place = [Key("strategies"), Index(index), Key(key)];
             suits.map_err(|message| source.error(&place, message))?;
         }
@@ -124,4 +117,21 @@ fn accepted(source: &Source, file: &File, mut problem: Problem) -> Result<Proble
         accepted.map_err(|message| source.error(&[Key("evaluators"), Index(index)], message))?;
     }
     Ok(problem)
+}
+
+/// Whether a strategy's methods can work with a problem, each under its key. A generator that is `given` as such has one key.
+pub(super) fn suits(
+    strategy: &Strategy,
+    given: bool,
+    cx: &Context,
+) -> Vec<(&'static str, Result<(), String>)> {
+    let mut found = match strategy.generator.as_sample() {
+        // The keys of the short form.
+        Some(Sample { sampler, within }) if !given => {
+            vec![("sampler", sampler.method().suits(cx)), ("within", within.method().suits(cx))]
+        }
+        _ => vec![("generator", strategy.generator.method().suits(cx))],
+    };
+    found.push(("among", strategy.among.method().suits(cx)));
+    found
 }

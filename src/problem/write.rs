@@ -41,6 +41,13 @@ fn head(problem: &Problem, out: &mut String) -> std::fmt::Result {
         let line: String = note.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         writeln!(out, "# {line}")?;
     }
+    if let Some(function) = &problem.function {
+        let identity = function.identity();
+        writeln!(
+            out,
+            "# judged by the validity function {identity:?} too, which no file can have"
+        )?;
+    }
     writeln!(out, "name = {}", value(&problem.name))?;
     writeln!(out, "seed = {}", problem.seed)?;
     if problem.evaluators.is_empty() && problem.query.is_some() {

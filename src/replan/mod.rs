@@ -13,4 +13,5 @@ mod retry;
 mod revalidation;
 
 pub use retry::retried;
+pub(crate) use retry::retried_until;
 pub use revalidation::Revalidation;

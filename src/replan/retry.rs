@@ -1,3 +1,4 @@
+use crate::cancel::Cancel;
 use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::model::{Model, SceneChange, Scratch};
@@ -17,6 +18,18 @@ pub fn retried(
     (configs, edges): (&Configs, &[Edge]),
     neighbors: u32,
     planners: &[Planner],
+    scratch: &mut Scratch,
+) -> Vec<Edge> {
+    retried_until(cx, change, (configs, edges), (neighbors, planners), &Cancel::new(), scratch)
+}
+
+/// [`retried`], of which the rest is left out once `cancel` says so.
+pub(crate) fn retried_until(
+    cx: &Context,
+    change: &SceneChange,
+    (configs, edges): (&Configs, &[Edge]),
+    (neighbors, planners): (u32, &[Planner]),
+    cancel: &Cancel,
     scratch: &mut Scratch,
 ) -> Vec<Edge> {
     let everywhere = change.beyond_obstacles.is_some();
@@ -39,7 +52,7 @@ pub fn retried(
         let (low, high) = (NodeId(low), NodeId(high));
         Some(Edge { low, high, planner: planner.tag(), cost })
     };
-    new.filter_map(edge).collect()
+    new.take_while(|_| !cancel.is_cancelled()).filter_map(edge).collect()
 }
 
 /// Whether an obstacle of `among` may have been in the way of a planner's motion.

@@ -1,18 +1,14 @@
 //! How files that others wrote are read.
 
-use crate::internal::regular::open_regular;
-use rustix::fs::OFlags;
-use std::io::{self, Read};
+use crate::internal::regular::read_regular;
+use std::io;
 use std::path::Path;
 
 /// The bytes of a regular file.
 ///
 /// # Errors
-/// What the system says, or which kind of file was found where a regular one is expected.
+/// What the system says, which kind of file was found where a regular one is expected, or that the file is too long to be read
+/// whole.
 pub(crate) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
-    let mut file = open_regular(path, OFlags::RDONLY)?;
-    let length = file.metadata()?.len();
-    let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0).min(1 << 30));
-    file.read_to_end(&mut bytes)?;
-    Ok(bytes)
+    read_regular(path)
 }

@@ -7,10 +7,12 @@
 //!
 //! - [`link`]: messages along a pair of byte streams.
 //! - [`message`]: what is said.
-//! - [`Fleet`], [`Place`]: the coordinator's side, which starts agents and carries bytes.
+//! - [`Fleet`]: the coordinator's side, which starts agents and carries bytes; [`Carriers`] does so by a process for each
+//!   [`Place`].
 //!   What they are given to do is decided by [`Agents`](crate::dispatch::Agents).
 //! - [`serve`]: the agent itself.
 
+mod carriers;
 mod fleet;
 mod identity;
 pub mod link;
@@ -18,7 +20,8 @@ pub mod message;
 mod place;
 mod serve;
 
-pub use fleet::{Condition, Fleet, News, SILENCE_MAX};
+pub use carriers::{Carriers, SILENCE_MAX};
+pub use fleet::{Condition, Fleet, News};
 pub use identity::Identity;
 pub use message::{FromAgent, ToAgent};
 pub use place::{PLACES_MAX, Place};

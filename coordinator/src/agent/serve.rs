@@ -1,7 +1,7 @@
 use super::identity::Identity;
 use super::link::{Bell, Ending, Link, Patience, Pump};
 use super::message::{FromAgent, ToAgent};
-use crate::crew::{CrewError, Executable, LocalCrew};
+use crate::crew::{Crew, CrewError, Executable, LocalCrew};
 use crate::dispatch::{Foreman, Made, Report, Staff};
 use crate::signals::Signals;
 use roadmill::img::{Job, Loss, Setup, canaries};
@@ -138,13 +138,18 @@ impl Agent<'_> {
         let host = rustix::system::uname().nodename().to_string_lossy().into_owned();
         // Whether the two fit together is the coordinator's to say.
         self.say(&FromAgent::Hello { who: Identity::own(), cores: cores as u32, host });
+        let crew = LocalCrew::open(Executable::own()?, cores)?;
         let problem = match self.listen() {
             Heard::Message(ToAgent::Problem(problem)) => problem,
-            Heard::Message(_) => return Ok(out_of_turn()),
-            Heard::End(served) => return Ok(served),
+            other => {
+                crew.close()?;
+                return Ok(match other {
+                    Heard::Message(_) => out_of_turn(),
+                    Heard::End(served) => served,
+                });
+            }
         };
         let setup = Arc::new(Setup::new(*problem));
-        let crew = LocalCrew::open(Executable::own()?, cores)?;
         let mut foreman = Foreman::start(setup.clone(), crew)?;
         self.say(&FromAgent::Ready { canaries: canaries(&setup) });
         let served = self.lead(&mut foreman);

@@ -1,6 +1,6 @@
 //! Arguments of `compare`.
 
-use super::{GrowthArguments, ProblemArguments};
+use super::{GrowthArguments, ProblemArguments, folder};
 use clap::Args;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ pub struct CompareArguments {
     #[arg(long, value_name = "SEEDS", num_args = 1.., default_values = ["1-5"], value_parser = seeds)]
     pub seeds: Vec<RangeInclusive<u64>>,
     /// Folder for the runs, the tables and the page; the same command goes on where it was
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", value_parser = folder())]
     pub out: PathBuf,
     /// Do not stop where the criteria are met, but at the limits: to see how values go on
     #[arg(long)]

@@ -1,6 +1,6 @@
 //! Arguments of the commands that make a problem, grow its roadmap and write a page about it, all in one.
 
-use super::GrowthArguments;
+use super::{GrowthArguments, folder};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ pub struct JobArguments {
     #[arg(long, value_name = "SEED")]
     pub seed: Option<u64>,
     /// Run folder to be made; the problem goes beside it as FOLDER.toml, and the page about the run as FOLDER.html
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", value_parser = folder())]
     pub out: PathBuf,
     /// Replace the problem and the run that are there
     #[arg(long)]

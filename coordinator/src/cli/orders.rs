@@ -1,5 +1,6 @@
 //! The command line of orders of formation.
 
+use super::folder;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -11,7 +12,7 @@ pub struct OrdersArguments {
     #[command(flatten)]
     pub formation: FormationArguments,
     /// A folder for tables of orders, parts and contacts, new or empty
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", value_parser = folder())]
     pub out: Option<PathBuf>,
 }
 

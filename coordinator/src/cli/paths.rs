@@ -1,6 +1,6 @@
 //! The command line of what looks for several paths.
 
-use super::seconds;
+use super::{folder, seconds};
 use clap::{Args, ValueEnum};
 use roadmill::pathways::DomainAngle;
 use roadmill::structure::parse_range;
@@ -73,7 +73,7 @@ pub struct PathsArguments {
     #[arg(long, value_name = "TIME", value_parser = seconds)]
     pub max_time: Option<f64>,
     /// A folder for files of the paths, new or empty
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", value_parser = folder())]
     pub out: Option<PathBuf>,
     /// What is written there of each path: csv always, the others of molecules
     #[arg(long, value_enum, value_delimiter = ',', default_value = "csv", requires = "out")]

@@ -1,6 +1,6 @@
 //! Arguments of `replan`.
 
-use super::GrowthArguments;
+use super::{GrowthArguments, folder};
 use clap::{Args, ValueEnum};
 use roadmill::problem::Replanning;
 use std::path::PathBuf;
@@ -26,7 +26,7 @@ pub struct ReplanArguments {
     #[arg(long, value_name = "SEED")]
     pub seed: Option<u64>,
     /// Run folder to be made [default: runs/NAME, or the first free of runs/NAME-2, …]
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", value_parser = folder())]
     pub out: Option<PathBuf>,
     /// Replace the run that --out names
     #[arg(long, requires = "out")]

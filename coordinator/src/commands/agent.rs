@@ -10,9 +10,10 @@ use std::os::fd::AsFd;
 /// Works for a coordinator at the other end of standard input and output.
 pub fn agent(arguments: &AgentArguments) -> Result<Code, Failure> {
     let workers = crew::checked("--workers", arguments.workers)?;
-    if stdin().is_terminal() || stdout().is_terminal() {
+    // Standard output may be one: `srun -u` makes it so.
+    if stdin().is_terminal() {
         return Err(Failure::usage(
-            "a terminal found, a coordinator at the other end of standard input and output expected: \
+            "a terminal as standard input found, a coordinator at its other end expected: \
              `roadmill build --agents` starts agents",
         ));
     }

@@ -2,11 +2,10 @@
 
 use super::asker::{Asker, TimedAnswer};
 use crate::exit::{Code, Failure};
-use crate::files::{make_empty, write_whole};
+use crate::files::{make_empty, read_regular_text, write_whole};
 use crate::output::note;
 use roadmill::problem::configuration;
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 
 /// Answers every query of a file into a new folder: a path per solved query, named by its index from
@@ -45,7 +44,7 @@ pub(super) fn batch(asker: &Asker, file: &Path, folder: &Path) -> Result<Code, F
 
 /// The queries of a file: start and goal of each.
 fn read(asker: &Asker, file: &Path) -> Result<Vec<[Vec<f64>; 2]>, Failure> {
-    let text = fs::read_to_string(file).map_err(|error| {
+    let text = read_regular_text(file).map_err(|error| {
         Failure::usage(format!("{}: cannot read the queries: {error}", file.display()))
     })?;
     let dofs = asker.cx().space().len();

@@ -1,28 +1,38 @@
 //! Strategies side by side: one build per strategy and seed, each in a run folder of its own.
 
 use super::build::bounded_problem;
-use super::crew::summary_in;
 use super::load::load;
 use crate::cli::CompareArguments;
 use crate::exit::{Code, Failure};
 use crate::files::{cannot_write, write_whole};
 use crate::output::{json, line, note};
 use crate::progress::Reporter;
-use crate::run::outside_of_runs;
+use crate::run::ledger::LEDGER;
+use crate::run::{Scan, outside_of_runs, run_cpu_seconds_in};
 use crate::signals::Signals;
-use crate::work::{Recorded, Run};
+use crate::work::{Recorded, Run, Workers};
 use roadmill::evaluate::{Coverage, Evaluator, EvaluatorKind, Not};
 use roadmill::export::{ComparedBuild, ComparedStrategy, Comparison, RoundOutcome};
 use roadmill::model::Scratch;
 use roadmill::problem::{Problem, StrategySpec};
+use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The word that stands for the problem's own strategies.
 const OWN: &str = "own";
 /// The evaluator that judges each roadmap at its end draws by a stream of its own.
 const COVERAGE_PATH: &str = "compare";
+
+/// A build of a comparison.
+struct Asked<'a> {
+    seed: u64,
+    label: &'a str,
+    problem: &'a Problem,
+    /// Its run folder.
+    folder: PathBuf,
+}
 
 /// Compares strategies on a problem.
 pub fn compare(arguments: &CompareArguments) -> Result<Code, Failure> {
@@ -55,30 +65,27 @@ pub fn compare(arguments: &CompareArguments) -> Result<Code, Failure> {
         builds: Vec::new(),
     };
     // Seed after seed, so that a comparison that is cut off has about as many builds of each strategy.
+    let mut builds = Vec::new();
     for seed in arguments.each_seed() {
         for (label, problem) in &compared {
             let folder = runs.join(format!("{label}-{seed}"));
-            let (problem, _) = bounded_problem(problem.clone().with_seed(seed), &arguments.growth)?;
-            let mut reporter = Reporter::new(false);
-            let (max_time, max_memory) = (arguments.growth.max_time, arguments.growth.max_memory);
-            let growing = Run::begin(problem).folder(&folder).or_resume().workers(&workers);
-            let growing = growing.signals(&signals).max_seconds(max_time).max_memory(max_memory);
-            let ended = growing.progress(|status| reporter.report(status)).grow();
-            reporter.finish();
-            let ended = ended?;
-            if let (Code::Interrupted, _) = ended.outcome() {
-                return Err(Failure::new(
-                    Code::Interrupted,
-                    "a signal came; the same command goes on where it was",
-                ));
-            }
-            let run = Run::at(&folder).read()?;
-            let built = read(&run, label, seed, &folder)?;
-            if comparison.evaluators.is_empty() {
-                comparison.evaluators = asked(&run);
-            }
-            say(&built, arguments.growth.json);
-            comparison.builds.push(built);
+            builds.push(Asked { seed, label, problem, folder });
+        }
+    }
+    // Builds that have ended come first and are told together, so that the tables never have less than there is.
+    let (ended, open): (Vec<_>, Vec<_>) =
+        builds.iter().enumerate().partition(|(_, asked)| has_ended(&asked.folder));
+    let mut done: BTreeMap<usize, ComparedBuild> = BTreeMap::new();
+    for (index, asked) in ended.iter().chain(&open) {
+        let run = grown(asked, arguments, &workers, &signals)?;
+        let built = read(&run, asked)?;
+        if comparison.evaluators.is_empty() {
+            comparison.evaluators = evaluators(&run);
+        }
+        say(&built, arguments.growth.json);
+        done.insert(*index, built);
+        if done.len() >= ended.len() {
+            comparison.builds = done.values().cloned().collect();
             write(&comparison, out)?;
         }
     }
@@ -87,6 +94,58 @@ pub fn compare(arguments: &CompareArguments) -> Result<Code, Failure> {
         note(format_args!("tables and charts: {}", out.join("compare.html").display()));
     }
     Ok(Code::Done)
+}
+
+/// Whether a build in this folder has ended, and would end at once if it went on.
+fn has_ended(folder: &Path) -> bool {
+    let scan = folder.join(LEDGER).is_file().then(|| Scan::read(folder).ok());
+    let stopped = scan.flatten().and_then(|scan| scan.stopped);
+    stopped.is_some_and(|stopped| stopped.is_final())
+}
+
+/// Grows a build, or takes the one that is there.
+fn grown(
+    asked: &Asked,
+    arguments: &CompareArguments,
+    workers: &Workers,
+    signals: &Arc<Signals>,
+) -> Result<Recorded, Failure> {
+    let (folder, growth) = (&asked.folder, &arguments.growth);
+    let (problem, _) = bounded_problem(asked.problem.clone().with_seed(asked.seed), growth)?;
+    let mut reporter = Reporter::new(false);
+    let growing = Run::begin(problem.clone()).folder(folder).or_resume().workers(workers);
+    let growing = growing.signals(signals).max_seconds(growth.max_time);
+    let growing = growing.max_memory(growth.max_memory);
+    let ended = growing.progress(|status| reporter.report(status)).grow();
+    reporter.finish();
+    let ended = ended.map_err(|failure| explained(failure, folder, &problem))?;
+    if let (Code::Interrupted, _) = ended.outcome() {
+        let message = "a signal came; the same command goes on where it was";
+        return Err(Failure::new(Code::Interrupted, message));
+    }
+    Run::at(folder).read()
+}
+
+/// The failure of a build, with what to do where the run that is there was asked for otherwise.
+fn explained(failure: Failure, folder: &Path, problem: &Problem) -> Failure {
+    let scan = Scan::read(folder).ok().filter(|_| failure.code == Code::Usage);
+    let Some(there) = scan.and_then(|scan| scan.problem().ok()) else { return failure };
+    let limits = |problem: &Problem| (problem.limits().nodes, problem.limits().sets);
+    let otherwise = if there.evaluators() != problem.evaluators() {
+        "by other criteria, or with or without --go-on"
+    } else if limits(&there) != limits(problem) {
+        "within other limits"
+    } else if there.scene_difference(problem).is_some()
+        || there.strategies() != problem.strategies()
+    {
+        "of another problem or strategy"
+    } else {
+        return failure;
+    };
+    Failure::usage(format!(
+        "{}: a build {otherwise} found; the runs of a comparison are all of one kind, so another --out is expected",
+        folder.display()
+    ))
 }
 
 /// The problem with another strategy, and the strategy's label.
@@ -98,6 +157,11 @@ fn changed(problem: &Problem, text: &str, go_on: bool) -> Result<(String, Proble
     } else {
         let strategy = StrategySpec::parse(text).map_err(refuse)?;
         let label = strategy.name().to_owned();
+        if label == OWN {
+            return Err(refuse(format!(
+                "`{OWN} = …` found; `{OWN}` alone stands for the problem's strategies, another label expected"
+            )));
+        }
         builder = builder.default_schedule().strategies([strategy]);
         label
     };
@@ -118,13 +182,7 @@ fn changed(problem: &Problem, text: &str, go_on: bool) -> Result<(String, Proble
 }
 
 /// What a run came to.
-fn read(
-    run: &Recorded,
-    strategy: &str,
-    seed: u64,
-    folder: &Path,
-) -> Result<ComparedBuild, Failure> {
-    let cpu_seconds = summary_in(folder).and_then(|summary| summary["cpu_seconds"].as_f64());
+fn read(run: &Recorded, asked: &Asked) -> Result<ComparedBuild, Failure> {
     let coverage = Coverage::default().evaluate(
         run.context(),
         COVERAGE_PATH,
@@ -141,11 +199,11 @@ fn read(
     };
     let judged_rounds = run.rounds().iter().filter(|round| !round.numbers.is_empty());
     Ok(ComparedBuild {
-        strategy: strategy.to_owned(),
-        seed,
+        strategy: asked.label.to_owned(),
+        seed: asked.seed,
         nodes: run.roadmap().configs().len() as u64,
         edges: run.roadmap().edges().len() as u64,
-        cpu_seconds: cpu_seconds.unwrap_or(f64::NAN),
+        cpu_seconds: run_cpu_seconds_in(&asked.folder, run.digest()),
         enough: run.rounds().iter().find(is_met).map(|round| round.nodes),
         coverage: coverage.value,
         rounds: judged_rounds.map(|round| (round.nodes, values(round))).collect(),
@@ -172,7 +230,7 @@ fn leaves(evaluators: &[EvaluatorKind]) -> usize {
 }
 
 /// The names of these evaluators, each with the value that it asks for, as the first judged round has them.
-fn asked(run: &Recorded) -> Vec<(String, f64)> {
+fn evaluators(run: &Recorded) -> Vec<(String, f64)> {
     let count = leaves(own_evaluators(run.problem()));
     let numbers = run.rounds().iter().find(|round| !round.numbers.is_empty());
     let numbers = numbers.map_or(&[][..], |round| &round.numbers);
@@ -193,9 +251,8 @@ fn say(built: &ComparedBuild, is_json: bool) {
         None => format!("criteria not met with {nodes} nodes"),
         Some(enough) => format!("criteria met with {enough} nodes"),
     };
-    note(format_args!(
-        "{strategy}, seed {seed}: {met}, {cpu_seconds:.2} CPU s, coverage {coverage:.2}"
-    ));
+    let cpu = cpu_seconds.map_or("CPU s not known".to_owned(), |known| format!("{known:.2} CPU s"));
+    note(format_args!("{strategy}, seed {seed}: {met}, {cpu}, coverage {coverage:.2}"));
 }
 
 fn say_summary(summary: &[ComparedStrategy]) {

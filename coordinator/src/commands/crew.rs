@@ -4,15 +4,12 @@ use crate::agent::Place;
 use crate::cli::{AgentsArguments, CrewArguments};
 use crate::dispatch::AgentOptions;
 use crate::exit::{Code, Failure};
-use crate::files::open_in_run;
 use crate::output::{self, Plain, note};
 use crate::progress::Reporter;
-use crate::run::SUMMARY_JSON;
+use crate::run::summary_in;
 use crate::work::{Begun, Ended, Growth, Status, Torn, WORKERS_MAX, Watch, Workers};
 use roadmill::problem::Problem;
 use roadmill::survey::Survey;
-use rustix::fs::OFlags;
-use std::path::Path;
 use std::time::Duration;
 
 /// After so many seconds without a set it is said what is in the way.
@@ -25,12 +22,12 @@ pub(super) fn workers(crew: &CrewArguments) -> Result<Workers, Failure> {
     let AgentsArguments { agents, agent_command, agent_wait, audit } = &crew.agents;
     if let Some(names) = agents {
         let workers = crew.workers.map(|workers| checked("--workers", Some(workers)));
-        return Ok(Workers::agents(AgentOptions {
-            places: Place::list(names, agent_command)?,
+        let options = AgentOptions {
             workers: workers.transpose()?,
             wait: Duration::from_secs_f64(*agent_wait),
             audit: audit.unwrap_or(0.0),
-        }));
+        };
+        return Ok(Workers::agents(Place::list(names, agent_command)?, options));
     }
     let count = count(crew)?;
     Ok(match crew.threads {
@@ -117,12 +114,6 @@ fn with_way_on(reason: String, ended: &Ended) -> String {
         Some(way) => format!("{reason}; {way}"),
         None => reason,
     }
-}
-
-/// The summary in a run folder as an object; `None` where there is none, or none that can be read.
-pub(super) fn summary_in(folder: &Path) -> Option<serde_json::Value> {
-    let file = open_in_run(&folder.join(SUMMARY_JSON), OFlags::RDONLY).ok()?;
-    serde_json::from_reader(file).ok()
 }
 
 /// Says that there is nothing to do, and ends as the build did.

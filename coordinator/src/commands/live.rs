@@ -4,6 +4,10 @@
 //! interface alone; its address has a random token, which never stands on a command line, where others could see it: the
 //! browser is given a private file that leads to the address. The `Host` of a request must be the server's own, so that no page
 //! from elsewhere reaches the server by a name that it has made to mean this machine (*DNS rebinding*).
+//!
+//! Every connection has a thread of its own, so that one that says nothing holds up neither the others nor the end of the
+//! server. At most [`GUESTS_MAX`] connections are open: the oldest is closed for one more, so that connections that say nothing
+//! cannot keep a browser out either.
 
 use super::view::{cannot_be_drawn, open, seen};
 use crate::cli::ViewArguments;
@@ -14,10 +18,14 @@ use crate::signals::Signals;
 use crate::work::Run;
 use roadmill::export::Live;
 use rustix::event::{PollFd, PollFlags, poll};
+use std::collections::VecDeque;
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
 use std::os::fd::AsFd;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 use tempfile::NamedTempFile;
 
@@ -30,10 +38,12 @@ const FAREWELL: Duration = Duration::from_millis(200);
 /// The run is read again at the earliest this long after it was read, and after so many times as long as that took.
 const REST: Duration = Duration::from_secs(1);
 const REST_FACTOR: u32 = 4;
+/// The most connections that are open at a time.
+const GUESTS_MAX: usize = 32;
 
-/// Serves a page that follows a build until a signal comes.
+/// Serves a page that follows a build until a signal comes, which is how the command is meant to end.
 pub(super) fn follow(arguments: &ViewArguments) -> Result<Code, Failure> {
-    let mut shown = Shown::read(arguments)?;
+    let shown = Shown::read_as(&arguments.run, 0)?;
     let signals = Signals::listen().map_err(Failure::system)?;
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).map_err(Failure::system)?;
     listener.set_nonblocking(true).map_err(Failure::system)?;
@@ -44,6 +54,13 @@ pub(super) fn follow(arguments: &ViewArguments) -> Result<Code, Failure> {
     let is_open = !arguments.no_open && open(way.path());
     let opened = if is_open { "opened in a browser" } else { "to be opened in a browser" };
     note(format_args!("{address}: {opened}; Ctrl-C ends it"));
+    let server = Arc::new(Server {
+        allowed: Allowed { port, token },
+        run: arguments.run.clone(),
+        shown: Mutex::new(Arc::new(shown)),
+        refreshing: Mutex::default(),
+        guests: Mutex::default(),
+    });
     loop {
         let mut ready = [listener.as_fd(), signals.as_fd()]
             .map(|fd| PollFd::from_borrowed_fd(fd, PollFlags::IN));
@@ -52,16 +69,115 @@ pub(super) fn follow(arguments: &ViewArguments) -> Result<Code, Failure> {
             Err(error) => return Err(Failure::system(error)),
         }
         if signals.came() {
-            return Err(Failure::new(
-                Code::Interrupted,
-                "a signal came; the page is no longer served",
-            ));
+            // Threads that still serve somebody end with the process.
+            note("the page is no longer served");
+            return Ok(Code::Done);
         }
         if let Ok((stream, _)) = listener.accept() {
-            let allowed = Allowed { port, token: &token };
-            // Who breaks off is gone; all others are served as before.
-            let _ = serve(stream, &allowed, arguments, &mut shown);
+            // Whoever cannot be served is gone; all others are served as before.
+            let _ = server.receive(stream);
         }
+    }
+}
+
+/// What serves the page: shared by the threads of all connections.
+struct Server {
+    allowed: Allowed,
+    /// The run folder.
+    run: PathBuf,
+    /// What is served. Whoever serves it keeps it, while it may be replaced for the next one.
+    shown: Mutex<Arc<Shown>>,
+    /// Held by the one thread that reads the run again.
+    refreshing: Mutex<()>,
+    guests: Mutex<Guests>,
+}
+
+/// The connections that are open, the oldest first, each with a number of its own.
+#[derive(Default)]
+struct Guests {
+    streams: VecDeque<(u64, TcpStream)>,
+    next: u64,
+}
+
+impl Guests {
+    /// Notes a connection; if there are too many, the oldest is closed, which ends its thread.
+    fn enter(&mut self, stream: TcpStream) -> u64 {
+        if self.streams.len() >= GUESTS_MAX
+            && let Some((_, oldest)) = self.streams.pop_front()
+        {
+            // One that the other side has closed already needs no closing.
+            let _ = oldest.shutdown(Shutdown::Both);
+        }
+        let number = self.next;
+        self.next += 1;
+        self.streams.push_back((number, stream));
+        number
+    }
+
+    fn leave(&mut self, number: u64) {
+        self.streams.retain(|(of, _)| *of != number);
+    }
+}
+
+/// What a mutex holds, also where a thread that held it has panicked: no value here is ever half of anything.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Server {
+    /// Serves a connection in a thread of its own.
+    fn receive(self: &Arc<Server>, stream: TcpStream) -> io::Result<()> {
+        let number = locked(&self.guests).enter(stream.try_clone()?);
+        let server = self.clone();
+        let serving = thread::Builder::new().spawn(move || {
+            // Who breaks off is gone.
+            let _ = server.serve(stream);
+            locked(&server.guests).leave(number);
+        });
+        if serving.is_err() {
+            locked(&self.guests).leave(number);
+        }
+        serving.map(|_| ())
+    }
+
+    /// Answers one request.
+    fn serve(&self, mut stream: TcpStream) -> io::Result<()> {
+        stream.set_nonblocking(false)?;
+        stream.set_write_timeout(Some(PATIENCE))?;
+        let Some(head) = head_of(&mut stream)? else {
+            return answer(&mut stream, "431 Request Header Fields Too Large", "text/plain", "");
+        };
+        match self.allowed.asked(&head) {
+            Asked::Refused(status) => answer(&mut stream, status, "text/plain", status),
+            Asked::Page => {
+                let shown = self.shown();
+                answer(&mut stream, "200 OK", "text/html; charset=utf-8", &shown.page)
+            }
+            Asked::Data { known } => {
+                let shown = self.shown();
+                if known == Some(shown.live.version) {
+                    return answer(&mut stream, "204 No Content", "application/json", "");
+                }
+                answer(&mut stream, "200 OK", "application/json", &shown.data)
+            }
+        }
+    }
+
+    /// What is to be served: read again if the run has changed and the last time is long enough ago, by one thread at a time,
+    /// for which nobody else waits. What cannot be read, since it is being replaced, say, is tried another time.
+    fn shown(&self) -> Arc<Shown> {
+        let known = || locked(&self.shown).clone();
+        let Ok(_refreshing) = self.refreshing.try_lock() else { return known() };
+        let shown = known();
+        if Instant::now() < shown.rested || ledger_of(&self.run) == shown.ledger {
+            return shown;
+        }
+        let newer = match Shown::read_as(&self.run, shown.live.version + 1) {
+            Ok(newer) => newer,
+            Err(_) => Shown { rested: Instant::now() + REST, ..(*shown).clone() },
+        };
+        *locked(&self.shown) = Arc::new(newer);
+        known()
     }
 }
 
@@ -80,10 +196,11 @@ fn way_to(address: &str) -> io::Result<NamedTempFile> {
 }
 
 /// What was last read of the run, as it is served.
+#[derive(Clone)]
 struct Shown {
     live: Live,
-    page: String,
-    data: String,
+    page: Arc<str>,
+    data: Arc<str>,
     /// The ledger's length and time when it was read.
     ledger: Option<(u64, SystemTime)>,
     /// When the run may be read again.
@@ -91,43 +208,27 @@ struct Shown {
 }
 
 impl Shown {
-    fn read(arguments: &ViewArguments) -> Result<Shown, Failure> {
-        Shown::read_as(arguments, 0)
-    }
-
-    fn read_as(arguments: &ViewArguments, version: u64) -> Result<Shown, Failure> {
+    fn read_as(folder: &Path, version: u64) -> Result<Shown, Failure> {
         let begun = Instant::now();
-        let ledger = ledger_of(arguments);
-        let run = Run::at(&arguments.run).read()?;
+        let ledger = ledger_of(folder);
+        let run = Run::at(folder).read()?;
         let live = Live { version, has_ended: run.stopped().is_some() };
         let both = seen(&run, Some(live), |viewer| Some((viewer.page()?, viewer.data()?)));
-        let (page, data) = both.ok_or_else(|| cannot_be_drawn(arguments, &run))?;
+        let (page, data) = both.ok_or_else(|| cannot_be_drawn(folder, &run))?;
         let rested = Instant::now() + REST.max(begun.elapsed() * REST_FACTOR);
-        Ok(Shown { live, page, data, ledger, rested })
-    }
-
-    /// Reads the run again if it has changed and the last time is long enough ago. What cannot be read, since it is being
-    /// replaced, say, is tried another time.
-    fn refresh(&mut self, arguments: &ViewArguments) {
-        if Instant::now() < self.rested || ledger_of(arguments) == self.ledger {
-            return;
-        }
-        match Shown::read_as(arguments, self.live.version + 1) {
-            Ok(newer) => *self = newer,
-            Err(_) => self.rested = Instant::now() + REST,
-        }
+        Ok(Shown { live, page: page.into(), data: data.into(), ledger, rested })
     }
 }
 
-fn ledger_of(arguments: &ViewArguments) -> Option<(u64, SystemTime)> {
-    let metadata = fs::metadata(arguments.run.join(LEDGER)).ok()?;
+fn ledger_of(folder: &Path) -> Option<(u64, SystemTime)> {
+    let metadata = fs::metadata(folder.join(LEDGER)).ok()?;
     Some((metadata.len(), metadata.modified().ok()?))
 }
 
 /// What a request must have.
-struct Allowed<'a> {
+struct Allowed {
     port: u16,
-    token: &'a str,
+    token: String,
 }
 
 /// What is asked for.
@@ -142,7 +243,7 @@ enum Asked {
     Refused(&'static str),
 }
 
-impl Allowed<'_> {
+impl Allowed {
     /// What the head of a request asks for.
     fn asked(&self, head: &str) -> Asked {
         let mut lines = head.split("\r\n");
@@ -165,7 +266,7 @@ impl Allowed<'_> {
         }
         let rest = target.strip_prefix('/').and_then(|rest| rest.split_once('/'));
         match rest {
-            Some((token, rest)) if is_same(token, self.token) => match rest.split_once('?') {
+            Some((token, rest)) if is_same(token, &self.token) => match rest.split_once('?') {
                 None if rest.is_empty() => Asked::Page,
                 None if rest == "data" => Asked::Data { known: None },
                 Some(("data", query)) => Asked::Data {
@@ -182,34 +283,6 @@ impl Allowed<'_> {
 fn is_same(a: &str, b: &str) -> bool {
     let differing = a.bytes().zip(b.bytes()).fold(0, |differing, (a, b)| differing | (a ^ b));
     a.len() == b.len() && differing == 0
-}
-
-/// Answers one request.
-fn serve(
-    mut stream: TcpStream,
-    allowed: &Allowed,
-    arguments: &ViewArguments,
-    shown: &mut Shown,
-) -> io::Result<()> {
-    stream.set_nonblocking(false)?;
-    stream.set_write_timeout(Some(PATIENCE))?;
-    let Some(head) = head_of(&mut stream)? else {
-        return answer(&mut stream, "431 Request Header Fields Too Large", "text/plain", "");
-    };
-    match allowed.asked(&head) {
-        Asked::Refused(status) => answer(&mut stream, status, "text/plain", status),
-        Asked::Page => {
-            shown.refresh(arguments);
-            answer(&mut stream, "200 OK", "text/html; charset=utf-8", &shown.page)
-        }
-        Asked::Data { known } => {
-            shown.refresh(arguments);
-            if known == Some(shown.live.version) {
-                return answer(&mut stream, "204 No Content", "application/json", "");
-            }
-            answer(&mut stream, "200 OK", "application/json", &shown.data)
-        }
-    }
 }
 
 /// The head of a request; `None` if it is too long. What follows it is not read: no request that is answered has a body.
@@ -263,7 +336,7 @@ mod tests {
     const TOKEN: &str = "0123456789abcdef0123456789abcdef";
 
     fn asked(line: &str, host: &str) -> Asked {
-        let allowed = Allowed { port: 4711, token: TOKEN };
+        let allowed = Allowed { port: 4711, token: TOKEN.to_owned() };
         allowed.asked(&format!("{line}\r\nAccept: */*\r\n{host}"))
     }
 
@@ -293,6 +366,32 @@ mod tests {
         ] {
             assert_eq!(asked(&line, own), Asked::Refused(status), "{line}");
         }
+    }
+
+    #[test]
+    fn the_oldest_connection_is_closed_for_one_too_many() {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
+        let address = listener.local_addr().expect("an address");
+        let mut guests = Guests::default();
+        let mut enter = || {
+            let outside = TcpStream::connect(address).expect("it listens");
+            let (inside, _) = listener.accept().expect("a connection");
+            (guests.enter(inside), outside)
+        };
+        let mut outside: Vec<_> = (0..=GUESTS_MAX).map(|_| enter()).collect();
+        let mut is_closed = |index: usize| {
+            let stream: &mut TcpStream = &mut outside[index].1;
+            stream.set_nonblocking(index > 0).expect("it can be set");
+            matches!(stream.read(&mut [0]), Ok(0))
+        };
+        assert_eq!([is_closed(0), is_closed(1), is_closed(GUESTS_MAX)], [true, false, false]);
+        assert_eq!(guests.streams.len(), GUESTS_MAX);
+        let numbers: Vec<u64> = outside.iter().map(|(number, _)| *number).collect();
+        assert_eq!(numbers, (0..=GUESTS_MAX as u64).collect::<Vec<_>>());
+        // The one that was closed leaves a second time.
+        guests.leave(0);
+        guests.leave(1);
+        assert_eq!(guests.streams.len(), GUESTS_MAX - 1);
     }
 
     #[test]

@@ -3,7 +3,7 @@ use super::batch;
 use super::place::{check_page, check_place};
 use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
-use crate::files::{write_out, write_whole};
+use crate::files::{expect_folder, write_out, write_whole};
 use crate::output::{self, note};
 use crate::work::{Recorded, Run};
 use roadmill::export::animation;
@@ -14,6 +14,8 @@ use roadmill::query::PATH_REFINEMENT;
 pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let out = arguments.out.as_ref().filter(|_| arguments.queries.is_none());
     out.map_or(Ok(()), |file| check_place("--out", file))?;
+    let folder = arguments.out.as_ref().filter(|_| arguments.queries.is_some());
+    folder.map_or(Ok(()), |folder| expect_folder("--out", folder))?;
     arguments.animate.as_ref().map_or(Ok(()), |file| check_page("--animate", file))?;
     let run = Run::at(&arguments.run).read()?;
     match run.stopped() {
@@ -61,12 +63,14 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
 /// The start and the goal that the command line gives, or else the problem's.
 ///
 /// # Errors
-/// Exit code 2: one is given that cannot be used, or none where the problem has no query.
+/// Exit code 2: one is given that cannot be used, or none where the problem has no query; or the problem has a validity
+/// function, which the program cannot have.
 pub(super) fn ends(
     run: &Recorded,
     start: &Option<String>,
     goal: &Option<String>,
 ) -> Result<(Vec<f64>, Vec<f64>), Failure> {
+    run.expect_validity_function()?;
     let given = run.problem().query();
     let end = |name: &str, text: &Option<String>, given: Option<&Vec<f64>>| match (text, given) {
         (Some(text), _) => configuration(run.context(), text)

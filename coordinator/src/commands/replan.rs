@@ -6,7 +6,8 @@ use crate::cli::{KeptComponents, ReplanArguments};
 use crate::cpu::CpuClock;
 use crate::exit::{Code, Failure};
 use crate::output::{note, told};
-use crate::run::RunFolder;
+use crate::run::ledger::LEDGER;
+use crate::run::{RunFolder, Scan};
 use crate::signals::Signals;
 use crate::work::{Recorded, Run};
 use roadmill::model::{SceneChange, Scratch};
@@ -52,6 +53,9 @@ pub fn replan(arguments: &ReplanArguments) -> Result<Code, Failure> {
         place: &place.to_string_lossy(),
     };
     let refuse = |why: String| Failure::usage(format!("{}: {why}", with.display()));
+    if let Some(out) = out.as_deref().filter(|_| *or_resume) {
+        expect_same(out, &problem, &old_run)?;
+    }
     let change = old.problem().model().description().change(problem.model()).map_err(refuse)?;
     let say = |text: String| told(text, growth.json);
     say_change(&change, say);
@@ -66,8 +70,10 @@ pub fn replan(arguments: &ReplanArguments) -> Result<Code, Failure> {
         }),
         neighbors: arguments.neighbors,
     };
-    let replanned = problem.replanned(&old_run, &asked);
-    let replanned = replanned.map_err(|error| refuse(error.to_string()))?;
+    // A signal ends it; a limit of time does not, since what is left of the roadmap is the one round that is made in any case.
+    let look = |cancel: &Cancel| problem.replanned_until(&old_run, &asked, cancel);
+    let replanned = bounded(&signals, None, look)?.map_err(|error| refuse(error.to_string()))?;
+    let replanned = replanned.ok_or_else(interrupted)?;
     say_survivors(&old, &replanned, revalidated.elapsed().as_secs_f64(), say);
     expect_none_came(&signals)?;
     let growing = Run::begin(replanned.problem).workers(&workers).signals(&signals);
@@ -93,8 +99,37 @@ fn stays(old: &Path, out: Option<&Path>) -> Result<(), Failure> {
 /// Exit code 6: one has come.
 fn expect_none_came(signals: &Signals) -> Result<(), Failure> {
     match signals.came() {
-        true => Err(Failure::new(Code::Interrupted, "a signal came; no run is made")),
+        true => Err(interrupted()),
         false => Ok(()),
+    }
+}
+
+fn interrupted() -> Failure {
+    Failure::new(Code::Interrupted, "a signal came; no run is made")
+}
+
+/// Refuses to go on with the run in the folder `out`, if there is one, where it can be seen before anything is computed that
+/// it is another: it goes on from no run or from another one, or its scene or its seed is another.
+///
+/// # Errors
+/// Exit code 2: it is another; 4: it is damaged.
+fn expect_same(out: &Path, problem: &Problem, old: &OldRun) -> Result<(), Failure> {
+    if !out.join(LEDGER).is_file() {
+        return Ok(());
+    }
+    let there = Scan::read(out)?.problem()?;
+    let difference = match there.survivors() {
+        None => Some("it goes on from no other run".to_owned()),
+        Some(_) => there
+            .scene_difference(problem)
+            .or_else(|| there.check_survivors(old).err().map(|why| format!("the old run: {why}"))),
+    };
+    match difference {
+        None => Ok(()),
+        Some(why) => Err(Failure::usage(format!(
+            "{}: cannot go on: {why}; another --out expected, or --force, which replaces the run",
+            out.display()
+        ))),
     }
 }
 

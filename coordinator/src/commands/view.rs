@@ -27,7 +27,7 @@ pub fn view(arguments: &ViewArguments) -> Result<Code, Failure> {
     check_page("--out", &out)?;
     let run = Run::at(&arguments.run).read()?;
     let page = seen(&run, None, |viewer| viewer.page());
-    let page = page.ok_or_else(|| cannot_be_drawn(arguments, &run))?;
+    let page = page.ok_or_else(|| cannot_be_drawn(&arguments.run, &run))?;
     write_whole(&out, &page)?;
     let (found, megabytes) = (out.display(), page.len() as f64 / 1e6);
     if !arguments.no_open && open(&out) {
@@ -69,8 +69,8 @@ pub(super) fn seen<T>(run: &Recorded, live: Option<Live>, with: impl Fn(Viewer) 
     with(Viewer { problem: run.problem(), roadmap: run.roadmap(), paths: &paths, live })
 }
 
-pub(super) fn cannot_be_drawn(arguments: &ViewArguments, run: &Recorded) -> Failure {
-    let folder = arguments.run.display();
+pub(super) fn cannot_be_drawn(folder: &Path, run: &Recorded) -> Failure {
+    let folder = folder.display();
     Failure::usage(match run.problem().model().description().molecule() {
         Some(_) => format!(
             "{folder}: a run about a protein found, which is no scene; `roadmill report {folder} --out report.html` shows it"

@@ -1,7 +1,7 @@
 //! A problem written out as files, in one step.
 
 use crate::exit::{Code, Failure};
-use crate::files::{cannot_write, folder_of, open_in_run, rename_to_free};
+use crate::files::{cannot_write, folder_of, open_in_run, read_regular_text, rename_to_free};
 use crate::output::{Plain, note, told};
 use crate::run::{Ledgers, started};
 use crate::signals::Signals;
@@ -58,7 +58,7 @@ pub(super) fn write_problem(
 /// Removes a problem file that [`write_problem`] has written where nothing was, with the folder of its other files.
 pub(super) fn remove_problem(problem: &Problem, out: &Path) {
     let Ok(place) = Destination::of(out, Companions::of(problem)) else { return };
-    let text = fs::read_to_string(out).unwrap_or_default();
+    let text = read_regular_text(out).unwrap_or_default();
     let entries = fs::read_dir(folder_of(out)).into_iter().flatten().flatten();
     let folders = entries.filter_map(|entry| entry.file_name().into_string().ok());
     let is_its = |name: &String| place.companions_in(name).is_some() && names(&text, name);
@@ -200,7 +200,7 @@ impl Destination {
         };
         let is_free = |name: &String| fs::symlink_metadata(self.folder.join(name)).is_err();
         let free = (1..).map(name).find(is_free).unwrap_or_default();
-        let problem = fs::read_to_string(self.file()).unwrap_or_default();
+        let problem = read_regular_text(&self.file()).unwrap_or_default();
         // Whatever has the plain name is replaced, as `check` allows; of others, those of another kind among them, what the
         // problem has used.
         let is_old = |name: &String| *name == self.plain_name || names(&problem, name);
@@ -213,7 +213,7 @@ impl Destination {
 
     /// Removes folders of companions that the problem file does not name.
     fn remove_unused(&self, folders: &[String]) {
-        let problem = match fs::read_to_string(self.file()) {
+        let problem = match read_regular_text(&self.file()) {
             Ok(problem) => problem,
             Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
             Err(_) => return,

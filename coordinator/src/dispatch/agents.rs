@@ -4,7 +4,7 @@ use super::roster::Roster;
 use super::staff::{Board, Machine, Machines, Made, Report, Staff};
 use crate::agent::{Fleet, FromAgent, Identity, News, Place, ToAgent};
 use crate::crew::CrewError;
-use crate::output::{Plain, note};
+use crate::output::Plain;
 use roadmill::img::{Front, Job, Loss, Round, Setup, canaries};
 use roadmill::internal::wire;
 use roadmill::roadmap::{Digest, Increment};
@@ -32,8 +32,6 @@ const BOARD_PAUSE: Duration = Duration::from_millis(200);
 /// How agents are used.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AgentOptions {
-    /// Where they run.
-    pub places: Vec<Place>,
     /// Worker processes of each; `None` for one per core that it may use.
     pub workers: Option<usize>,
     /// How long a build goes on with no agent at work.
@@ -78,11 +76,11 @@ struct Account {
 /// An agent that is lost counts against nobody: its jobs are given to others, and it is started again after a while. One that
 /// is another program, computes other numbers or says what cannot be is refused for good. When there is none for longer than
 /// [`AgentOptions::wait`], that is the end ([`Report::Failed`]).
-pub struct Agents {
+pub struct Agents<F> {
     setup: Arc<Setup>,
     front: Front,
     entries: FanOut,
-    fleet: Fleet,
+    fleet: F,
     options: AgentOptions,
     members: BTreeMap<WorkerId, Agent>,
     accounts: Vec<Account>,
@@ -101,30 +99,25 @@ pub struct Agents {
     written: Option<Instant>,
 }
 
-impl Agents {
-    /// Staff of agents at these places. What they have to be told lies in a file in `folder`.
+impl<F: Fleet> Agents<F> {
+    /// Staff of the agents of a fleet. What they have to be told lies in a file in `folder`.
     ///
     /// # Errors
     /// When the system refuses.
     pub fn new(
         setup: Arc<Setup>,
         options: AgentOptions,
+        fleet: F,
         folder: &Path,
-    ) -> Result<Agents, CrewError> {
+    ) -> Result<Agents<F>, CrewError> {
         let problem = ToAgent::Problem(Box::new(setup.problem().clone()));
-        let places = options.places.clone();
-        let accounts = vec![Account::default(); places.len()];
-        // Relays may have kept frames of another process; two that begin in one microsecond have other ids.
-        let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-        let session =
-            now.map_or(0, |now| now.as_micros() as u64) << 20 ^ u64::from(std::process::id());
+        let accounts = vec![Account::default(); fleet.places().len()];
         let spool = FanOut::in_folder(folder)
             .map_err(CrewError::system(format!("{}: cannot make a file", folder.display())))?;
         Ok(Agents {
             front: Front::default(),
             entries: spool,
-            fleet: Fleet::new(places, session)
-                .map_err(CrewError::system("cannot watch over agents"))?,
+            fleet,
             audit: Audit::new(options.audit),
             options,
             members: BTreeMap::new(),
@@ -149,12 +142,12 @@ impl Agents {
 
     fn place_of(&self, member: WorkerId) -> &str {
         let agent = self.members.get(&member);
-        let place = agent.and_then(|agent| self.fleet.places().nth(agent.place));
+        let place = agent.and_then(|agent| self.fleet.places().get(agent.place).copied());
         place.map_or("", Place::name)
     }
 
     fn say(&self, member: WorkerId, what: &str) {
-        note(format_args!("agent {}: {}", Plain(self.place_of(member)), Plain(what)));
+        self.fleet.tell(format_args!("agent {}: {}", Plain(self.place_of(member)), Plain(what)));
     }
 
     /// Takes leave of an agent; its jobs are lost. `is_refused`: for good.
@@ -191,9 +184,8 @@ impl Agents {
         let ready = self.members.iter().filter(|(_, agent)| agent.phase == Phase::Ready);
         let ready: Vec<WorkerId> = ready.map(|(member, _)| *member).collect();
         for member in ready {
-            if let Some(round_trip) = self.fleet.round_trip(member) {
-                self.roster.set_round_trip(member, round_trip.as_secs_f64());
-            }
+            let round_trip = self.fleet.round_trip(member).unwrap_or_default();
+            self.roster.set_round_trip(member, round_trip.as_secs_f64());
             if self.fleet.queued(member) >= QUEUED_MAX {
                 continue;
             }
@@ -239,7 +231,7 @@ impl Agents {
                     if !self.members.contains_key(&member) {
                         // It never came to a conversation.
                         let place = self.fleet.place_of(member).map(str::to_owned);
-                        note(format_args!(
+                        self.fleet.tell(format_args!(
                             "agent {}: {}",
                             Plain(&place.unwrap_or_default()),
                             Plain(&why)
@@ -278,10 +270,12 @@ impl Agents {
                 account.host = host.chars().take(64).collect();
                 account.cores = cores as usize;
                 self.fleet.send(member, self.problem.clone());
+                // Made while the agent makes its own.
+                let setup = &self.setup;
+                self.canaries.get_or_insert_with(|| canaries(setup));
             }
             (Phase::SettingUp, FromAgent::Ready { canaries: theirs }) => {
-                let ours = *self.canaries.get_or_insert_with(|| canaries(&self.setup));
-                if theirs != ours {
+                if self.canaries != Some(theirs) {
                     return self.refuse(
                         member,
                         "has another arithmetic: the digest of its canaries differs",
@@ -372,7 +366,7 @@ impl Agents {
     }
 }
 
-impl Staff for Agents {
+impl<F: Fleet> Staff for Agents<F> {
     fn publish(&mut self, increment: &Increment) {
         if let Err(error) = self.entries.publish(self.front.next(), increment) {
             self.fail(format!("cannot write what agents are to know: {error}"));
@@ -430,13 +424,15 @@ impl Staff for Agents {
         Some(self.board.clone())
     }
 
-    fn close(self) -> Result<(), CrewError> {
+    fn close(mut self) -> Result<(), CrewError> {
+        self.written = None;
+        self.write_board();
         self.fleet.close();
         Ok(())
     }
 }
 
-impl Agents {
+impl<F: Fleet> Agents<F> {
     /// Writes down what each machine does, now and then.
     fn write_board(&mut self) {
         if self.written.is_some_and(|written| written.elapsed() < BOARD_PAUSE) {
@@ -472,6 +468,6 @@ impl Agents {
                 round_trip_seconds: condition.round_trip.map(|round_trip| round_trip.as_secs_f64()),
             }
         };
-        self.fleet.places().zip(&self.accounts).enumerate().map(machine).collect()
+        self.fleet.places().into_iter().zip(&self.accounts).enumerate().map(machine).collect()
     }
 }

@@ -92,7 +92,7 @@ impl<S: Staff> Dispatcher<S> {
         match wire::decode::<Outcome>(made.bytes()) {
             Ok(outcome) => Some(Finished { outcome, digest: made.digest }),
             Err(error) => {
-                self.staff.reject(made, &format!("it sent {error}"));
+                self.staff.reject(made, &format!("sent {error}"));
                 None
             }
         }

@@ -361,7 +361,7 @@ impl<C: Crew> Staff for Foreman<C> {
 
     fn reject(&mut self, made: &Made, why: &str) {
         self.log.forget(made.job);
-        self.replace(made.member, Loss::Departure, why);
+        self.replace(made.member, Loss::Departure, &format!("it {why}"));
         self.reports.push_back(Report::Lost(made.job, Loss::Departure));
     }
 

@@ -39,8 +39,8 @@ struct Desk {
     jobs: BTreeSet<Job>,
     /// How many jobs are done at once.
     cores: usize,
-    /// How long a message takes there and back, in seconds.
-    round_trip: f64,
+    /// The work for each core beyond [`HELD_SECONDS`], in seconds.
+    ahead: f64,
 }
 
 /// How many urgencies there are.
@@ -78,10 +78,12 @@ impl Roster {
         self.held.insert(worker, Desk { cores, ..Desk::default() });
     }
 
-    /// Takes note of how long a message takes to a worker and back, in seconds: it is given as much more work.
-    pub fn set_round_trip(&mut self, worker: WorkerId, seconds: f64) {
-        if let Some(desk) = self.held.get_mut(&worker) {
-            desk.round_trip = seconds;
+    /// Takes note of how long a message takes to an agent and back, in seconds. As much more work it is given for each
+    /// core, and as much again as a worker holds: its jobs go through another process, in which the next one should lie
+    /// ready when a worker is done.
+    pub fn set_round_trip(&mut self, agent: WorkerId, seconds: f64) {
+        if let Some(desk) = self.held.get_mut(&agent) {
+            desk.ahead = HELD_SECONDS + seconds;
         }
     }
 
@@ -126,7 +128,7 @@ impl Roster {
     pub fn give(&mut self, worker: WorkerId, is_needed: impl Fn(Job) -> bool) -> Vec<Job> {
         let mut given = Vec::new();
         let all_cores = self.cores;
-        let Some(Desk { jobs: held, cores, round_trip }) = self.held.get_mut(&worker) else {
+        let Some(Desk { jobs: held, cores, ahead }) = self.held.get_mut(&worker) else {
             return given;
         };
         // Who has several workers keeps a suspect from the other jobs.
@@ -134,7 +136,7 @@ impl Roster {
         if is_single && held.iter().any(|job| self.suspects.contains(job)) {
             return given;
         }
-        let enough = *cores as f64 * (HELD_SECONDS + *round_trip);
+        let enough = *cores as f64 * (HELD_SECONDS + *ahead);
         let seconds_of = |job: &Job| self.seconds.get(&kind(job)).copied().unwrap_or(HELD_SECONDS);
         let mut seconds: f64 = held.iter().map(seconds_of).sum();
         for (waiting, open) in self.waiting.iter_mut().zip(&mut self.open) {

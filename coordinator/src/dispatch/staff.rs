@@ -25,7 +25,8 @@ pub trait Staff {
     /// The next thing that happened, or `None` where nothing did within `wait` or before `also` became readable.
     fn next(&mut self, wait: Duration, also: Option<BorrowedFd<'_>>) -> Option<Report>;
 
-    /// Takes note that what was made is no outcome: whoever made it is given up, and the job is lost.
+    /// Takes note that what was made is no outcome: whoever made it is given up, and the job is lost. `why` says what
+    /// the maker did.
     fn reject(&mut self, made: &Made, why: &str);
 
     /// How many jobs can be done at once by those who are ready.

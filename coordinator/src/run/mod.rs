@@ -23,4 +23,4 @@ pub use ledger::{Ledger, LedgerWriter, Ledgers, Replay, Scan, Stopped, Told};
 pub(crate) use lock::started;
 pub use lock::{Holder, RunLock};
 pub use sets::{SetFiles, SetsWriter};
-pub use summary::{CoordinatorCpu, EvaluatorValue, Summary, Times};
+pub use summary::{CoordinatorCpu, EvaluatorValue, Summary, Times, run_cpu_seconds_in, summary_in};

@@ -1,12 +1,16 @@
-use super::Stopped;
+use super::{SUMMARY_JSON, Stopped};
 use crate::dispatch::{Audited, Machine, Machines};
+use crate::files::open_in_run;
 use crate::output::Plain;
 use roadmill::evaluate::{Bound, CutEdge, EvaluatorKind, Verdict};
 use roadmill::problem::Problem;
-use roadmill::roadmap::Tally;
+use roadmill::roadmap::{Digest, Tally};
+use rustix::fs::OFlags;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::io::{BufReader, Read};
+use std::path::Path;
 
 /// What a build came to.
 #[derive(Debug, Serialize)]
@@ -35,6 +39,9 @@ pub struct Summary {
     pub reason: String,
     /// CPU seconds of all processes.
     pub cpu_seconds: f64,
+    /// The same of all calls that grew this run, this one included; `None` where one of them was killed, or was of a version that
+    /// did not keep the sum.
+    pub run_cpu_seconds: Option<f64>,
     /// Those of the coordinator alone (with `--threads`: of the one process).
     pub coordinator_cpu_seconds: f64,
     /// What these went into; with `--threads` it is not told apart from the work itself.
@@ -162,6 +169,8 @@ pub struct CoordinatorCpu {
 pub struct Times {
     /// CPU seconds of all processes.
     pub cpu_seconds: f64,
+    /// Those of all calls that grew this run, where they are known.
+    pub run_cpu_seconds: Option<f64>,
     /// Those of the coordinator alone.
     pub coordinator_cpu_seconds: f64,
     /// What these went into.
@@ -176,7 +185,7 @@ impl Summary {
     /// Sums a build up.
     pub fn new(
         problem: &Problem,
-        run: &std::path::Path,
+        run: &Path,
         tally: &Tally,
         verdicts: &[Verdict],
         stopped: &Stopped,
@@ -195,6 +204,7 @@ impl Summary {
             stop: stopped.word.clone(),
             reason: stopped.reason.clone(),
             cpu_seconds: times.cpu_seconds,
+            run_cpu_seconds: times.run_cpu_seconds,
             coordinator_cpu_seconds: times.coordinator_cpu_seconds,
             coordinator_cpu: times.coordinator_cpu,
             wall_seconds: times.wall_seconds,
@@ -230,6 +240,9 @@ impl fmt::Display for Summary {
             "cpu         {:.2} s, {coordinator:.2} s of it the coordinator's",
             self.cpu_seconds
         )?;
+        if let Some(whole) = self.run_cpu_seconds.filter(|whole| *whole > self.cpu_seconds) {
+            writeln!(f, "cpu of run  {whole:.2} s, with what went into it before")?;
+        }
         if let Some(CoordinatorCpu { messages, fold, ledger, rest }) = self.coordinator_cpu {
             write!(f, "coordinator {messages:.2} s for messages, {fold:.2} s for folding, ")?;
             writeln!(f, "{ledger:.2} s for the ledger, {rest:.2} s for the rest")?;
@@ -244,6 +257,23 @@ impl fmt::Display for Summary {
         }
         write!(f, "digest {}", self.digest)
     }
+}
+
+/// The longest summary that is read, in bytes: the cut of a maximum flow has a line for each of its edges.
+const SUMMARY_MAX: u64 = 1 << 30;
+
+/// The CPU seconds that went into the run in a folder up to the end of its last call, as the summary of that call has them;
+/// `None` where they are not known. `roadmap` is the digest of the run's roadmap: the summary of another roadmap is an older one.
+pub fn run_cpu_seconds_in(folder: &Path, roadmap: Digest) -> Option<f64> {
+    let summary = summary_in(folder)?;
+    let is_of_it = summary["digest"].as_str() == Some(&roadmap.to_string());
+    summary["run_cpu_seconds"].as_f64().filter(|_| is_of_it)
+}
+
+/// The summary in a run folder as an object; `None` where there is none, or none that can be read.
+pub fn summary_in(folder: &Path) -> Option<serde_json::Value> {
+    let file = open_in_run(&folder.join(SUMMARY_JSON), OFlags::RDONLY).ok()?;
+    serde_json::from_reader(BufReader::new(file.take(SUMMARY_MAX))).ok()
 }
 
 #[cfg(test)]

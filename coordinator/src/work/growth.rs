@@ -9,11 +9,14 @@ use crate::crew::CrewError;
 use crate::dispatch::SetsFromFiles;
 use crate::exit::Failure;
 use crate::run::ledger::LEDGER;
-use crate::run::{LedgerWriter, MACHINES_JSON, RunFolder, RunLock, Scan, SetFiles, tidy};
+use crate::run::{
+    LedgerWriter, MACHINES_JSON, RunFolder, RunLock, Scan, SetFiles, run_cpu_seconds_in, tidy,
+};
 use crate::signals::Signals;
 use roadmill::img::{Executor, Setup, Threads};
+use roadmill::model::ValidityFunction;
 use roadmill::problem::Problem;
-use roadmill::roadmap::Tally;
+use roadmill::roadmap::{Digest, Tally};
 use roadmill::{BITS_VERSION, Cancel};
 use roadmill_workers::channel::remove_leftovers;
 use std::path::{Path, PathBuf};
@@ -31,6 +34,7 @@ pub struct Growth<'a> {
     cpu: Option<CpuClock>,
     seconds: Option<f64>,
     memory: Option<u64>,
+    function: Option<ValidityFunction>,
 }
 
 /// What a build begins with.
@@ -95,6 +99,7 @@ impl<'a> Growth<'a> {
             cpu: None,
             seconds: None,
             memory: None,
+            function: None,
         }
     }
 
@@ -190,6 +195,11 @@ impl<'a> Growth<'a> {
         self.if_again(|chapter| chapter.accept_bits = true)
     }
 
+    /// The validity function of a problem that came out of a ledger, which only names it.
+    pub fn validity_function(self, function: &ValidityFunction) -> Growth<'a> {
+        Growth { function: Some(function.clone()), ..self }
+    }
+
     /// Counts CPU seconds from a clock that was started before.
     pub(crate) fn clock(self, cpu: CpuClock) -> Growth<'a> {
         Growth { cpu: Some(cpu), ..self }
@@ -213,21 +223,24 @@ impl<'a> Growth<'a> {
     /// left as it is.
     ///
     /// # Errors
-    /// Exit code 2: the problem, its limits, the workers or the run folder cannot be used, or another process works
-    /// on the run; 4: the run is damaged; 1: the system refuses; 6: it was to end before it had gone on. A
+    /// Exit code 2: the problem, its limits, the workers or the run folder cannot be used, another process works
+    /// on the run, or the problem's validity function is missing or fails; 4: the run is damaged; 1: the system refuses; 6: it was to end before it had gone on. A
     /// build that stops, for whatever reason, is none: [`Ended::outcome`] says what it came to.
     pub fn grow(self) -> Result<Ended, Failure> {
         let begun = Instant::now();
-        let Growth { origin, workers, watch, interrupt, cpu, seconds, memory } = self;
+        let Growth { origin, workers, watch, mut interrupt, cpu, seconds, memory, function } = self;
         let cpu = cpu.unwrap_or_else(CpuClock::start);
         let mut watch = watch.unwrap_or_else(|| Box::new(()));
         workers.check()?;
         // A limit of time belongs to this call: the one that is given, or the problem file's, or else the run's own.
         let mut seconds = seconds;
         let prepared = match origin {
-            Origin::Anew(anew) => {
+            Origin::Anew(mut anew) => {
+                let supplied = anew.problem.supplied_with(function.as_ref());
+                anew.problem = supplied.map_err(Failure::usage)?;
                 let of_file = anew.problem.limits().seconds;
-                let prepared = anew.prepare(seconds, &interrupt, &mut *watch)?;
+                workers.check_for(&anew.problem)?;
+                let prepared = anew.prepare(seconds, &workers, &interrupt, &mut *watch)?;
                 seconds = seconds.or(of_file);
                 prepared
             }
@@ -237,7 +250,8 @@ impl<'a> Growth<'a> {
                     return Err(Failure::usage(format!("{}: no run here", run.display())));
                 }
                 let lock = RunLock::take(&run, || interrupt.came())?;
-                go_on(&run, lock, Change::Chapter(chapter), &mut *watch)?
+                let change = Change::Chapter(chapter);
+                go_on(&run, lock, change, (&workers, function.as_ref()), &mut *watch)?
             }
         };
         let Prepared { problem, mut folder, ledger, past, imports } = match prepared {
@@ -247,6 +261,8 @@ impl<'a> Growth<'a> {
 
         let verdicts = past.as_ref().and_then(|past| past.verdicts.clone()).unwrap_or_default();
         let rounds = past.as_ref().map_or(0, Scan::rounds);
+        let function = problem.validity_function().cloned();
+        interrupt.function = function.clone();
         let setup = Arc::new(Setup::new(problem));
         let mut keeper = Keeper {
             setup: setup.clone(),
@@ -262,6 +278,10 @@ impl<'a> Growth<'a> {
             rounds,
             may_stop: false,
             weighed: Weighed { after_rounds: rounds, at: None },
+            cpu_seconds_before: match &past {
+                None => Some(0.0),
+                Some(past) => cpu_seconds_of(past, setup.problem()),
+            },
             stored: Arc::default(),
             board: None,
             machines_file: folder.file(MACHINES_JSON),
@@ -291,14 +311,21 @@ impl<'a> Growth<'a> {
                 }
                 Err(error) => return Err(not_started(error, folder, past.is_some())),
             },
-            Kind::Agents(options) => match start_agents(&setup, options, folder.path()) {
-                Ok(dispatcher) => {
-                    keeper.dispatch(dispatcher, &mut folder, past.as_ref(), imports)?
+            Kind::Agents(places, options) => {
+                match start_agents(&setup, places, options, folder.path()) {
+                    Ok(dispatcher) => {
+                        keeper.dispatch(dispatcher, &mut folder, past.as_ref(), imports)?
+                    }
+                    Err(error) => return Err(not_started(error, folder, past.is_some())),
                 }
-                Err(error) => return Err(not_started(error, folder, past.is_some())),
-            },
+            }
         };
-        keeper.end(&folder, &stop, &tally, seconds)
+        let ended = keeper.end(&folder, &stop, &tally, seconds)?;
+        // The complete rounds are saved; nothing that the function had to do with since is in them.
+        match function.as_ref().and_then(ValidityFunction::failure) {
+            Some(failed) => Err(Failure::usage(failed)),
+            None => Ok(ended),
+        }
     }
 }
 
@@ -310,6 +337,20 @@ fn not_started(error: CrewError, folder: RunFolder, is_old: bool) -> Failure {
     Failure::system(error)
 }
 
+/// The CPU seconds that have gone into a run. A call that was killed has left no word of its end, and nobody knows its seconds.
+fn cpu_seconds_of(scan: &Scan, problem: &Problem) -> Option<f64> {
+    let has_ended = scan.stopped.is_some();
+    has_ended.then(|| run_cpu_seconds_in(scan.folder(), digest_of(scan, problem)))?
+}
+
+/// The digest of the roadmap of the complete rounds.
+fn digest_of(scan: &Scan, problem: &Problem) -> Digest {
+    match &scan.last_round {
+        Some(end) => end.roadmap,
+        None => Tally::new(&problem.space()).digest(),
+    }
+}
+
 /// A build to be grown, or one that has ended before.
 type Found = Result<Prepared, Box<Ended>>;
 
@@ -318,6 +359,7 @@ impl Anew {
     fn prepare(
         self,
         seconds: Option<f64>,
+        workers: &Workers,
         interrupt: &Interrupt,
         watch: &mut dyn Watch,
     ) -> Result<Found, Failure> {
@@ -346,7 +388,9 @@ impl Anew {
         };
         // Looked for again now that nobody else can make it.
         if let Some(out) = existing.filter(|out| has_ledger(out)) {
-            return go_on(out, lock, Change::None(Box::new(problem), imports), watch);
+            let function = problem.validity_function().cloned();
+            let change = Change::None(Box::new(problem), imports);
+            return go_on(out, lock, change, (workers, function.as_ref()), watch);
         }
         let mut ledger = match LedgerWriter::begin(folder.path(), &problem, lock) {
             Ok(ledger) => ledger,
@@ -362,11 +406,12 @@ impl Anew {
     }
 }
 
-/// Goes on with the build in the folder `run`, which `lock` holds.
+/// Goes on with the build in the folder `run`, which `lock` holds, by these workers and with the validity function that is given.
 fn go_on(
     run: &Path,
     lock: RunLock,
     change: Change,
+    (workers, function): (&Workers, Option<&ValidityFunction>),
     watch: &mut dyn Watch,
 ) -> Result<Found, Failure> {
     let mut scan = Scan::read(run)?;
@@ -382,14 +427,13 @@ fn go_on(
     }
     let present = scan.problem()?;
     let problem = change.apply(&scan, &present).map_err(refuse)?;
+    let problem = problem.supplied_with(function).map_err(refuse)?;
+    workers.check_for(&problem)?;
     let is_chapter = bits != BITS_VERSION || difference(&present, &problem).is_some();
     if let Some(stopped) = scan.stopped.as_ref().filter(|stopped| stopped.is_final() && !is_chapter)
     {
         let stopped = stopped.clone();
-        let digest = match &scan.last_round {
-            Some(end) => end.roadmap,
-            None => Tally::new(&problem.space()).digest(),
-        };
+        let digest = digest_of(&scan, &problem);
         return Ok(Err(Box::new(Ended {
             run: Run::at(run),
             problem,

@@ -30,6 +30,7 @@ mod interrupt;
 mod limits;
 mod recorded;
 mod replanned;
+mod selection;
 mod stops;
 mod verification;
 mod watch;
@@ -39,7 +40,8 @@ pub use ended::Ended;
 pub use growth::Growth;
 pub(crate) use limits::limit;
 pub use recorded::Recorded;
-pub use verification::{Selection, Verification, Verified};
+pub use selection::Selection;
+pub use verification::{Verification, Verified};
 pub use watch::{Begun, Status, Torn, Watch};
 pub use workers::{WORKERS_MAX, Workers};
 

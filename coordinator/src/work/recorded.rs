@@ -1,7 +1,8 @@
+use crate::exit::Failure;
 use crate::run::ledger::{Ledger, Stopped};
 use roadmill::Context;
 use roadmill::export::RoundOutcome;
-use roadmill::model::Scratch;
+use roadmill::model::{Scratch, ValidityFunction};
 use roadmill::problem::Problem;
 use roadmill::query::{Answer, Attachment, EndError, Path, PreparedRoadmap};
 use roadmill::roadmap::{Digest, Roadmap};
@@ -25,6 +26,23 @@ impl Recorded {
         let (cx, attachment) = (problem.context(), problem.attachment());
         let roadmap = PreparedRoadmap::new(roadmap);
         Recorded { problem, roadmap, path, stopped, rounds, program, hash, cx, attachment }
+    }
+
+    /// The run with the validity function of its problem, which the ledger only names: queries need it.
+    ///
+    /// # Errors
+    /// Exit code 2: the ledger names another function, or none.
+    pub fn with_validity_function(self, function: &ValidityFunction) -> Result<Recorded, Failure> {
+        let problem = self.problem.supplied_with(Some(function)).map_err(Failure::usage)?;
+        Ok(Recorded { cx: problem.context(), problem, ..self })
+    }
+
+    /// Whether queries can be answered.
+    ///
+    /// # Errors
+    /// Exit code 2: the problem has a validity function, which is missing.
+    pub fn expect_validity_function(&self) -> Result<(), Failure> {
+        self.problem.clone().supplied_with(None).map(|_| ()).map_err(Failure::usage)
     }
 
     /// The problem, all chapters taken together.

@@ -1,6 +1,7 @@
 use super::difference;
 use super::interrupt::Interrupt;
 use super::replanned::check_parent;
+use super::selection::{Choice, Selection};
 use super::stops::Standing;
 use super::workers::{Kind, Workers, start, start_agents};
 use crate::dispatch::{Dispatcher, Staff};
@@ -13,38 +14,18 @@ use roadmill::img::{
     Cut, Event, Executor, Finished, Job, LOSSES_MAX, Loss, Outcome, RoundSet, Setup, TICK, Threads,
 };
 use roadmill::internal::wire;
-use roadmill::model::Scratch;
-use roadmill::numbers::{Ordinal, RoundNumber, SetNumber};
+use roadmill::model::{Scratch, ValidityFunction, with_functions};
+use roadmill::numbers::SetNumber;
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Roadmap};
 use roadmill::{BITS_VERSION, Cancel, Strategy};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The share that is recomputed unless something else is asked for.
-const DEFAULT_SHARE: f64 = 0.01;
 /// Increments per worker that may be waited for while later rounds are read.
 const AHEAD_PER_WORKER: usize = 4;
-
-/// What is recomputed.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Selection {
-    /// Everything.
-    All,
-    /// A share of all sets and judgements, from 0 to 1, at least one set. Which follows from the ledger's hash.
-    Share(f64),
-    /// These sets, each as `LABEL:ORDINAL`.
-    Sets(Vec<String>),
-}
-
-/// One set or judgement in a hundred.
-impl Default for Selection {
-    fn default() -> Selection {
-        Selection::Share(DEFAULT_SHARE)
-    }
-}
 
 /// A run to be verified: see [`Run::verify`](super::Run::verify).
 #[must_use = "nothing is verified before `check`"]
@@ -54,6 +35,7 @@ pub struct Verification {
     parent: Option<PathBuf>,
     workers: Workers,
     interrupt: Interrupt,
+    function: Option<ValidityFunction>,
 }
 
 /// What a verification found to be as it is recorded.
@@ -75,7 +57,8 @@ pub struct Verified {
 impl Verification {
     pub(super) fn new(folder: &Path, selection: Selection) -> Verification {
         let (workers, interrupt) = (Workers::default(), Interrupt::default());
-        Verification { folder: folder.to_owned(), selection, parent: None, workers, interrupt }
+        let (folder, function) = (folder.to_owned(), None);
+        Verification { folder, selection, parent: None, workers, interrupt, function }
     }
 
     /// Who recomputes; a thread for every processor if nothing is said.
@@ -87,6 +70,11 @@ impl Verification {
     /// own folder. A run that replans none has no use for it, and is refused.
     pub fn parent(self, folder: impl Into<PathBuf>) -> Verification {
         Verification { parent: Some(folder.into()), ..self }
+    }
+
+    /// The validity function of the run's problem, which the ledger only names.
+    pub fn validity_function(self, function: &ValidityFunction) -> Verification {
+        Verification { function: Some(function.clone()), ..self }
     }
 
     /// Ends when `cancel` says so, with a failure.
@@ -105,13 +93,20 @@ impl Verification {
     ///
     /// # Errors
     /// Exit code 7: something is not as it is recorded, which the message names; 2: there is no run, a run that it replans
-    /// is not found, it replans none and is given one, or a set that is not in it was asked for; 4: the run is damaged; 1: the system refuses; 5: the workers are lost; 6: it was
+    /// is not found, it replans none and is given one, a set that is not in it was asked for, or the problem's validity function
+    /// is missing or fails; 4: the run is damaged; 1: the system refuses; 5: the workers are lost; 6: it was
     /// ended before.
     pub fn check(self) -> Result<Verified, Failure> {
-        let Verification { folder, selection, parent, workers, interrupt } = self;
+        let Verification { folder, selection, parent, workers, mut interrupt, function } = self;
         workers.check()?;
         let scan = Scan::read(&folder)?;
-        let problem = scan.problem()?;
+        let supplied = |problem: Problem| {
+            let refuse = |why| Failure::usage(format!("{}: {why}", folder.display()));
+            problem.supplied_with(function.as_ref()).map_err(refuse)
+        };
+        let problem = supplied(scan.problem()?)?;
+        workers.check_for(&problem)?;
+        interrupt.function = problem.validity_function().cloned();
         match (problem.survivors(), &parent) {
             (Some(_), parent) => check_parent(&folder, &scan.problem_of(0)?, parent.as_deref())?,
             (None, Some(parent)) => {
@@ -126,10 +121,11 @@ impl Verification {
         let choice = Choice::new(&selection, &scan, &problem)?;
         let mut counts = Counts::default();
         for stretch in stretches(&scan, problem)? {
-            let setup = Arc::new(Setup::new(stretch.problem));
+            let setup = Arc::new(Setup::new(supplied(stretch.problem)?));
             let check = Check {
                 scan: &scan,
                 setup: &setup,
+                supplied: &supplied,
                 chapters: stretch.chapters,
                 choice: &choice,
                 interrupt: &interrupt,
@@ -144,14 +140,14 @@ impl Verification {
                     let mut threads = threads.map_err(|error| {
                         Failure::system(format!("cannot start the threads: {error}"))
                     })?;
-                    check.run(&mut threads)?
+                    with_functions(|| check.run(&mut threads)).map_err(Failure::usage)??
                 }
                 Kind::Processes(program) => {
                     let dispatcher = start(&setup, workers.count, program.as_ref());
                     check.dispatch(dispatcher.map_err(Failure::system)?)?
                 }
-                Kind::Agents(options) => {
-                    let dispatcher = start_agents(&setup, options, &std::env::temp_dir());
+                Kind::Agents(places, options) => {
+                    let dispatcher = start_agents(&setup, places, options, &std::env::temp_dir());
                     check.dispatch(dispatcher.map_err(Failure::system)?)?
                 }
             };
@@ -197,84 +193,6 @@ fn stretches(scan: &Scan, problem: Problem) -> Result<Vec<Stretch>, Failure> {
     Ok(stretches)
 }
 
-/// What is recomputed of a run.
-enum Choice {
-    All,
-    /// Sets by label and ordinal.
-    Named(BTreeSet<(String, Ordinal)>),
-    /// A share; which follows from the ledger's hash.
-    Share(f64, Digest),
-    /// As the least share: this set.
-    One(SetNumber),
-}
-
-impl Choice {
-    fn new(selection: &Selection, scan: &Scan, problem: &Problem) -> Result<Choice, Failure> {
-        let share = match selection {
-            Selection::All => return Ok(Choice::All),
-            Selection::Sets(names) => return Choice::named(names, problem),
-            Selection::Share(share) => *share,
-        };
-        let sets = scan.last_round.as_ref().map_or(0, |end| end.sets);
-        let lots = (0..sets).map(|number| (lot(&scan.end.chain, b"set", number), number));
-        Ok(match lots.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((least, number)) if least >= share => Choice::One(SetNumber(number)),
-            _ => Choice::Share(share, scan.end.chain),
-        })
-    }
-
-    fn named(names: &[String], problem: &Problem) -> Result<Choice, Failure> {
-        let known = |label: &str| problem.strategies().iter().any(|known| known.label() == label);
-        let parse = |text: &String| {
-            let (label, ordinal) = text.rsplit_once(':')?;
-            known(label).then_some((label.to_owned(), Ordinal(ordinal.parse().ok()?)))
-        };
-        let parse = |text| {
-            parse(text).ok_or_else(|| {
-                let labels: Vec<_> = problem.strategies().iter().map(|s| s.label()).collect();
-                let labels = labels.join(", ");
-                let expected = format!("LABEL:ORDINAL expected, with a label of {labels}");
-                Failure::usage(format!("--set: `{text}` found; {expected}"))
-            })
-        };
-        names.iter().map(parse).collect::<Result<_, _>>().map(Choice::Named)
-    }
-
-    fn has_set(&self, set: &RoundSet, label: &str) -> bool {
-        match self {
-            Choice::All => true,
-            Choice::Named(names) => names.contains(&(label.to_owned(), set.ordinal)),
-            Choice::Share(share, chain) => lot(chain, b"set", set.number.0) < *share,
-            Choice::One(number) => set.number == *number,
-        }
-    }
-
-    /// Whether more sets are named than these.
-    fn has_more_sets_than(&self, sets: u64) -> bool {
-        matches!(self, Choice::Named(names) if sets < names.len() as u64)
-    }
-
-    /// Whether any judgement may be recomputed.
-    fn has_judgements(&self) -> bool {
-        matches!(self, Choice::All | Choice::Share(..))
-    }
-
-    fn has_judgement(&self, round: RoundNumber) -> bool {
-        match self {
-            Choice::All => true,
-            Choice::Share(share, chain) => lot(chain, b"judgement", round.0) < *share,
-            Choice::Named(_) | Choice::One(_) => false,
-        }
-    }
-}
-
-/// A number in `[0, 1)` that looks drawn by lot.
-fn lot(chain: &Digest, what: &[u8], number: u64) -> f64 {
-    let bytes = [&chain.0, what, &number.to_le_bytes()].concat();
-    let [a, b, c, d, e, f, ..] = Digest::of(&bytes).0;
-    u64::from_le_bytes([a, b, c, d, e, f, 0, 0]) as f64 / (1u64 << 48) as f64
-}
-
 /// What was recomputed.
 #[derive(Clone, Copy, Default)]
 struct Counts {
@@ -289,6 +207,8 @@ struct Check<'a> {
     scan: &'a Scan,
     /// The problem of the stretch.
     setup: &'a Setup,
+    /// A problem with its validity function, which the ledger only names.
+    supplied: &'a dyn Fn(Problem) -> Result<Problem, Failure>,
     /// The chapters of the stretch.
     chapters: Range<usize>,
     choice: &'a Choice,
@@ -426,7 +346,10 @@ impl Check<'_> {
         }
         let (_, setup) = match known {
             Some(known) => known,
-            None => known.insert((chapter, Setup::new(self.scan.problem_of(chapter)?))),
+            None => {
+                let problem = (self.supplied)(self.scan.problem_of(chapter)?)?;
+                known.insert((chapter, Setup::new(problem)))
+            }
         };
         Ok(setup)
     }

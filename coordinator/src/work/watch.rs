@@ -132,6 +132,8 @@ pub(super) struct Keeper<'a> {
     /// judged, and no later one awaits its judgement. So every call comes on, however short its time.
     pub may_stop: bool,
     pub weighed: Weighed,
+    /// CPU seconds of the calls that grew the run before; `None` where they are not known.
+    pub cpu_seconds_before: Option<f64>,
     /// Bytes stored for the workers in shared memory, which count as no process's own.
     pub stored: Arc<AtomicU64>,
     /// What each machine does, where there are several.
@@ -233,8 +235,10 @@ impl Keeper<'_> {
             let rest = coordinator_cpu_seconds - messages - fold - ledger;
             CoordinatorCpu { messages, fold, ledger, rest }
         });
+        let cpu_seconds = coordinator_cpu_seconds + self.cpu.children_seconds();
         let times = Times {
-            cpu_seconds: coordinator_cpu_seconds + self.cpu.children_seconds(),
+            cpu_seconds,
+            run_cpu_seconds: self.cpu_seconds_before.map(|before| before + cpu_seconds),
             coordinator_cpu_seconds,
             coordinator_cpu,
             wall_seconds: self.begun.elapsed().as_secs_f64(),

@@ -1,10 +1,13 @@
+use crate::agent::{Carriers, Place};
 use crate::crew::{CrewError, Executable, LocalCrew};
 use crate::dispatch::{AgentOptions, Agents, Dispatcher, Foreman};
 use crate::exit::Failure;
 use roadmill::img::Setup;
+use roadmill::problem::Problem;
 use roadmill::roadmap::Outline;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// The most worker processes or threads.
 pub const WORKERS_MAX: usize = 4096;
@@ -21,7 +24,7 @@ pub(super) enum Kind {
     Threads,
     /// Worker processes that run the program at this path; `None` stands for that of this process.
     Processes(Option<PathBuf>),
-    Agents(AgentOptions),
+    Agents(Vec<Place>, AgentOptions),
 }
 
 impl Workers {
@@ -41,13 +44,24 @@ impl Workers {
     }
 
     /// Agents on other machines, each with workers of its own: see [`crate::agent`].
-    pub fn agents(options: AgentOptions) -> Workers {
-        Workers { count: options.places.len(), kind: Kind::Agents(options) }
+    pub fn agents(places: Vec<Place>, options: AgentOptions) -> Workers {
+        Workers { count: places.len(), kind: Kind::Agents(places, options) }
     }
 
     /// As many as there are processors that the system lets this process use.
     pub fn available() -> usize {
         std::thread::available_parallelism().map_or(1, usize::from)
+    }
+
+    /// Whether the problem can be worked on like this: a validity function is called in this process only.
+    pub(super) fn check_for(&self, problem: &Problem) -> Result<(), Failure> {
+        match problem.validity_function() {
+            Some(function) if self.kind != Kind::Threads => Err(Failure::usage(format!(
+                "workers in other processes found; threads expected, since no other process has the validity function `{}`",
+                function.identity()
+            ))),
+            _ => Ok(()),
+        }
     }
 
     pub(super) fn check(&self) -> Result<(), Failure> {
@@ -78,9 +92,16 @@ pub(super) fn start(
 /// Makes agents ready to be started; what they have to be told lies in a file in `folder`.
 pub(super) fn start_agents(
     setup: &Arc<Setup>,
+    places: &[Place],
     options: &AgentOptions,
     folder: &Path,
-) -> Result<Dispatcher<Agents>, CrewError> {
+) -> Result<Dispatcher<Agents<Carriers>>, CrewError> {
     let outline = Outline::new(setup.context().space());
-    Ok(Dispatcher::of(Agents::new(setup.clone(), options.clone(), folder)?, outline))
+    // Relays may have kept frames of another process; two that begin in one microsecond have other ids.
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    let now = now.map_or(0, |now| now.as_micros() as u64);
+    let session = (now << 20) ^ u64::from(std::process::id());
+    let fleet = Carriers::new(places.to_vec(), session)
+        .map_err(CrewError::system("cannot watch over agents"))?;
+    Ok(Dispatcher::of(Agents::new(setup.clone(), options.clone(), fleet, folder)?, outline))
 }

@@ -233,6 +233,8 @@ impl Scratch {
             sets: json["sets"].as_u64().expect("a number is there"),
             stop: text("stop"),
             digest: text("digest"),
+            cpu_seconds: json["cpu_seconds"].as_f64().expect("a number is there"),
+            run_cpu_seconds: json["run_cpu_seconds"].as_f64(),
         }
     }
 
@@ -284,6 +286,8 @@ pub struct Summary {
     pub sets: u64,
     pub stop: String,
     pub digest: String,
+    pub cpu_seconds: f64,
+    pub run_cpu_seconds: Option<f64>,
 }
 
 /// The binary at work. Ended when dropped.

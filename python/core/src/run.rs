@@ -1,10 +1,11 @@
 //! Runs that were loaded.
 
 use crate::failure::raised;
+use crate::validity::{Given, PythonFunction, exception};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use roadmill::export::npz;
-use roadmill::model::Scratch;
+use roadmill::model::{Scratch, ValidityFunction, with_functions};
 use roadmill::query::{Path, shorten};
 use roadmill::roadmap::Configs;
 use roadmill_coordinator::Run;
@@ -23,11 +24,26 @@ pub struct LoadedRun {
 
 #[pymethods]
 impl LoadedRun {
-    /// Reads a run folder; every record and every round's digest are checked.
+    /// Reads a run folder; every record and every round's digest are checked. Queries of a run whose configurations a validity
+    /// function judged need that function.
     #[new]
-    fn load(py: Python<'_>, folder: PathBuf) -> PyResult<LoadedRun> {
-        let recorded = py.detach(|| Run::at(folder).read()).map_err(raised)?;
-        Ok(LoadedRun { recorded })
+    #[pyo3(signature = (folder, validity))]
+    fn load(py: Python<'_>, folder: PathBuf, validity: Option<Given>) -> PyResult<LoadedRun> {
+        let function = validity.map(PythonFunction::new).transpose().map_err(raised)?;
+        let recorded = py.detach(|| {
+            let recorded = Run::at(folder).read()?;
+            match &function {
+                Some(function) => recorded.with_validity_function(&function.function),
+                None => Ok(recorded),
+            }
+        });
+        Ok(LoadedRun { recorded: recorded.map_err(raised)? })
+    }
+
+    /// The identity of the validity function that judged configurations, if there was one.
+    #[getter]
+    fn validity(&self) -> Option<&str> {
+        self.recorded.problem().validity_function().map(ValidityFunction::identity)
     }
 
     /// The roadmap's digest.
@@ -85,15 +101,17 @@ impl LoadedRun {
         goal: Vec<f64>,
         tries: Option<u32>,
     ) -> PyResult<(Option<FoundPath<'py>>, Option<&'static str>, u64)> {
-        let answer = py.detach(|| {
-            let mut answer = self.recorded.query(&start, &goal)?;
+        let ask = || {
+            self.recorded.expect_validity_function()?;
+            let answer = self.recorded.query(&start, &goal);
+            let mut answer = answer.map_err(Failure::usage)?;
             if let (Some(path), Some(tries)) = (&mut answer.path, tries) {
                 *path = shorten(self.recorded.context(), path, tries, &mut Scratch::new());
             }
             Ok(answer)
-        });
-        let answer =
-            answer.map_err(|error: roadmill::query::EndError| raised(Failure::usage(error)))?;
+        };
+        let answer = py.detach(|| with_functions(ask));
+        let answer = answer.map_err(|failed| exception(py, &failed))?.map_err(raised)?;
         let why = answer.path.is_none().then(|| answer.why_no_path());
         Ok((answer.path.as_ref().map(|path| given(py, path)), why, answer.dropped_edges))
     }

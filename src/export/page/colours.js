@@ -9,13 +9,16 @@ function ramp(share) {
   return RAMP[i].map((x, k) => x + (RAMP[i + 1][k] - x) * (at - i));
 }
 
+// The unit of a number as it is shown: not where there is none, nor where it is the number's own name, as of a landscape's energy.
+const unitOf = (name, unit) => unit === "1" || unit === name ? "" : unit;
+
 // The numbers that nodes can be coloured by.
 function measures() {
   if (!graph) return [];
   const dofs = data.dofs.map(([name, unit], dof) =>
-    ({ name, unit: unit === "1" ? "" : unit, of: (node) => graph.configs[data.dofs.length * node + dof] }));
+    ({ name, unit: unitOf(name, unit), of: (node) => graph.configs[data.dofs.length * node + dof] }));
   const values = graph.values.map(({ name, unit, numbers }) =>
-    ({ name, unit: unit === "1" ? "" : unit, of: (node) => numbers[node] }));
+    ({ name, unit: unitOf(name, unit), of: (node) => numbers[node] }));
   const ends = graph.stops.map(({ shownNodes }) => shownNodes);
   const roundOf = (node) => {
     let [below, above] = [0, ends.length - 1];

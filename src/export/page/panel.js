@@ -34,19 +34,18 @@ function tellValues() {
   const node = pointed(), box = element("values");
   box.hidden = node < 0 && !path();
   if (box.hidden) return;
-  const unitOf = (unit) => unit === "1" ? "" : unit;
   const rows = [];
   if (node >= 0) {
     const { configs, components, degrees, values, ids } = graph, count = data.dofs.length;
     box.querySelector("h1").textContent = "node " + ids[node];
-    data.dofs.forEach(([name, unit], dof) => rows.push([name, configs[count * node + dof].toFixed(3), unitOf(unit)]));
-    values.forEach(({ name, unit, numbers }) => rows.push([name, rounded(numbers[node]), unitOf(unit)]));
+    data.dofs.forEach(([name, unit], dof) => rows.push([name, configs[count * node + dof].toFixed(3), unitOf(name, unit)]));
+    values.forEach(({ name, unit, numbers }) => rows.push([name, rounded(numbers[node]), unitOf(name, unit)]));
     rows.push(["component", String(graph.whole ? ids[componentsAtStop()[node]] : components[node]), ""],
       ["edges", String(degrees[node]), ""], ["round", String(measures().find(({ name }) => name === "round").of(node)), ""]);
   } else {
     const config = path().configs[Math.round(state.place)];
     box.querySelector("h1").textContent = graph ? path().name : data.name;
-    data.dofs.forEach(([name, unit], dof) => rows.push([name, config[dof].toFixed(3), unitOf(unit)]));
+    data.dofs.forEach(([name, unit], dof) => rows.push([name, config[dof].toFixed(3), unitOf(name, unit)]));
   }
   const table = box.querySelector("table");
   while (table.rows.length > rows.length) table.deleteRow(-1);

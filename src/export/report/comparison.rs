@@ -17,8 +17,8 @@ pub struct ComparedBuild {
     pub nodes: u64,
     /// Edges at its end.
     pub edges: u64,
-    /// CPU seconds of all processes.
-    pub cpu_seconds: f64,
+    /// CPU seconds of all processes, of all calls that grew it; `None` where they are not known, since one was killed.
+    pub cpu_seconds: Option<f64>,
     /// The nodes at the end of the first round after which all criteria were met; `None` where they never were.
     pub enough: Option<u64>,
     /// The share of drawn valid configurations that can be connected to the roadmap at its end.
@@ -51,7 +51,7 @@ pub struct ComparedStrategy<'a> {
     pub enough: usize,
     /// Least, median and greatest number of nodes of those that did.
     pub nodes: Option<[f64; 3]>,
-    /// Least, median and greatest CPU seconds of those that did.
+    /// Least, median and greatest CPU seconds of those that did and whose CPU seconds are known.
     pub cpu_seconds: Option<[f64; 3]>,
     /// The median of all builds' coverage.
     pub coverage: f64,
@@ -69,7 +69,7 @@ impl Comparison {
                 builds: of().count(),
                 enough: met().count(),
                 nodes: spread(nodes.collect()),
-                cpu_seconds: spread(met().map(|build| build.cpu_seconds).collect()),
+                cpu_seconds: spread(met().filter_map(|build| build.cpu_seconds).collect()),
                 coverage: spread(of().map(|build| build.coverage).collect())
                     .map_or(f64::NAN, |[_, median, _]| median),
             }
@@ -77,7 +77,7 @@ impl Comparison {
         summed.collect()
     }
 
-    /// A table with a line per build.
+    /// A table with a line per build; CPU seconds that are not known are left empty.
     pub fn csv(&self) -> String {
         let mut csv = String::from(
             "strategy,seed,nodes,edges,cpu_seconds,criteria_met,nodes_when_met,coverage\n",
@@ -88,6 +88,7 @@ impl Comparison {
             } = build;
             let when = enough.map_or(String::new(), |nodes| nodes.to_string());
             let met = enough.is_some();
+            let cpu_seconds = cpu_seconds.map_or(String::new(), |seconds| seconds.to_string());
             writeln!(
                 csv,
                 "{strategy},{seed},{nodes},{edges},{cpu_seconds},{met},{when},{coverage}"
@@ -129,7 +130,7 @@ impl Comparison {
     fn table(&self) -> String {
         let mut html = String::from(
             "<section><h2>Builds</h2>\n<p>Nodes and CPU seconds are least, <b>median</b> and greatest over the builds that \
-             met all criteria; coverage is the median of all.</p>\n<div class=\"scroll\"><table><tr><th>strategy</th>\
+             met all criteria, and whose CPU seconds are known; coverage is the median of all.</p>\n<div class=\"scroll\"><table><tr><th>strategy</th>\
              <th>met</th><th>nodes</th><th>CPU seconds</th><th>coverage</th></tr>\n",
         );
         let three = |spread: Option<[f64; 3]>, decimals: usize| match spread {
@@ -196,13 +197,18 @@ fn spread(mut values: Vec<f64>) -> Option<[f64; 3]> {
 mod tests {
     use super::*;
 
-    fn build(strategy: &str, seed: u64, enough: Option<u64>, cpu_seconds: f64) -> ComparedBuild {
+    fn build(
+        strategy: &str,
+        seed: u64,
+        enough: Option<u64>,
+        cpu_seconds: impl Into<Option<f64>>,
+    ) -> ComparedBuild {
         ComparedBuild {
             strategy: strategy.to_owned(),
             seed,
             nodes: 500,
             edges: 900,
-            cpu_seconds,
+            cpu_seconds: cpu_seconds.into(),
             enough,
             coverage: 0.5,
             rounds: vec![(250, vec![0.0]), (500, vec![f64::from(u8::from(enough.is_some()))])],
@@ -219,6 +225,7 @@ mod tests {
                 build("x", 2, Some(300), 1.0),
                 build("x", 3, None, 9.0),
                 build("y", 1, None, 2.0),
+                build("y", 2, Some(400), None),
             ],
         }
     }
@@ -229,22 +236,28 @@ mod tests {
         let [x, y] = &comparison.summary()[..] else { panic!("two strategies") };
         assert_eq!((x.builds, x.enough), (3, 2));
         assert_eq!((x.nodes, x.cpu_seconds), (Some([300.0, 400.0, 500.0]), Some([1.0, 2.0, 3.0])));
-        assert_eq!((y.builds, y.enough, y.nodes, y.cpu_seconds), (1, 0, None, None));
+        // Of the one build that met the criteria nobody knows the seconds.
+        let expected = (2, 1, Some([400.0; 3]), None);
+        assert_eq!((y.builds, y.enough, y.nodes, y.cpu_seconds), expected);
         assert_eq!(spread(vec![3.0, 1.0, 2.0]), Some([1.0, 2.0, 3.0]));
     }
 
     #[test]
     fn tables_and_the_page_hold_every_build() {
         let comparison = comparison();
-        assert_eq!(comparison.csv().lines().count(), 5);
+        assert_eq!(comparison.csv().lines().count(), 6);
+        assert!(comparison.csv().contains("\ny,2,500,900,,true,400,0.5\n"), "{}", comparison.csv());
         assert!(comparison.csv().contains("\nx,3,500,900,9,false,,0.5\n"), "{}", comparison.csv());
-        assert_eq!(comparison.curves_csv().lines().count(), 9);
+        assert_eq!(comparison.curves_csv().lines().count(), 11);
         assert!(comparison.curves_csv().contains("\ny,1,500,0\n"));
         let html = comparison.html();
         assert!(html.contains("a&lt;b") && !html.contains("a<b"), "names are text");
-        assert!(html.contains("<td>2 of 3</td>") && html.contains("<td>0 of 1</td><td>–</td>"));
+        assert!(
+            html.contains("<td>2 of 3</td>")
+                && html.contains("<td>1 of 2</td><td>400 <b>400</b> 400</td><td>–</td>")
+        );
         // A line per build, and per strategy a key in the legend.
-        assert_eq!(html.matches("class=\"line\" d=\"M").count(), 4 + 2);
+        assert_eq!(html.matches("class=\"line\" d=\"M").count(), 5 + 2);
         assert_eq!(html, comparison.html());
     }
 }

@@ -20,6 +20,7 @@ mod sound;
 mod spec;
 mod touching_lines;
 pub mod validity;
+mod with_function;
 mod write;
 
 pub(crate) use sound::body_sound;
@@ -33,6 +34,7 @@ pub use validity::BodyValidity;
 
 use super::{
     Description, Documents, Figure, Model, ModelKind, PoseFound, PoseGoal, Resolve, SceneChange,
+    ValidityFunction,
 };
 use crate::scene::Body;
 use crate::seed::Seed;
@@ -41,6 +43,7 @@ use crate::space::Space;
 use bincode::{Decode, Encode};
 use robot::Robot;
 use validity::{Bounds, MotionChecking};
+use with_function::BodiesWithFunction;
 
 /// A robot of rigid links among rigid obstacles: plain data, complete in itself (meshes included).
 #[derive(Clone, Debug, PartialEq, Encode, Decode)]
@@ -138,6 +141,17 @@ impl Description for Bodies {
 
     fn prepare(&self) -> Box<dyn Model> {
         Box::new(self.validity())
+    }
+
+    fn takes_function(&self) -> Result<(), &'static str> {
+        match self.edges {
+            MotionChecking::Sampled => Ok(()),
+            MotionChecking::Swept => Err("space.edges: \"swept\" found"),
+        }
+    }
+
+    fn prepare_with(&self, function: &ValidityFunction) -> Box<dyn Model> {
+        Box::new(BodiesWithFunction::new(self.validity(), function.clone()))
     }
 
     fn difference(&self, other: &ModelKind) -> Option<&'static str> {

@@ -2,8 +2,10 @@ use twox_hash::XxHash3_128;
 
 /// How long the header of a frame is, in bytes.
 pub const HEADER_BYTES: usize = 40;
+/// The last byte of every frame. Some carriers, `srun` among them, hand on whole lines: they hold no frame back.
+const LAST: u8 = b'\n';
 /// The most bytes of a message in one frame, so that a sign of life never waits behind more than this.
-pub const PIECE_BYTES: usize = (64 << 10) - HEADER_BYTES;
+pub const PIECE_BYTES: usize = (64 << 10) - HEADER_BYTES - 1;
 /// The first bytes of every frame; the digit is the version.
 const MAGIC: [u8; 4] = *b"rml1";
 /// Where the checksum begins.
@@ -93,6 +95,7 @@ impl<'a> Frame<'a> {
         let sum = checksum(&output[begin..], self.bytes);
         output.extend(sum.to_le_bytes());
         output.extend(self.bytes);
+        output.push(LAST);
     }
 
     /// The frame at the beginning of `input` and how many bytes it takes, if all of it has come.
@@ -114,13 +117,13 @@ impl<'a> Frame<'a> {
         if length as usize > PIECE_BYTES || field(header, 28) != [0; 4] {
             return Err(FrameError::TooLong(length));
         }
-        let Some(bytes) = rest.get(..length as usize) else { return Ok(None) };
-        if checksum(fields, bytes).to_le_bytes() != *sum {
+        let Some([bytes @ .., end]) = rest.get(..=length as usize) else { return Ok(None) };
+        if checksum(fields, bytes).to_le_bytes() != *sum || *end != LAST {
             return Err(FrameError::Checksum);
         }
         let session = u64::from_le_bytes(field(header, 8));
         let number = u64::from_le_bytes(field(header, 16));
-        Ok(Some((Frame { kind, session, number, bytes }, HEADER_BYTES + bytes.len())))
+        Ok(Some((Frame { kind, session, number, bytes }, HEADER_BYTES + bytes.len() + 1)))
     }
 
     /// The number that a sign of life, its answer and a credit carry.

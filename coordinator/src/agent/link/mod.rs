@@ -12,6 +12,7 @@
 //! | 16–23 | number of the frame in its direction, from 0 |
 //! | 24–31 | length of the bytes that follow the header, below 64 KiB |
 //! | 32–39 | XXH3 of bytes 0–31 and of the bytes that follow |
+//! | last | 0x0a: carriers that hand on whole lines, as `srun` does, hold no frame back |
 //!
 //! - **Nobody waits for the other end to read.** Each end reads whatever comes, at any time, so that two ends
 //!   that both have much to say never stand with full pipes in front of one another. What is read and not yet
@@ -32,3 +33,6 @@ pub use bell::Bell;
 pub use frame::{Frame, FrameError, HEADER_BYTES, Kind, PIECE_BYTES};
 pub use pump::{Ending, Patience, Pump, Traffic};
 pub use state::{Link, LinkError, OPENING, PREAMBLE_BYTES_MAX, WINDOW_BYTES};
+
+#[cfg(test)]
+mod tests;

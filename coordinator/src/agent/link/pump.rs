@@ -2,9 +2,10 @@ use super::bell::Bell;
 use super::state::Link;
 use roadmill_workers::HEARTBEAT;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fs::{FileType, Mode, OFlags, fstat, open};
 use rustix::io::{Errno, read, write};
 use std::io;
-use std::os::fd::{AsFd, OwnedFd};
+use std::os::fd::{AsRawFd, OwnedFd};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
@@ -14,6 +15,8 @@ const READ_BYTES: usize = 64 << 10;
 /// So much is written at once: a file that is ready takes this much without blocking, whatever it is (`PIPE_BUF`).
 /// Files here may be shared with other processes, which would not expect them not to block.
 const WRITE_BYTES: usize = 4 << 10;
+/// So much where the file is this process's alone, and does not block.
+const OWN_WRITE_BYTES: usize = 64 << 10;
 
 /// When fewer bytes of messages than this wait to be written, it is time for more.
 const QUEUED_FEW: u64 = 512 << 10;
@@ -56,6 +59,30 @@ pub struct Traffic {
     pub stale: u64,
 }
 
+/// What is written to.
+struct Writer {
+    /// Shared with the thread that sleeps until it can be written to.
+    file: Arc<OwnedFd>,
+    /// So much at once.
+    most: usize,
+}
+
+impl Writer {
+    /// A pipe is opened once more, for this process alone, so that it need not block.
+    fn new(file: OwnedFd) -> Writer {
+        let own = || {
+            let is_pipe = FileType::from_raw_mode(fstat(&file)?.st_mode) == FileType::Fifo;
+            let path = format!("/proc/self/fd/{}", file.as_raw_fd());
+            let flags = OFlags::WRONLY | OFlags::NONBLOCK | OFlags::CLOEXEC;
+            if is_pipe { open(path, flags, Mode::empty()) } else { Err(Errno::NOTSUP) }
+        };
+        match own() {
+            Ok(own) => Writer { file: Arc::new(own), most: OWN_WRITE_BYTES },
+            Err(_) => Writer { file: Arc::new(file), most: WRITE_BYTES },
+        }
+    }
+}
+
 /// Moves the bytes of a [`Link`] from and to two files, in a thread of its own: signs of life are sent and answered
 /// whatever else this process does, and what comes is always read.
 pub struct Pump {
@@ -67,7 +94,7 @@ struct Shared {
     state: Mutex<State>,
     /// Wakes the pump's thread.
     wake: Bell,
-    /// Rung when a message has come, or the link has ended.
+    /// Rung when the link was opened, a message has come, or the link has ended.
     bell: Arc<Bell>,
     begun: Instant,
     patience: Patience,
@@ -75,6 +102,8 @@ struct Shared {
 
 struct State {
     link: Link,
+    /// `None` once nothing more is to be written.
+    writer: Option<Writer>,
     /// When anything came last.
     heard: Instant,
     /// How the link ended, once nothing more will come.
@@ -99,7 +128,9 @@ impl Pump {
         patience: Patience,
     ) -> io::Result<Pump> {
         let now = Instant::now();
-        let state = State { link, heard: now, ended: None, is_closing: false, is_dropped: false };
+        let writer = Some(Writer::new(writer));
+        let state =
+            State { link, writer, heard: now, ended: None, is_closing: false, is_dropped: false };
         let shared = Arc::new(Shared {
             state: Mutex::new(state),
             wake: Bell::new()?,
@@ -109,7 +140,7 @@ impl Pump {
         });
         let of_thread = shared.clone();
         let thread = Builder::new().name("link".to_owned());
-        let thread = thread.spawn(move || of_thread.run(&reader, writer))?;
+        let thread = thread.spawn(move || of_thread.run(&reader))?;
         Ok(Pump { shared, thread: Some(thread) })
     }
 
@@ -123,8 +154,16 @@ impl Pump {
 
     /// Queues a message.
     pub fn send(&self, message: Arc<Vec<u8>>) {
-        self.shared.lock().link.send(message);
-        self.shared.wake.ring();
+        let mut state = self.shared.lock();
+        state.link.send(message);
+        // At once, where that cannot block: a thread need not be woken for it. What goes wrong the thread notices, too.
+        let is_own = state.writer.as_ref().is_some_and(|writer| writer.most == OWN_WRITE_BYTES);
+        while is_own && matches!(state.write(), Written::Some) {}
+        let is_done = state.link.output().is_empty();
+        drop(state);
+        if !is_done {
+            self.shared.wake.ring();
+        }
     }
 
     /// Says that nothing more will come, once all messages are written, and closes the writer.
@@ -194,17 +233,18 @@ impl Shared {
     }
 
     /// The thread: moves bytes until the link ends.
-    fn run(&self, reader: &OwnedFd, writer: OwnedFd) {
-        let mut writer = Some(writer);
-        let why = self.move_bytes(reader, &mut writer);
+    fn run(&self, reader: &OwnedFd) {
+        let ending = self.move_bytes(reader);
+        let mut state = self.lock();
         // The other end sees the end of the stream.
-        drop(writer);
-        self.lock().ended = Some(why);
+        state.writer = None;
+        state.ended = Some(ending);
+        drop(state);
         self.bell.ring();
     }
 
     /// How the link has ended.
-    fn move_bytes(&self, reader: &OwnedFd, writer: &mut Option<OwnedFd>) -> Ending {
+    fn move_bytes(&self, reader: &OwnedFd) -> Ending {
         let mut next_beat = Instant::now() + HEARTBEAT;
         let mut buffer = vec![0; READ_BYTES];
         loop {
@@ -219,15 +259,16 @@ impl Shared {
                 next_beat = Instant::now() + HEARTBEAT;
                 state.link.beat(self.now());
             }
-            let is_done = state.is_closing && state.link.output().is_empty();
             let has_output = !state.link.output().is_empty();
-            drop(state);
-            if is_done {
-                *writer = None;
+            if state.is_closing && !has_output {
+                state.writer = None;
             }
+            let writer = state.writer.as_ref().filter(|_| has_output);
+            let writer = writer.map(|writer| writer.file.clone());
+            drop(state);
             let mut fds =
                 vec![PollFd::new(&self.wake, PollFlags::IN), PollFd::new(reader, PollFlags::IN)];
-            if let Some(writer) = writer.as_ref().filter(|_| has_output) {
+            if let Some(writer) = &writer {
                 fds.push(PollFd::new(writer, PollFlags::OUT));
             }
             let wait = next_beat.saturating_duration_since(Instant::now());
@@ -244,8 +285,8 @@ impl Shared {
             {
                 return ending;
             }
-            if let Some(writer) = writer.as_ref().filter(|_| woken.get(2) == Some(&true))
-                && let Some(why) = self.write(writer)
+            if woken.get(2) == Some(&true)
+                && let Some(why) = self.write()
             {
                 return Ending::Cut(why);
             }
@@ -288,40 +329,63 @@ impl Shared {
         let now = self.now();
         let mut state = self.lock();
         state.heard = Instant::now();
+        let was_open = state.link.is_open();
         if let Err(error) = state.link.take_in(&buffer[..length], now) {
             return Some(Ending::Cut(error.to_string()));
         }
-        if state.link.has_message() {
+        if state.link.has_message() || state.link.is_open() != was_open {
             self.bell.ring();
         }
         None
     }
 
     /// Writes once; why the link has ended, if it has.
-    fn write(&self, writer: &OwnedFd) -> Option<String> {
+    fn write(&self) -> Option<String> {
         let mut state = self.lock();
-        let output = state.link.output();
-        let output = output[..output.len().min(WRITE_BYTES)].to_vec();
-        drop(state);
-        match write(writer.as_fd(), &output) {
-            Ok(length) => {
-                let mut state = self.lock();
-                let before = state.link.queued();
-                state.link.written(length);
+        let before = state.link.queued();
+        match state.write() {
+            Written::Some => {
                 // Whoever waits until there is room for more is to be woken.
                 if before >= QUEUED_FEW && state.link.queued() < QUEUED_FEW {
                     self.bell.ring();
                 }
                 None
             }
-            Err(Errno::INTR | Errno::AGAIN) => None,
+            Written::Nothing => None,
+            Written::Failed(error) => Some(format!("it cannot be written to: {error}")),
+        }
+    }
+}
+
+/// What came of writing once.
+enum Written {
+    Some,
+    /// There is nothing to be written, or no room for it.
+    Nothing,
+    Failed(io::Error),
+}
+
+impl State {
+    /// Writes once.
+    fn write(&mut self) -> Written {
+        let Some(writer) = &self.writer else { return Written::Nothing };
+        let output = self.link.output();
+        if output.is_empty() {
+            return Written::Nothing;
+        }
+        let length = output.len().min(writer.most);
+        match write(&writer.file, &output[..length]) {
+            Ok(length) => {
+                self.link.written(length);
+                Written::Some
+            }
+            Err(Errno::INTR | Errno::AGAIN) => Written::Nothing,
             // What the other end had still sent is read first: its stream ends, too.
             Err(Errno::PIPE | Errno::CONNRESET) => {
-                std::thread::sleep(Duration::from_millis(1));
-                self.lock().link.written(output.len());
-                None
+                self.link.written(length);
+                Written::Some
             }
-            Err(errno) => Some(format!("it cannot be written to: {}", io::Error::from(errno))),
+            Err(errno) => Written::Failed(errno.into()),
         }
     }
 }

@@ -280,7 +280,7 @@ impl Link {
 
     /// Bytes of messages that are still to be written.
     pub fn queued(&self) -> u64 {
-        self.queued + (self.output.len() - self.written).saturating_sub(HEADER_BYTES) as u64
+        self.queued + (self.output.len() - self.written).saturating_sub(HEADER_BYTES + 1) as u64
     }
 
     /// Whether the other end has opened the link.

@@ -16,7 +16,7 @@ pub use durable::{DURABLE, DurableFile};
 pub use frame::{HEADING, Mark, is_ledger};
 pub use parents::Ledgers;
 pub use reader::LedgerReader;
-pub use record::{Chapter, FullSet, Judged, Record, RoundEnd, SecondChapter, Set};
+pub use record::{Chapter, FullSet, Judged, Record, RoundEnd, SecondChapter, Set, ThirdChapter};
 pub use replay::{Replay, Told};
 pub use scan::Scan;
 pub use stopped::{Stopped, name as job_name};

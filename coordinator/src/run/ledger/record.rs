@@ -32,6 +32,8 @@ pub enum Record {
     FullSet(FullSet),
     /// A chapter whose problem has the second layout.
     SecondChapter(SecondChapter),
+    /// A chapter whose problem has the third layout.
+    ThirdChapter(ThirdChapter),
 }
 
 /// How a build goes on from a round.
@@ -62,6 +64,10 @@ pub struct Chapter {
 /// A [`Chapter`] whose problem has the second layout.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SecondChapter(pub Box<Chapter>);
+
+/// A [`Chapter`] whose problem has the third layout.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThirdChapter(pub Box<Chapter>);
 
 impl Encode for Chapter {
     fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
@@ -107,6 +113,21 @@ impl<Context> Decode<Context> for SecondChapter {
 }
 bincode::impl_borrow_decode!(SecondChapter);
 
+impl Encode for ThirdChapter {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        self.0.encode(encoder)
+    }
+}
+
+impl<Context> Decode<Context> for ThirdChapter {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Self, DecodeError> {
+        let chapter =
+            Chapter { layout: Layout::Third, ..<Chapter as Decode<Context>>::decode(decoder)? };
+        Ok(ThirdChapter(Box::new(chapter)))
+    }
+}
+bincode::impl_borrow_decode!(ThirdChapter);
+
 impl Chapter {
     /// The chapter of a problem, from a round on.
     pub fn new(first_round: RoundNumber, problem: &Problem) -> Chapter {
@@ -138,6 +159,7 @@ impl Chapter {
         match self.layout {
             Layout::First => Record::Chapter(Box::new(self)),
             Layout::Second => Record::SecondChapter(SecondChapter(Box::new(self))),
+            Layout::Third => Record::ThirdChapter(ThirdChapter(Box::new(self))),
         }
     }
 }

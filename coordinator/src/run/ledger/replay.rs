@@ -112,7 +112,7 @@ impl<'a> Replay<'a> {
                     }
                     return Ok(Some(Told::Judged(judged)));
                 }
-                Some(Record::Chapter(_) | Record::SecondChapter(_)) => {
+                Some(Record::Chapter(_) | Record::SecondChapter(_) | Record::ThirdChapter(_)) => {
                     if self.chapters == self.chapters_wanted {
                         break;
                     }

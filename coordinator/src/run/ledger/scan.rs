@@ -1,6 +1,6 @@
 use super::frame::Mark;
 use super::reader::LedgerReader;
-use super::record::{Chapter, Judged, Record, RoundEnd, SecondChapter, is_set};
+use super::record::{Chapter, Judged, Record, RoundEnd, SecondChapter, ThirdChapter, is_set};
 use super::soundness::{problem_complaint, verdicts_complaint};
 use super::stopped::Stopped;
 use crate::exit::{Code, Failure};
@@ -87,7 +87,10 @@ impl Scan {
 
     /// Takes in a record that is no set, after `sets` sets.
     fn take(&mut self, record: Record, sets: u64) -> Result<(), String> {
-        let is_chapter = matches!(record, Record::Chapter(_) | Record::SecondChapter(_));
+        let is_chapter = matches!(
+            record,
+            Record::Chapter(_) | Record::SecondChapter(_) | Record::ThirdChapter(_)
+        );
         if self.chapters.is_empty() && !is_chapter {
             return Err("the beginning is missing".to_owned());
         }
@@ -96,7 +99,9 @@ impl Scan {
         }
         self.stopped = None;
         match record {
-            Record::Chapter(chapter) | Record::SecondChapter(SecondChapter(chapter))
+            Record::Chapter(chapter)
+            | Record::SecondChapter(SecondChapter(chapter))
+            | Record::ThirdChapter(ThirdChapter(chapter))
                 if chapter.first_round == self.next_round() =>
             {
                 self.chapters.push(*chapter);
@@ -119,6 +124,7 @@ impl Scan {
             Record::Stopped(stopped) => self.stopped = Some(stopped),
             Record::Chapter(_)
             | Record::SecondChapter(_)
+            | Record::ThirdChapter(_)
             | Record::RoundEnd(_)
             | Record::Judged(_)
             | Record::Set(_)

@@ -122,22 +122,35 @@ impl BodyValidity {
         let mut between = std::mem::take(&mut scratch.between);
         between.clear();
         between.resize(a.len(), 0.0);
+        let free = self
+            .all_between(a, b, steps, &mut between, |q| self.look(q, scratch) == Validity::Valid);
+        scratch.between = between;
+        free
+    }
+
+    /// Whether `accepts` accepts all configurations strictly between the ends, the motion being cut into `steps` equal steps.
+    /// `q` is for a configuration.
+    pub(in crate::model) fn all_between(
+        &self,
+        a: &[f64],
+        b: &[f64],
+        steps: u64,
+        q: &mut [f64],
+        mut accepts: impl FnMut(&[f64]) -> bool,
+    ) -> bool {
         let way = self.space.way(a, b);
-        let mut free = true;
         // The middle first, then the quarters, and so on: that finds a blocked motion soonest, and visits every step
         // once.
         let mut stride = steps.next_power_of_two();
-        'steps: while stride > 1 {
+        while stride > 1 {
             stride /= 2;
             for i in (stride..steps).step_by(2 * stride as usize) {
-                way.at(i as f64 / steps as f64, &mut between);
-                if self.look(&between, scratch) != Validity::Valid {
-                    free = false;
-                    break 'steps;
+                way.at(i as f64 / steps as f64, q);
+                if !accepts(q) {
+                    return false;
                 }
             }
         }
-        scratch.between = between;
-        free
+        true
     }
 }
