@@ -1,10 +1,11 @@
 //! How directions of growth pay off when an obstacle comes: the study of m in S. K. Nath's thesis (2013, §5.2.2, Figures 8 to 11).
 //!
 //! ```text
-//! cargo bench --bench replanning -- [--nodes N | --before SECONDS] [--seeds N] [--seconds SECONDS] [SCENE …]
+//! cargo bench --bench replanning -- [--nodes N | --before SECONDS] [--seeds N] [--seconds SECONDS]
+//!     [--methods METHODS] [SCENE …]
 //! ```
 //!
-//! In each scene whose name contains a SCENE (all if none is said) and for seeds 1 to N (default 10) every method grows a graph
+//! In each scene whose name contains a SCENE (all if none is said) and for seeds 1 to N (default 10) every method (of `rrt,m1,m2,m3,m4,m5,m6,m7`, or of METHODS) grows a graph
 //! from the start, without a criterion: of N nodes (default 500), so that runs can be repeated, or with `--before` for so many
 //! CPU seconds, as the thesis does (Table 5.1). Then an obstacle comes (`neighbors/scenes.rs`), what it hits and what has
 //! no connection to the start any longer is removed, and the rest grows until the query is solved; it is asked after each 20 nodes. `rrt` is a
@@ -33,7 +34,7 @@ use std::sync::Arc;
 use std::time::Duration;
 use support::{arguments_with, cpu_seconds};
 
-const METHODS: [&str; 8] = ["rrt", "m = 1", "m = 2", "m = 3", "m = 4", "m = 5", "m = 6", "m = 7"];
+const METHODS: &str = "rrt,m1,m2,m3,m4,m5,m6,m7";
 const NODES: u64 = 500;
 /// So many nodes more than there were before the obstacle, at most.
 const FURTHER_MAX: u64 = 4500;
@@ -43,7 +44,8 @@ const COLUMNS: [&str; 8] =
 const DIGITS: [usize; 8] = [1, 2, 1, 2, 1, 0, 0, 1];
 
 fn main() {
-    let (arguments, further) = arguments_with(10.0, 20.0, &["--nodes", "--before"]);
+    let (arguments, further) = arguments_with(10.0, 20.0, &["--nodes", "--before", "--methods"]);
+    let methods: Vec<&str> = further[2].as_deref().unwrap_or(METHODS).split(',').collect();
     let number = |at: usize| {
         further[at].as_ref().map(|text| {
             text.parse::<f64>().unwrap_or_else(|_| panic!("{text} found; a number expected"))
@@ -63,7 +65,7 @@ fn main() {
             let scene = Scene { environment, robot };
             let wanted = &arguments.scenes;
             if wanted.is_empty() || wanted.iter().any(|name| scene.name().contains(name.as_str())) {
-                study(scene, before, arguments.seeds, arguments.seconds);
+                study(scene, &methods, before, arguments.seeds, arguments.seconds);
             }
         }
     }
@@ -77,17 +79,18 @@ struct Before {
 }
 
 /// Prints a row for each method.
-fn study(scene: Scene, before: Before, seeds: u64, seconds: f64) {
-    let mut rows = METHODS.map(|_| Vec::new());
+fn study(scene: Scene, methods: &[&str], before: Before, seeds: u64, seconds: f64) {
+    let mut rows = vec![Vec::new(); methods.len()];
     for seed in 1..=seeds {
-        for (method, rows) in METHODS.iter().zip(&mut rows) {
+        for (method, rows) in methods.iter().zip(&mut rows) {
             rows.extend(measure(scene, seed, method, before, seconds));
         }
     }
-    for (method, rows) in METHODS.iter().zip(&rows) {
+    for (method, rows) in methods.iter().zip(&rows) {
         let cells: Vec<String> =
             (0..COLUMNS.len()).map(|column| spread(rows, column, DIGITS[column])).collect();
         let solved = rows.len();
+        let method = method.replace('m', "m = ");
         println!("| {} | {method} | {solved} of {seeds} | {} |", scene.name(), cells.join(" | "));
     }
 }
@@ -113,7 +116,7 @@ fn measure(
     seconds: f64,
 ) -> Option<[f64; 8]> {
     let settings = format!("step = {}, goal_bias = 0", scene.step());
-    let generator = match method.strip_prefix("m = ") {
+    let generator = match method.strip_prefix('m') {
         None => format!("rrt = {{ {settings} }}"),
         Some(directions) => format!("mrrg = {{ {settings}, directions = {directions} }}"),
     };

@@ -12,7 +12,8 @@
 //! each for at most S CPU seconds (default 60), ours and OMPL's in turn. Ours are built at default settings, or, with
 //! `--among nearest-nodes,until-joined,…`, as often again with these connections among sets (`docs/problems.md`), or, with
 //! `--settings one.toml,two.toml`, with the tables `[img]` and `[[strategies]]` of these files. PLANNERS are `prm`,
-//! `rrt-connect` (both by default) or `none`. A path of OMPL's counts only if its motions also pass at steps 20 times finer
+//! `rrt-connect` (both by default) or `none`; `prm:3` solves only with the first three seeds, for scenes in which a planner always takes
+//! all the time that it has. A path of OMPL's counts only if its motions also pass at steps 20 times finer
 //! than those that OMPL has looked at, as ours do before they are given out.
 //!
 //! Prints the medians, those of the times over all builds: one that is not solved counts with the seconds that it took. The
@@ -150,7 +151,8 @@ fn main() {
         return write(&words[2], picture(&of_csv(&text)));
     }
     let planners = words[5].as_deref().unwrap_or("prm,rrt-connect");
-    let planners: Vec<&str> = planners.split(',').filter(|name| *name != "none").collect();
+    let planners = planners.split(',').filter(|name| *name != "none");
+    let planners: Vec<(&str, u64)> = planners.map(planner_and_seeds).collect();
     let peer = std::env::var("ROADMILL_PEER").unwrap_or_default();
     if peer.is_empty() && !planners.is_empty() {
         println!("solve: skipped, ROADMILL_PEER does not name the built bench/peers/race.cpp");
@@ -175,14 +177,17 @@ fn main() {
         };
         let mut ours: Vec<_> = ways.iter().map(|way| builds(way.name.clone())).collect();
         let mut theirs: Vec<_> =
-            planners.iter().map(|name| builds(format!("OMPL {name}"))).collect();
+            planners.iter().map(|(name, _)| builds(format!("OMPL {name}"))).collect();
         for seed in first..first + arguments.seeds {
             for (builds, way) in ours.iter_mut().zip(&ways) {
                 let problem = (way.change)(track.problem.clone().with_seed(seed));
                 let built = solve(&Arc::new(Setup::new(problem)), arguments.seconds);
                 builds.add(built.satisfied, built.nodes as f64, built.seconds);
             }
-            for (builds, planner) in theirs.iter_mut().zip(&planners) {
+            for (builds, (planner, seeds)) in theirs.iter_mut().zip(&planners) {
+                if seed - first >= *seeds {
+                    continue;
+                }
                 let (solved, nodes, seconds) = track.peer_solves(planner, seed, arguments.seconds);
                 builds.add(solved, nodes, seconds);
             }
@@ -195,6 +200,14 @@ fn main() {
     }
     write(&words[1], csv_of(&all));
     write(&words[2], picture(&all));
+}
+
+/// A planner's name, and how many seeds it is given: `prm:3` is three of `prm`.
+fn planner_and_seeds(word: &str) -> (&str, u64) {
+    match word.split_once(':') {
+        Some((name, seeds)) => (name, seeds.parse().expect("a number of seeds after the colon")),
+        None => (word, u64::MAX),
+    }
 }
 
 /// A scene that both sides solve.
@@ -282,22 +295,31 @@ fn among(name: &str) -> AmongKind {
     }
 }
 
-/// A row of dots for each scene and program.
+/// A row of dots for each scene and program; a scene's builds stand together.
 fn picture(all: &[Builds]) -> String {
-    let step = all.iter().take_while(|builds| builds.scene == all[0].scene).count();
+    let scenes: Vec<&[Builds]> = all.chunk_by(|a, b| a.scene == b.scene).collect();
+    let mut programs: Vec<&str> = Vec::new();
+    for builds in all {
+        if !programs.contains(&&*builds.program) {
+            programs.push(&builds.program);
+        }
+    }
+    let coloured = || programs.iter().zip(COLOURS.iter().cycle());
     // An empty row below each scene.
-    let rows = (all.len() + all.len() / step) as f64;
+    let rows = (all.len() + scenes.len()) as f64;
     let x = Scale::decades(all.iter().flat_map(|builds| &builds.seconds).copied());
     let y = Scale { low: 0.0, high: rows, log: false };
     let title = "CPU seconds until the query is solved; bars are medians, rings were not solved";
     let mut plot = Plot::new(title, ["CPU seconds", ""], [900.0, 120.0 + 24.0 * rows], x, y);
     let ticks: Vec<_> = x.powers().iter().map(|power| (*power, plain(*power))).collect();
     plot.columns(&ticks);
-    for (i, builds) in all.chunks(step).enumerate() {
-        let top = rows - (i * (step + 1)) as f64 - 0.5;
-        plot.rows(&[(top - 0.5 * step as f64, builds[0].scene.clone())]);
-        for (row, (builds, colour)) in builds.iter().zip(COLOURS).enumerate() {
+    let mut top = rows - 0.5;
+    for of_scene in scenes {
+        plot.rows(&[(top - 0.5 * of_scene.len() as f64, of_scene[0].scene.clone())]);
+        for (row, builds) in of_scene.iter().enumerate() {
             let y = top - 0.5 - row as f64;
+            let own = coloured().find(|(program, _)| **program == builds.program);
+            let (_, colour) = own.expect("all programs are listed");
             for (i, (seconds, solved)) in builds.seconds.iter().zip(&builds.solved).enumerate() {
                 // A little up and down, so that dots do not cover one another.
                 let point = [*seconds, y + 0.12 * ((i % 5) as f64 - 2.0)];
@@ -309,14 +331,15 @@ fn picture(all: &[Builds]) -> String {
             }
             plot.bar([median(&mut builds.seconds.clone()), y], 10.0, colour);
         }
+        top -= of_scene.len() as f64 + 1.0;
     }
-    let legend = all[..step].iter().zip(COLOURS).map(|(builds, colour)| {
-        let name = match &*builds.program {
+    let legend = coloured().map(|(program, colour)| {
+        let name = match *program {
             "OMPL prm" => "OMPL's PRM".to_owned(),
             "OMPL rrt-connect" => "OMPL's RRT-Connect".to_owned(),
             ours => format!("roadmill, {ours}"),
         };
-        (name, colour)
+        (name, *colour)
     });
     plot.legend(&legend.collect::<Vec<_>>());
     plot.finish()

@@ -44,7 +44,7 @@ def row(program, folder, urdf):
     links, pairs = number(r"(\d+) links, ", said), number(r"links, (\d+) pairs", said)
     triangles = sum(int(count) for count in re.findall(r"\((\d+) triangles\)", said))
     followers = len(re.findall(r"has no value: it follows", said))
-    note = f"{followers} joints follow others" if followers else ""
+    note = {0: "", 1: "1 joint follows another"}.get(followers, f"{followers} joints follow others")
     return f"| `{short}` | {values} | {links} | {pairs} | {triangles} | {seconds:.1f} | {note} |", True
 
 

@@ -1,6 +1,6 @@
 use crate::model::{Model, Reason, Scratch, Validity};
+use crate::numbers::Ordinal;
 use crate::space::{FactorKind, Space, stored_form};
-use bincode::{Decode, Encode};
 
 /// The most reasons that a message names why a configuration is not valid.
 const REASONS: usize = 4;
@@ -88,11 +88,45 @@ impl Context {
     }
 }
 
-/// The two ends of a query: valid configurations in stored form.
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+/// The ends of a query: valid configurations in stored form.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Ends {
     /// Where the path begins.
     pub start: Vec<f64>,
-    /// Where it ends.
+    /// Where it ends; of several goals the first.
     pub goal: Vec<f64>,
+    /// The goals after the first, each as good as that.
+    pub other_goals: Vec<Vec<f64>>,
+}
+
+impl Ends {
+    /// A query with one goal.
+    pub fn new(start: Vec<f64>, goal: Vec<f64>) -> Ends {
+        Ends { start, goal, other_goals: Vec::new() }
+    }
+
+    /// All goals, in the order of the problem.
+    pub fn goals(&self) -> impl Iterator<Item = &[f64]> {
+        std::iter::once(&self.goal[..]).chain(self.other_goals.iter().map(Vec::as_slice))
+    }
+
+    /// The start and all goals.
+    pub fn all(&self) -> impl Iterator<Item = &[f64]> {
+        std::iter::once(&self.start[..]).chain(self.goals())
+    }
+
+    /// Of a query with several goals: the number of the one, from 1, at which a path with these configurations ends.
+    pub fn goal_number<'q>(&self, path: impl IntoIterator<Item = &'q [f64]>) -> Option<usize> {
+        let end = path.into_iter().last().filter(|_| !self.other_goals.is_empty())?;
+        self.goals().position(|goal| goal == end).map(|index| index + 1)
+    }
+
+    /// The start, and the goal that a set which grows between the ends grows toward: each goal in turn, for two sets at a
+    /// time, as some methods begin at either end in turn.
+    pub(crate) fn of_set(&self, ordinal: Ordinal) -> [&[f64]; 2] {
+        let count = 1 + self.other_goals.len() as u64;
+        let index = (ordinal.0 / 2 % count) as usize;
+        let goal = index.checked_sub(1).map_or(&self.goal, |other| &self.other_goals[other]);
+        [&self.start, goal]
+    }
 }

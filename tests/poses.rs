@@ -1,4 +1,5 @@
-//! Ends of a query given by the pose of a link, attached bodies, and links that touch in all configurations or in none.
+//! Ends of a query given by the pose of a link, attached bodies, padding, and links that touch in all configurations or in
+//! none.
 
 use roadmill::math;
 use roadmill::model::bodies::{
@@ -219,6 +220,73 @@ fn poses_of_problem_files_name_their_line_and_key() {
     );
 }
 
+/// A query may have several goals: a list of configurations, or all of those that are found at a pose.
+#[test]
+fn several_goals_are_listed_or_found_at_a_pose() {
+    let with = |goal: &str| parse(&format!("{SLIDE}[query]\nstart = [1, 0]\ngoal = {goal}\n"));
+    let goals = |problem: &Problem| {
+        problem.query().unwrap().goals().map(<[f64]>::to_vec).collect::<Vec<_>>()
+    };
+    let one = with("[2, 0]").unwrap();
+    assert_eq!(with("[[2, 0]]").unwrap().query(), one.query());
+    assert_eq!(with("[[2, 0], [2, 0]]").unwrap().query(), one.query());
+    let several = with("[[2, 0], { cart = 2.5, arm = 0.5 }, [1, 1]]").unwrap();
+    assert_eq!(goals(&several), [vec![2.0, 0.0], vec![2.5, 0.5], vec![1.0, 1.0]]);
+    // Only growing sets read the query, and here they do.
+    assert_ne!(several.digest(), one.digest());
+    let again = parse(&several.to_toml("meshes").text).unwrap();
+    assert_eq!((again.query(), again.digest()), (several.query(), several.digest()));
+    assert_eq!(several.to_builder().build().unwrap().query(), several.query());
+    let (layout, bytes) = several.to_bytes();
+    assert_eq!(Problem::from_bytes(layout, &bytes).unwrap(), several);
+    let told = several.describe();
+    assert!(told.contains("goal 2 of 3      [2.5, 0.5]"), "{told}");
+    let ends = several.query().unwrap();
+    assert_eq!(ends.goal_number([&[1.0, 0.0][..], &[2.5, 0.5]]), Some(2));
+    assert_eq!(one.query().unwrap().goal_number([&[2.0, 0.0][..]]), None);
+
+    // An arm of six joints reaches a pose in several ways. The nearest is the first that a pose alone takes.
+    let asked = |all: bool| {
+        let pose = PoseSpec::new("link5", [0.9, 0.2, 0.9]);
+        let pose = if all { pose.all() } else { pose };
+        Problem::builder("arm", BodiesSpec::new(SpaceSpec::fixed(), arm()))
+            .query([0.0, 0.3, 0.4, 0.1, 0.2, 0.0], pose)
+            .build()
+            .unwrap_or_else(|error| panic!("{error}"))
+    };
+    let (nearest, all) = (asked(false), asked(true));
+    assert!(goals(&all).len() > 1 && goals(&all).contains(&goals(&nearest)[0]));
+    for goal in goals(&all) {
+        let (length, _) = away(&hand_at(&goal), [0.9, 0.2, 0.9], [1.0, 0.0, 0.0, 0.0]);
+        assert!(length < 1e-3, "{length}");
+    }
+    assert!(all.describe().contains("starts; all are goals"));
+
+    let different: Vec<String> =
+        (0..101).map(|i| format!("[{}, 0]", 1.0 + f64::from(i) / 100.0)).collect();
+    for (goal, expected) in [
+        ("[[2, 0], [9, 0]]", "slide.toml:15: query.goal[1]: "),
+        ("[[2, 0], 1]", "slide.toml:15: numbers beside configurations found"),
+        ("[[2, 0], [[1, 0]]]", "slide.toml:15: "),
+        ("[]", "query.goal: 0 values found, 2 expected"),
+        ("[\"home\", [1, 0]]", "query.goal[0]: `home` found; the name of a state expected"),
+        (
+            &format!("[{}]", different.join(", ")),
+            "query.goal: 101 goals found; at most 100 expected",
+        ),
+        (
+            "[[2, 0], [1, 1]]\n[[evaluators]]\nmax-flow = { flow = 1 }",
+            "the max-flow evaluator found beside several goals; one goal expected",
+        ),
+    ] {
+        let error = with(goal).unwrap_err();
+        assert!(error.contains(expected), "{goal}: {error}");
+    }
+    let pose = "{ pose = { link = \"arm\", position = [2, 0, 0], all = true } }";
+    let error = parse(&format!("{SLIDE}[query]\nstart = {pose}\ngoal = [1, 0]\n")).unwrap_err();
+    assert!(error.contains("slide.toml:14: query.start.pose.all: true found"), "{error}");
+}
+
 #[test]
 fn attached_bodies_move_with_their_link_and_are_tested() {
     let attach = "[[robot.attach]]\nname = \"rod\"\nlink = \"arm\"\nbodies = [{ shape = { box = { size = [0.1, 2, 0.1] } }, position = [0.17, 0, 0] }]\n";
@@ -266,6 +334,64 @@ fn attached_bodies_move_with_their_link_and_are_tested() {
     ] {
         let error = parse(&format!("{SLIDE}{}", attach.replacen(from, to, 1))).unwrap_err();
         assert!(error.contains(expected), "{to}: {error}");
+    }
+}
+
+#[test]
+fn padding_is_read_written_and_part_of_the_digest() {
+    let wall = "[[obstacles]]\nshape = { box = { size = [0.2, 2, 2] } }\nposition = [4, 0, 0]\n";
+    let with = |padding: &str| {
+        parse(&format!("{}{wall}", SLIDE.replace("[robot]\n", &format!("[robot]\n{padding}\n"))))
+    };
+    let lengths = |problem: &Problem| {
+        let robot = problem.model().bodies().unwrap().robot().clone();
+        (0..robot.links.len()).map(|link| robot.padding_of(link)).collect::<Vec<f64>>()
+    };
+    let bare = with("").unwrap();
+    for (padding, expected) in [
+        ("padding = 0.25", [0.25; 3]),
+        ("padding = { arm = 0.5 }", [0.0, 0.0, 0.5]),
+        ("padding = { \"*\" = 0.125, arm = 0 }", [0.125, 0.125, 0.0]),
+    ] {
+        let problem = with(padding).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(lengths(&problem), expected, "{padding}");
+        assert_ne!(problem.digest(), bare.digest());
+        let again = parse(&problem.to_toml("meshes").text).unwrap();
+        assert_eq!((again.digest(), lengths(&again)), (problem.digest(), expected.to_vec()));
+        assert_eq!(problem.to_builder().build().unwrap().digest(), problem.digest());
+        let (layout, bytes) = problem.to_bytes();
+        assert_eq!(Problem::from_bytes(layout, &bytes).unwrap(), problem);
+        let told = problem.describe();
+        assert!(told.contains("(padding)") && !bare.describe().contains("(padding)"), "{told}");
+    }
+    // No padding at all is none.
+    for padding in ["padding = 0", "padding = {}", "padding = { arm = -0.0 }"] {
+        assert_eq!(with(padding).unwrap().digest(), bare.digest(), "{padding}");
+    }
+    // The arm reaches 0.7 from the cart's middle, and the wall begins at 3.9: valid up to 3.2, with padding up to 2.95.
+    let padded = with("padding = { arm = 0.25 }").unwrap();
+    let valid = |problem: &Problem, cart: f64| problem.context().accept(&mut [cart, 0.0]).is_ok();
+    assert!(valid(&bare, 2.96) && !valid(&padded, 2.96) && valid(&padded, 2.94));
+    let error = padded.context().accept(&mut [2.96, 0.0]).unwrap_err();
+    assert!(
+        error.contains("link `arm` with its padding of 0.250 collides with obstacles[0]"),
+        "{error}"
+    );
+    let robot = arm().padding(0.25).padding_of("link5", 0.5);
+    let problem = Problem::builder("arm", BodiesSpec::new(SpaceSpec::fixed(), robot));
+    let problem = problem.build().unwrap();
+    assert_eq!(lengths(&problem), [0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.5]);
+    for (padding, expected) in [
+        ("padding = -1", "slide.toml:4: robot.padding: -1 found; a length from 0 to"),
+        ("padding = { arm = nan }", "slide.toml:4: robot.padding.arm: NaN found; a length"),
+        (
+            "padding = { leg = 1 }",
+            "slide.toml:4: robot.padding.leg: `leg` found; the name of a link, or \"*\" for all others",
+        ),
+        ("padding = \"wide\"", "slide.toml:4: expected a length, or a table of links"),
+    ] {
+        let error = with(padding).unwrap_err();
+        assert!(error.contains(expected), "{padding}: {error}");
     }
 }
 

@@ -135,6 +135,63 @@ fn a_group_moves_and_the_rest_is_locked() {
     assert!(told.contains("right_shoulder = 0, right_elbow = 0, grip = 0"), "{told}");
 }
 
+/// The pose of a hand needs no link where the SRDF names one end effector of the group.
+#[test]
+fn a_pose_without_a_link_is_that_of_the_end_effector() {
+    let (_keep, folder) = folder();
+    let path = folder.join("arms.srdf");
+    let goal = |group: &str| {
+        let robot = match group {
+            // The virtual joint would move the base.
+            "" => {
+                format!("[space]\nmotion = \"fixed\"\n{}", LEFT.replace("group = \"left\"\n", ""))
+            }
+            _ => LEFT.replace("group = \"left\"", group),
+        };
+        let ends = "start = { state = \"left/home\", grip = 0, right_shoulder = 0, right_elbow = 0 }\n\
+            goal = { pose = { position = [1.6, 1.2, 0.0], position_tolerance = 0.01 } }\n";
+        let ends = if group.contains("left") {
+            ends.replace(", grip = 0, right_shoulder = 0, right_elbow = 0", "")
+        } else {
+            ends.to_owned()
+        };
+        parse(&folder, &format!("{robot}[query]\n{ends}"))
+    };
+    let place = |problem: &Problem| {
+        let (robot, mut poses) = (robot(problem), Vec::new());
+        robot.link_poses(&problem.query().expect("a query").goal, &mut poses);
+        poses[link(robot, "palm")].translation
+    };
+    for group in ["group = \"left\"", ""] {
+        let problem = goal(group).unwrap_or_else(|error| panic!("{error}"));
+        let [x, y, z] = place(&problem);
+        let (dx, dy) = (x - 1.6, y - 1.2);
+        assert!((dx * dx + dy * dy + z * z).sqrt() <= 0.01, "{x} {y} {z}");
+        assert!(problem.describe().contains("at which `palm` is within"));
+    }
+    // Of another group: since its joints do not move the palm, or by the file's word.
+    let right = "group = \"right\"";
+    let start = "start = { right_shoulder = 0, right_elbow = 0 }\n";
+    let pose = "goal = { pose = { position = [1, 0, 0] } }\n";
+    let of_right = LEFT.replace("group = \"left\"", right);
+    let error = parse(&folder, &format!("{of_right}[query]\n{start}{pose}")).unwrap_err();
+    assert!(
+        error.contains("arms.toml:7: query.goal.pose: no link found; the name of one expected"),
+        "{error}"
+    );
+    let hand = "<end_effector name=\"gripper\" parent_link=\"palm\" group=\"hand\"";
+    fs::write(&path, SRDF.replace(hand, &format!("{hand} parent_group=\"right\""))).unwrap();
+    let error = goal("group = \"left\"").unwrap_err();
+    assert!(error.contains("query.goal.pose: no link found"), "{error}");
+    // Two of them: neither is meant more than the other.
+    let two =
+        format!("<end_effector name=\"tool\" parent_link=\"left_lower\" group=\"hand\"/>{hand}");
+    fs::write(&path, SRDF.replace(hand, &two)).unwrap();
+    let error = goal("group = \"left\"").unwrap_err();
+    let expected = "one of several expected: `left_lower` of the end effector `tool`, `palm` of the end effector `gripper`";
+    assert!(error.contains(expected), "{error}");
+}
+
 #[test]
 fn groups_are_joints_links_chains_and_groups() {
     let (_keep, folder) = folder();
@@ -261,7 +318,7 @@ fn ends_are_named_by_joints_and_states() {
             "arms.toml:7: `left_elbow` = \"home\" found; a number expected",
         ),
         ("{ left_elbow = [1] }", "arms.toml:7: invalid type: sequence, expected a number"),
-        ("[0, \"a\"]", "arms.toml:7: invalid type: string \"a\", expected f64"),
+        ("[0, \"a\"]", "arms.toml:7: numbers beside configurations found; either"),
         (
             "true",
             "arms.toml:7: invalid type: boolean `true`, expected an array of numbers, the name of a state",
@@ -405,6 +462,16 @@ fn errors_name_file_line_and_key() {
             "<chain base_link=\"post\" tip_link=\"palm\"/>",
             "",
             "robot.group: `left` found, a group without a joint that moves",
+        ),
+        (
+            "tip_link=\"palm\"",
+            "tip_link=\"plam\"",
+            "arms.srdf: group `left`: tip link `plam` (line 5) left out, which the robot does not have)",
+        ),
+        (
+            "base_link=\"post\"",
+            "base_link=\"pots\"",
+            "arms.srdf: group `left`: base link `pots` (line 5) left out",
         ),
         ("parent_link=\"palm\"", "", "<end_effector> without `parent_link` found"),
     ] {

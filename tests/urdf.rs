@@ -5,7 +5,7 @@ use roadmill::img::{Setup, Stop, build_in_threads};
 use roadmill::model::bodies::foreign::{ForeignError, read_urdf};
 use roadmill::model::bodies::robot::{JointKind, Limits, Link, Mimic, Robot};
 use roadmill::problem::Problem;
-use roadmill::scene::{Pose, Shape};
+use roadmill::scene::Shape;
 use roadmill::space::BaseJoint;
 use std::fs;
 use std::path::Path;
@@ -69,8 +69,7 @@ fn links_stand_where_their_joints_put_them() {
     assert!(links[2].bodies[0].solid);
     assert!(notes.iter().any(|note| note.contains("`upper arm` has only shapes to be looked at")));
 
-    let robot =
-        Robot { motion: BaseJoint::Fixed, base: Pose::IDENTITY, links, may_touch: Vec::new() };
+    let robot = Robot { links, ..Robot::rigid(BaseJoint::Fixed, Vec::new()) };
     let quarter = std::f64::consts::FRAC_PI_2;
     let half = 0.5f64.sqrt();
     let mut poses = Vec::new();

@@ -10,7 +10,7 @@ pub const INK: &str = "#33393f";
 pub const COLOURS: [&str; 6] = ["#9d1f41", "#4f7ea8", "#3f9b6c", "#c9a21f", "#8460b5", "#2c9fa3"];
 
 /// Room around the frame, in pixels: left, top, right, bottom.
-const MARGINS_PX: [f64; 4] = [104.0, 64.0, 28.0, 56.0];
+const MARGINS_PX: [f64; 4] = [124.0, 64.0, 28.0, 56.0];
 
 /// What an axis spans.
 #[derive(Clone, Copy, Debug)]

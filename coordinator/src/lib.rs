@@ -18,6 +18,7 @@ mod output;
 mod progress;
 pub mod run;
 pub mod signals;
+mod waiting;
 pub mod work;
 
 pub use progress::Report as ProgressReport;

@@ -117,6 +117,14 @@ pub trait Evaluator {
         self.parts().iter().any(|part| part.method().needs_query())
     }
 
+    /// Whether the criterion is defined for a query with several goals.
+    fn knows_several_goals(&self) -> bool {
+        match self.parts() {
+            [] => !self.needs_query(),
+            parts => parts.iter().all(|part| part.method().knows_several_goals()),
+        }
+    }
+
     /// How the evaluator attaches configurations to the roadmap, if it does.
     fn attachment(&self) -> Option<Attachment> {
         self.parts().iter().find_map(|part| part.method().attachment())

@@ -1,5 +1,6 @@
 //! How much of the world a picture shows.
 
+use crate::context::Ends;
 use crate::model::Figure;
 use crate::problem::Problem;
 use crate::query::Path;
@@ -37,7 +38,7 @@ impl Extent {
         let planar = figure.is_planar();
         let mut robot = EMPTY;
         let mut is_fixed = false;
-        let ends = problem.query.iter().flat_map(|ends| [&ends.start[..], &ends.goal[..]]);
+        let ends = problem.query.iter().flat_map(Ends::all);
         let on_paths = paths.iter().flat_map(|path| path.configs.iter());
         let configs = roadmap.into_iter().flat_map(|roadmap| {
             let step = roadmap.configs().len().div_ceil(NODES).max(1);

@@ -232,7 +232,8 @@ impl<'a> Drawing<'a> {
         let Some(ends) = &self.problem.query else {
             return;
         };
-        for (name, q, share) in [("start", &ends.start, 0.0), ("goal", &ends.goal, 1.0)] {
+        let goals = ends.goals().map(|goal| ("goal", goal, 1.0));
+        for (name, q, share) in std::iter::once(("start", &ends.start[..], 0.0)).chain(goals) {
             let [x, y] = self.view.px(self.figure.marker(q));
             // Of a linkage with a fixed base the last link is marked, so that the word stands above that link rather
             // than above the highest one.

@@ -263,6 +263,9 @@ pub(super) fn suits(cx: &Context) -> Result<(), String> {
     let Some(query) = &cx.query else {
         return Err("elastic steps between the ends of a query found, but no [query]".to_owned());
     };
+    if !query.other_goals.is_empty() {
+        return Err("elastic steps found beside several goals; one goal expected".to_owned());
+    }
     match residues(cx).filter(|_| cx.model.elastic(&query.start).is_some()) {
         Some(RESIDUES_MIN..) => Ok(()),
         Some(residues) => Err(format!(

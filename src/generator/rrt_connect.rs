@@ -86,7 +86,7 @@ impl Generator for RrtConnect {
     }
 }
 
-/// Grows the trees of a query's ends toward each other until they meet, and then as one, until the set is full.
+/// Grows the trees of a query's ends, of several goals one, toward each other until they meet, and then as one, until the set is full.
 ///
 /// # Errors
 /// [`GaveUp`] where too many extensions since the last milestone came to nothing; what has grown until then stays in the set.
@@ -95,7 +95,7 @@ pub(super) fn grow_from_ends<'a>(
     seed: &Seed,
     query: &'a Ends,
 ) -> Result<(), GaveUp> {
-    let [start, goal] = GrowingTree::of(set, seed, [&query.start[..], &query.goal]);
+    let [start, goal] = GrowingTree::of(set, seed, query.of_set(seed.ordinal()));
     let mut tree = if start.is_same(&goal) {
         start
     } else {

@@ -38,12 +38,20 @@ pub enum Reason {
         depth: f64,
         /// The direction of this shortest way, a unit vector in the world's frame.
         direction: [f64; 3],
+        /// How near to the first body the other is already in the way, a length: the padding of its link. The depth is
+        /// that of the body with its padding.
+        #[serde(skip_serializing_if = "is_zero")]
+        padding: f64,
     },
     /// What another model says.
     Other {
         /// In words.
         text: String,
     },
+}
+
+fn is_zero(length: &f64) -> bool {
+    *length == 0.0
 }
 
 /// The name of the link of a robot that has no other.
@@ -102,14 +110,20 @@ impl fmt::Display for Reason {
             Reason::Bounds { link, side, by } => {
                 write!(f, "{} reaches {} beyond the bounds at {side}", link_named(link), short(*by))
             }
-            Reason::Collision { body, other, depth, .. } if *depth == 0.0 => {
-                write!(f, "{body} touches {other}")
+            Reason::Collision { body, other, depth, direction: [x, y, z], padding } => {
+                let padding = match *padding {
+                    0.0 => String::new(),
+                    padding => format!(" with its padding of {}", short(padding)),
+                };
+                if *depth == 0.0 {
+                    return write!(f, "{body}{padding} touches {other}");
+                }
+                write!(
+                    f,
+                    "{body}{padding} collides with {other}, {} deep (free if moved by that along ({x:.2} {y:.2} {z:.2}))",
+                    short(*depth)
+                )
             }
-            Reason::Collision { body, other, depth, direction: [x, y, z] } => write!(
-                f,
-                "{body} collides with {other}, {} deep (free if moved by that along ({x:.2} {y:.2} {z:.2}))",
-                short(*depth)
-            ),
             Reason::Other { text } => f.write_str(text),
         }
     }

@@ -1,6 +1,7 @@
 //! Problems from values: what a problem file says, said by a program.
 
 use super::file::{File, PolicyTable, QueryTable, ScheduleTable};
+use super::goals::GoalsSpec;
 use super::{ConfigurationSpec, Problem, ProblemError, StrategySpec, resolve};
 use crate::evaluate::EvaluatorKind;
 use crate::generator::{NoRuns, Runs};
@@ -66,7 +67,10 @@ impl Problem {
             ),
         };
         let builder = match &self.query {
-            Some(query) => builder.query(query.start.clone(), query.goal.clone()),
+            Some(query) => {
+                let builder = builder.query(query.start.clone(), query.goal.clone());
+                query.other_goals.iter().cloned().fold(builder, ProblemBuilder::or_goal)
+            }
             None => builder,
         };
         let builder = match self.nodes_to_say() {
@@ -115,7 +119,17 @@ impl ProblemBuilder {
         start: impl Into<ConfigurationSpec>,
         goal: impl Into<ConfigurationSpec>,
     ) -> ProblemBuilder {
-        self.file.query = Some(QueryTable { start: start.into(), goal: goal.into() });
+        self.file.query =
+            Some(QueryTable { start: start.into(), goal: GoalsSpec::One(goal.into()) });
+        self
+    }
+
+    /// Adds a goal to the query, which is as good as those before; without a query it is none.
+    pub fn or_goal(mut self, goal: impl Into<ConfigurationSpec>) -> ProblemBuilder {
+        self.file.query = self.file.query.map(|QueryTable { start, goal: goals }| {
+            let goal = goals.or(goal.into());
+            QueryTable { start, goal }
+        });
         self
     }
 

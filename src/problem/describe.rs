@@ -26,13 +26,18 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         writeln!(out, "function         {}: {judges}", plain(function.identity()))?;
     }
     if let Some(query) = &problem.query {
-        for (name, q) in [("start", &query.start), ("goal", &query.goal)] {
+        let goal_name = |index: usize| match query.other_goals.len() {
+            0 => "goal".to_owned(),
+            others => format!("goal {} of {}", index + 1, others + 1),
+        };
+        let goals = query.goals().enumerate().map(|(index, q)| (goal_name(index), q));
+        for (name, q) in std::iter::once(("start".to_owned(), &query.start[..])).chain(goals) {
             let values = &q[..q.len().min(VALUES_SHOWN)];
             match q.len() - values.len() {
                 0 => writeln!(out, "{name:<16} {values:?}")?,
                 more => writeln!(out, "{name:<16} {values:?} and {more} more values")?,
             }
-            problem.model.description().describe_end(name, q, out);
+            problem.model.description().describe_end(&name, q, out);
         }
     }
     for strategy in &problem.strategies {

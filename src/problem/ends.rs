@@ -126,7 +126,7 @@ impl<'de> Deserialize<'de> for ConfigurationSpec {
     }
 }
 
-struct Reader;
+pub(super) struct Reader;
 
 impl<'de> Visitor<'de> for Reader {
     type Value = ConfigurationSpec;

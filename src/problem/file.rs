@@ -1,6 +1,7 @@
 //! What a problem asks for, before anything is checked, but for its model: the tables of a problem file, or what a
 //! program gives a [`ProblemBuilder`](super::ProblemBuilder).
 
+use super::goals::GoalsSpec;
 use super::{ConfigurationSpec, StrategySpec};
 use crate::evaluate::EvaluatorKind;
 use crate::schedule::Adaptive;
@@ -28,7 +29,7 @@ pub(super) struct File {
 #[serde(deny_unknown_fields)]
 pub(super) struct QueryTable {
     pub start: ConfigurationSpec,
-    pub goal: ConfigurationSpec,
+    pub goal: GoalsSpec,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]

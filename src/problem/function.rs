@@ -2,7 +2,6 @@
 
 use super::resolve::suits;
 use super::{Problem, ProblemError};
-use crate::context::Ends;
 use crate::model::{Model, ValidityFunction, with_functions};
 
 impl Problem {
@@ -23,9 +22,11 @@ impl Problem {
         let problem = Problem { function: Some(function), ..self };
         let check = || {
             let cx = problem.context();
-            if let Some(Ends { start, goal }) = &problem.query {
-                for (name, q) in [("query.start", start), ("query.goal", goal)] {
-                    cx.accept(&mut q.clone()).map_err(|error| format!("{name}: {error}"))?;
+            if let Some(ends) = &problem.query {
+                let start = ("query.start", &ends.start[..]);
+                let goals = ends.goals().map(|goal| ("query.goal", goal));
+                for (name, q) in std::iter::once(start).chain(goals) {
+                    cx.accept(&mut q.to_vec()).map_err(|error| format!("{name}: {error}"))?;
                 }
             }
             for (index, strategy) in problem.strategies.iter().enumerate() {

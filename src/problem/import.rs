@@ -38,7 +38,7 @@ pub(super) fn problem_of(path: &Path, imported: ForeignProblem) -> Result<Proble
         for (name, q) in [("start", &mut start), ("goal", &mut goal)] {
             cx.accept(q).map_err(|error| ProblemError::file(path, format!("{name}: {error}")))?;
         }
-        problem.query = Some(Ends { start, goal });
+        problem.query = Some(Ends::new(start, goal));
         problem.evaluators = vec![EvaluatorKind::Query(Query::default())];
         let cx = problem.context();
         for strategy in &mut problem.strategies {

@@ -83,7 +83,7 @@ struct ThirdProblem {
 /// What all layouts end with.
 #[derive(Encode, Decode)]
 struct Rest<S> {
-    query: Option<Ends>,
+    query: QueryBytes,
     strategies: Vec<S>,
     schedule: Vec<StrategyIndex>,
     adaptive: Option<Adaptive>,
@@ -94,6 +94,45 @@ struct Rest<S> {
     sources: Vec<SourceFile>,
     earlier: Vec<EarlierSchedule>,
 }
+
+/// A query in its bytes: those of an `Option` of start and goal, as before there could be several goals; of a query with
+/// several the number that says whether there is one is 2, and the other goals follow.
+struct QueryBytes(Option<Ends>);
+
+impl Encode for QueryBytes {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        match &self.0 {
+            None => 0u8.encode(encoder),
+            Some(Ends { start, goal, other_goals }) if other_goals.is_empty() => {
+                (1u8, start, goal).encode(encoder)
+            }
+            Some(Ends { start, goal, other_goals }) => {
+                (2u8, start, goal, other_goals).encode(encoder)
+            }
+        }
+    }
+}
+
+impl<Context> Decode<Context> for QueryBytes {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<QueryBytes, DecodeError> {
+        let count = u8::decode(decoder)?;
+        if count == 0 {
+            return Ok(QueryBytes(None));
+        }
+        let (start, goal) = Decode::decode(decoder)?;
+        let other_goals = match count {
+            1 => Vec::new(),
+            2 => Decode::decode(decoder)?,
+            other => {
+                let message = format!("a query of kind {other} found; 0, 1 or 2 expected");
+                return Err(DecodeError::OtherString(message));
+            }
+        };
+        Ok(QueryBytes(Some(Ends { start, goal, other_goals })))
+    }
+}
+
+bincode::impl_borrow_decode!(QueryBytes);
 
 impl From<FirstStrategy> for Strategy {
     fn from(first: FirstStrategy) -> Strategy {
@@ -137,7 +176,7 @@ fn second_strategies(strategies: &[Strategy]) -> Vec<SecondStrategy> {
 impl<S> Rest<S> {
     fn of(problem: &Problem, strategies: Vec<S>) -> Rest<S> {
         Rest {
-            query: problem.query.clone(),
+            query: QueryBytes(problem.query.clone()),
             strategies,
             schedule: problem.schedule.clone(),
             adaptive: problem.adaptive,
@@ -162,7 +201,7 @@ impl<S> Rest<S> {
             seed,
             model,
             function: None,
-            query: self.query,
+            query: self.query.0,
             strategies: self.strategies.into_iter().map(Strategy::from).collect(),
             schedule: self.schedule,
             adaptive: self.adaptive,
@@ -236,9 +275,9 @@ impl Problem {
         let dofs = problem.space().len();
         let fits = |q: &[f64]| q.len() == dofs && q.iter().all(|value| value.is_finite());
         match &problem.query {
-            Some(Ends { start, goal }) if !(fits(start) && fits(goal)) => {
-                let expected = format!("two configurations of {dofs} finite numbers expected");
-                Err(WireError::unsound(format!("query: {start:?} and {goal:?} found; {expected}")))
+            Some(ends) if !ends.all().all(fits) => {
+                let expected = format!("configurations of {dofs} finite numbers expected");
+                Err(WireError::unsound(format!("query: {ends:?} found; {expected}")))
             }
             _ => Ok(problem),
         }
@@ -285,7 +324,7 @@ pub(super) fn digest(problem: &Problem) -> Digest {
             let reads = |strategy: &Strategy| strategy.generator.method().reads_query();
             // Where no strategy reads it, the query determines no set.
             let mut bytes = match problem.strategies.iter().any(reads) {
-                true => wire::encode(&(whole, &problem.query)),
+                true => wire::encode(&(whole, QueryBytes(problem.query.clone()))),
                 false => wire::encode(&whole),
             };
             if let Some(function) = &problem.function {
@@ -295,4 +334,25 @@ pub(super) fn digest(problem: &Problem) -> Digest {
         }
     };
     Digest::of(&bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_several_goals_change_the_bytes_of_a_query() {
+        let (start, goal) = (vec![1.0, 2.0], vec![3.0, -4.0]);
+        let bytes = |query: Option<Ends>| wire::encode(&QueryBytes(query));
+        let none: Option<(Vec<f64>, Vec<f64>)> = None;
+        assert_eq!(bytes(None), wire::encode(&none));
+        let one = Ends::new(start.clone(), goal.clone());
+        assert_eq!(bytes(Some(one.clone())), wire::encode(&Some((&start, &goal))));
+        let several = Ends { other_goals: vec![vec![5.0, 6.0], vec![7.0, 8.0]], ..one.clone() };
+        for query in [None, Some(one), Some(several)] {
+            let read: QueryBytes = wire::decode(&bytes(query.clone())).unwrap();
+            assert_eq!(read.0, query);
+        }
+        assert!(wire::decode::<QueryBytes>(&wire::encode(&(3u8, &start, &goal))).is_err());
+    }
 }

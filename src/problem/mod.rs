@@ -13,6 +13,7 @@ mod ends;
 mod file;
 mod folding;
 mod function;
+mod goals;
 mod import;
 mod layout;
 mod limits;

@@ -1,12 +1,14 @@
 //! Ends of a query that are given by the pose of a link: which of the configurations found there are taken.
 
+use super::file::QueryTable;
+use super::goals::GOALS_MAX;
 use super::{ConfigurationSpec, Problem};
 use crate::context::{Context, Ends};
 use crate::internal::plain::plain;
 use crate::model::{PoseFound, PoseGoal, Scratch};
 use crate::seed::Seed;
 use crate::source::Step::{self, Key};
-use crate::source::{ProblemError, Source};
+use crate::source::{ProblemError, Source, link_of_hand, place_of};
 use serde::Deserialize;
 
 /// A pose of a link as a problem asks for it: `start` or `goal` of a `[query]` with the key `pose`. What is left out has the
@@ -14,23 +16,37 @@ use serde::Deserialize;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PoseSpec {
-    link: String,
+    link: Option<String>,
     position: [f64; 3],
     orientation: Option<[f64; 4]>,
     position_tolerance: Option<f64>,
     orientation_tolerance: Option<f64>,
+    #[serde(default)]
+    all: bool,
 }
 
 impl PoseSpec {
     /// The origin of a link at a position in the world's frame, lengths, however it is turned.
     pub fn new(link: impl Into<String>, position: [f64; 3]) -> PoseSpec {
+        PoseSpec { link: Some(link.into()), ..PoseSpec::of_end_effector(position) }
+    }
+
+    /// The origin of the link on which the SRDF mounts the end effector of the robot, or of the group that moves: as of
+    /// [`PoseSpec::new`]. There must be one such end effector.
+    pub fn of_end_effector(position: [f64; 3]) -> PoseSpec {
         PoseSpec {
-            link: link.into(),
+            link: None,
             position,
             orientation: None,
             position_tolerance: None,
             orientation_tolerance: None,
+            all: false,
         }
+    }
+
+    /// Makes all configurations found goals of the query, rather than the one nearest to its start. Of a goal alone.
+    pub fn all(self) -> PoseSpec {
+        PoseSpec { all: true, ..self }
     }
 
     /// Turned in the world's frame by a quaternion `w x y z` of any length but zero.
@@ -48,9 +64,9 @@ impl PoseSpec {
         PoseSpec { orientation_tolerance: Some(angle), ..self }
     }
 
-    fn goal(&self) -> PoseGoal {
+    fn goal(&self, link: &str) -> PoseGoal {
         PoseGoal {
-            link: self.link.clone(),
+            link: link.to_owned(),
             position: self.position,
             rotation: self.orientation,
             position_tolerance: self.position_tolerance,
@@ -60,41 +76,70 @@ impl PoseSpec {
 }
 
 /// The ends of a query: valid configurations in stored form. Of an end given by a pose it is the configuration nearest to
-/// the other end, among those found; notes say how many there were.
+/// the other end, among those found, or, of a goal, all of them; notes say how many there were.
 pub(super) fn ends_of(
     source: &Source,
     cx: &Context,
     problem: &mut Problem,
-    asked: [(&'static str, &ConfigurationSpec); 2],
+    query: &QueryTable,
 ) -> Result<Ends, ProblemError> {
-    let mut found = Vec::new();
-    for (key, spec) in asked {
-        found.push(configurations_of(source, cx, problem, key, spec)?);
+    let place = [Key("query"), Key("start")];
+    if takes_all(&query.start) {
+        let message = "true found; a path begins at one configuration, so that all is for goals";
+        let place = [&place[..], &[Key("pose"), Key("all")]].concat();
+        return Err(source.error(&place, message.to_owned()));
     }
-    let mut best: Option<(f64, usize, usize)> = None;
-    for (i, start) in found[0].iter().enumerate() {
-        for (j, goal) in found[1].iter().enumerate() {
+    let starts = configurations_of(source, cx, problem, &place, &query.start)?;
+    let mut found = Vec::new();
+    for (place, spec) in query.goal.each() {
+        found.push((takes_all(spec), configurations_of(source, cx, problem, &place, spec)?));
+    }
+    let mut best: Option<(f64, &Vec<f64>)> = None;
+    for start in &starts {
+        for goal in found.iter().flat_map(|(_, goals)| goals) {
             let distance = cx.space.distance(start, goal);
-            if best.is_none_or(|(least, ..)| distance < least) {
-                best = Some((distance, i, j));
+            if best.is_none_or(|(least, _)| distance < least) {
+                best = Some((distance, start));
             }
         }
     }
-    let (_, i, j) = best.expect("each end has a configuration");
-    Ok(Ends { start: found[0][i].clone(), goal: found[1][j].clone() })
+    let (_, start) = best.expect("each end has a configuration");
+    let mut goals: Vec<Vec<f64>> = Vec::new();
+    for (all, mut configurations) in found {
+        if !all {
+            let distance = |q: &Vec<f64>| cx.space.distance(start, q);
+            let nearest = |a: &Vec<f64>, b: &Vec<f64>| distance(a).total_cmp(&distance(b));
+            configurations = configurations.into_iter().min_by(nearest).into_iter().collect();
+        }
+        for q in configurations {
+            if !goals.contains(&q) {
+                goals.push(q);
+            }
+        }
+    }
+    if goals.len() > GOALS_MAX {
+        let message = format!("{} goals found; at most {GOALS_MAX} expected", goals.len());
+        return Err(source.error(&[Key("query"), Key("goal")], message));
+    }
+    let goal = goals.remove(0);
+    Ok(Ends { start: start.clone(), goal, other_goals: goals })
 }
 
-/// The configurations that an end may be, at least one.
+/// Whether all configurations at a pose are goals.
+fn takes_all(spec: &ConfigurationSpec) -> bool {
+    matches!(spec, ConfigurationSpec::Pose(PoseSpec { all: true, .. }))
+}
+
+/// The configurations that the end at a place of the file may be, at least one.
 fn configurations_of(
     source: &Source,
     cx: &Context,
     problem: &mut Problem,
-    key: &'static str,
+    end: &[Step],
     spec: &ConfigurationSpec,
 ) -> Result<Vec<Vec<f64>>, ProblemError> {
-    let fail = |place: &[Step], message| {
-        Err(source.error(&[&[Key("query"), Key(key)], place].concat(), message))
-    };
+    let key = place_of(end);
+    let fail = |place: &[Step], message| Err(source.error(&[end, place].concat(), message));
     let ConfigurationSpec::Pose(pose) = spec else {
         let mut q = match spec.values(&cx.space, &source.states.borrow()) {
             Ok(q) => q,
@@ -105,7 +150,15 @@ fn configurations_of(
             Err(message) => fail(&[], message),
         };
     };
-    let seed = Seed::of_evaluator(problem.seed, &format!("query.{key}.pose"));
+    let hands = source.hands.borrow();
+    let link = match &pose.link {
+        Some(link) => link,
+        None => match link_of_hand(&hands) {
+            Ok(link) => link,
+            Err(message) => return fail(&[Key("pose")], message),
+        },
+    };
+    let seed = Seed::of_evaluator(problem.seed, &format!("{key}.pose"));
     let (mut refused, scratch) = (None, &mut Scratch::new());
     let mut accept = |q: &mut [f64]| {
         let is_valid = cx.stored(q).is_ok() && cx.model.is_valid(q, scratch);
@@ -115,12 +168,11 @@ fn configurations_of(
         is_valid
     };
     let description = problem.model.description();
-    let found = match description.configurations_at(&pose.goal(), &seed, &mut accept) {
+    let found = match description.configurations_at(&pose.goal(link), &seed, &mut accept) {
         Ok(found) => found,
         Err((own, message)) => return fail(&[Key("pose"), Key(own)], message),
     };
     let PoseFound { configurations, starts, reached, tolerances, nearest } = found;
-    let link = &pose.link;
     let [length, angle] = tolerances;
     let and_angle = |angle: f64| match pose.orientation {
         Some(_) => format!(" and {angle:.3e} rad"),
@@ -148,9 +200,10 @@ fn configurations_of(
     }
     let count = configurations.len();
     let note = format!(
-        "query.{key}: {count} valid configurations found at which `{link}` is within {length:e}{} of the \
-         pose, from {starts} starts; the one nearest to the other end is taken",
-        and_angle(angle)
+        "{key}: {count} valid configurations found at which `{link}` is within {length:e}{} of the \
+         pose, from {starts} starts; {}",
+        and_angle(angle),
+        if pose.all { "all are goals" } else { "the one nearest to the other end is taken" }
     );
     problem.notes.push(plain(&note).into_owned());
     Ok(configurations)

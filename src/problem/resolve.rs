@@ -98,8 +98,7 @@ fn name_of(source: &Source, file: &File) -> Result<String, ProblemError> {
 fn accepted(source: &Source, file: &File, mut problem: Problem) -> Result<Problem, ProblemError> {
     let mut cx = problem.context();
     if let Some(query) = &file.query {
-        let asked = [("start", &query.start), ("goal", &query.goal)];
-        problem.query = Some(ends_of(source, &cx, &mut problem, asked)?);
+        problem.query = Some(ends_of(source, &cx, &mut problem, query)?);
         cx.query.clone_from(&problem.query);
     }
     let seed = problem.seed;
@@ -112,7 +111,14 @@ fn accepted(source: &Source, file: &File, mut problem: Problem) -> Result<Proble
             suits.map_err(|message| source.error(&place, message))?;
         }
     }
+    let has_several_goals = problem.query.as_ref().is_some_and(|ends| !ends.other_goals.is_empty());
     for (index, evaluator) in problem.evaluators.iter_mut().enumerate() {
+        if has_several_goals && !evaluator.method().knows_several_goals() {
+            let name = evaluator.method().name();
+            let message =
+                format!("the {name} evaluator found beside several goals; one goal expected");
+            return Err(source.error(&[Key("evaluators"), Index(index)], message));
+        }
         let accepted = evaluator.method_mut().accept(&cx);
         accepted.map_err(|message| source.error(&[Key("evaluators"), Index(index)], message))?;
     }

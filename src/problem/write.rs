@@ -58,7 +58,11 @@ fn head(problem: &Problem, out: &mut String) -> std::fmt::Result {
 
 fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
     if let Some(query) = &problem.query {
-        writeln!(out, "\n[query]\nstart = {:?}\ngoal = {:?}", query.start, query.goal)?;
+        writeln!(out, "\n[query]\nstart = {:?}", query.start)?;
+        match &query.other_goals[..] {
+            [] => writeln!(out, "goal = {:?}", query.goal)?,
+            _ => writeln!(out, "goal = {:?}", query.goals().collect::<Vec<_>>())?,
+        }
     }
     let labels = problem.schedule.iter().map(|index| &problem.strategies[index.index()].label);
     let labels: Vec<&String> = labels.collect();

@@ -16,12 +16,14 @@
 
 mod attach;
 mod direct;
+mod goals;
 mod path;
 mod prepared;
 mod shorten;
 mod ways;
 
 pub(crate) use attach::{attach, attach_for_good, once_nearest};
+pub use goals::solve_any;
 pub use path::Path;
 pub use prepared::PreparedRoadmap;
 pub use shorten::{shorten, shorten_within};

@@ -78,7 +78,7 @@ impl TorsionNoise {
     /// The configurations about which is drawn.
     fn centres<'a>(&self, cx: &'a Context) -> Vec<&'a [f64]> {
         match (self.about, &cx.query) {
-            (About::Ends, Some(ends)) => vec![&ends.start, &ends.goal],
+            (About::Ends, Some(ends)) => ends.all().collect(),
             _ => cx.model.native().into_iter().collect(),
         }
     }

@@ -104,6 +104,19 @@ impl Shape {
         }
     }
 
+    /// The shape of all points within `by` of this one, of a point and of round shapes: `None` of others, whose corners it
+    /// would round.
+    pub(crate) fn thickened(&self, by: f64) -> Option<Shape> {
+        match self {
+            Shape::Point => Some(Shape::Sphere { radius: by }),
+            Shape::Sphere { radius } => Some(Shape::Sphere { radius: radius + by }),
+            Shape::Capsule { radius, height } => {
+                Some(Shape::Capsule { radius: radius + by, height: *height })
+            }
+            Shape::Box { .. } | Shape::Cylinder { .. } | Shape::Mesh(_) => None,
+        }
+    }
+
     /// A point of each connected piece of the shape, for tests of containment.
     pub(crate) fn witnesses(&self) -> Vec<[f64; 3]> {
         match self {

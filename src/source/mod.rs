@@ -39,6 +39,36 @@ pub(crate) struct Source<'a> {
     pub files: RefCell<Vec<SourceFile>>,
     /// The configurations that files of the model give names to, for the query to use.
     pub states: RefCell<Vec<NamedState>>,
+    /// The end effectors that files of the model name, for poses that name no link.
+    pub hands: RefCell<Vec<Hand>>,
+}
+
+/// An end effector of a robot.
+pub(crate) struct Hand {
+    /// Its name.
+    pub name: String,
+    /// The link on which it is mounted.
+    pub link: String,
+}
+
+/// The link that is meant where none is named: that on which the only end effector is mounted.
+///
+/// # Errors
+/// Says what was found and what is expected.
+pub(crate) fn link_of_hand(hands: &[Hand]) -> Result<&str, String> {
+    match hands {
+        [hand] => Ok(&hand.link),
+        [] => Err("no link found; the name of one expected, as no end effector of an SRDF is \
+                   mounted on the links that move"
+            .to_owned()),
+        _ => {
+            let listed: Vec<String> = hands
+                .iter()
+                .map(|Hand { name, link }| format!("`{link}` of the end effector `{name}`"))
+                .collect();
+            Err(format!("no link found; one of several expected: {}", listed.join(", ")))
+        }
+    }
 }
 
 /// A configuration, or some of its values, under a name.
@@ -102,12 +132,18 @@ impl<'a> Source<'a> {
         let files = RefCell::new(vec![SourceFile::named(path, text.as_bytes())]);
         let folder = path.parent().unwrap_or(Path::new(""));
         let file = Some(File { path, text, tree: tree.into_inner() });
-        Ok(Source { folder, file, files, states: RefCell::default() })
+        Ok(Source { folder, file, files, states: RefCell::default(), hands: RefCell::default() })
     }
 
     /// A program that gives values, and no problem file.
     pub fn of_values(folder: &'a Path) -> Source<'a> {
-        Source { folder, file: None, files: RefCell::default(), states: RefCell::default() }
+        Source {
+            folder,
+            file: None,
+            files: RefCell::default(),
+            states: RefCell::default(),
+            hands: RefCell::default(),
+        }
     }
 
     /// Reads the tables of the file that `T` describes; others are not looked at.

@@ -2,10 +2,10 @@
 
 use crate::cli::{PathFormat, QueryArguments};
 use crate::work::Recorded;
-use roadmill::Context;
 use roadmill::export::{parasol_path, path_csv};
 use roadmill::model::Scratch;
 use roadmill::query::{Answer, Path, shorten};
+use roadmill::{Context, Ends};
 use std::time::Instant;
 
 /// A run together with everything that decides how its paths are written.
@@ -39,9 +39,14 @@ impl<'a> Asker<'a> {
 
     /// Searches the roadmap for a path between two configurations.
     pub fn ask(&self, start: &[f64], goal: &[f64]) -> TimedAnswer {
+        self.ask_any(&Ends::new(start.to_vec(), goal.to_vec()))
+    }
+
+    /// Searches the roadmap for a path to any goal of a query; where there are several, for that which costs least.
+    pub fn ask_any(&self, ends: &Ends) -> TimedAnswer {
         let begun = Instant::now();
         let mut scratch = Scratch::new();
-        let mut answer = self.run.solve((start, goal), &mut scratch);
+        let mut answer = self.run.solve_any(ends, &mut scratch);
         if let (Some(path), Some(tries)) = (&mut answer.path, self.shorten_tries) {
             *path = shorten(self.cx(), path, tries, &mut scratch);
         }

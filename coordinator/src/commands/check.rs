@@ -5,6 +5,7 @@ use crate::cli::CheckArguments;
 use crate::exit::{Code, Failure};
 use crate::files::{is_standard_output, write_out};
 use crate::output::{json, line, lines, told};
+use crate::waiting::waiting;
 use roadmill::export::svg_at;
 use roadmill::model::Reason;
 use roadmill::problem::{Problem, configuration_at_all};
@@ -25,7 +26,7 @@ pub fn check(arguments: &CheckArguments) -> Result<Code, Failure> {
         return Ok(Code::Done);
     }
     lines(problem.describe().trim_end());
-    let survey = Survey::new(&problem.context(), DRAWS);
+    let survey = waiting("drawing configurations", || Survey::new(&problem.context(), DRAWS));
     line(format_args!("draws            {survey}"));
     if let Some(advice) = survey.advice() {
         line(format_args!("                 {advice}"));

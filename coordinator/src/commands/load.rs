@@ -1,6 +1,7 @@
 use crate::cli::{Bounds, Dh, Origin, ProblemArguments, Solid, Unit, Up};
 use crate::exit::Failure;
 use crate::run::Ledgers;
+use crate::waiting::waiting;
 use roadmill::model::bodies::foreign::{self, SceneOptions, Solidity};
 use roadmill::model::bodies::validity::BoundsMeaning;
 use roadmill::problem::Problem;
@@ -44,7 +45,8 @@ pub(super) fn load(arguments: &ProblemArguments) -> Result<Problem, Failure> {
         srdf: arguments.srdf.as_deref(),
         group: arguments.group.as_deref(),
     };
-    Problem::load_with(&arguments.file, &options, &Ledgers).map_err(Failure::usage)
+    let load = || Problem::load_with(&arguments.file, &options, &Ledgers);
+    waiting("reading the problem", load).map_err(Failure::usage)
 }
 
 /// Reads a problem file of our own.

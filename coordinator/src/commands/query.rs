@@ -6,6 +6,7 @@ use crate::exit::{Code, Failure};
 use crate::files::{expect_folder, write_out, write_whole};
 use crate::output::{self, note};
 use crate::work::{Recorded, Run};
+use roadmill::Ends;
 use roadmill::export::animation;
 use roadmill::problem::configuration;
 use roadmill::query::PATH_REFINEMENT;
@@ -26,9 +27,9 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     if let (Some(file), Some(folder)) = (&arguments.queries, &arguments.out) {
         return batch::batch(&asker, file, folder);
     }
-    let (start, goal) = ends(&run, &arguments.start, &arguments.goal)?;
+    let ends = ends(&run, &arguments.start, &arguments.goal)?;
 
-    let TimedAnswer { answer, seconds } = asker.ask(&start, &goal);
+    let TimedAnswer { answer, seconds } = asker.ask_any(&ends);
     let dropped = answer.dropped_edges;
     if dropped > 0 {
         note(format_args!(
@@ -54,13 +55,17 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     }
     let (configs, length) = (path.configs.len(), path.length);
     let plural = if configs == 1 { "" } else { "s" };
+    let to = match ends.goal_number(path.configs.iter()) {
+        Some(number) => format!(" to goal {number} of {}", ends.goals().count()),
+        None => String::new(),
+    };
     note(format_args!(
-        "path of {configs} configuration{plural}, length {length:.6}, in {seconds:.3} s"
+        "path of {configs} configuration{plural}{to}, length {length:.6}, in {seconds:.3} s"
     ));
     Ok(Code::Done)
 }
 
-/// The start and the goal that the command line gives, or else the problem's.
+/// The start and the goal that the command line gives, or else the problem's, of which there may be several goals.
 ///
 /// # Errors
 /// Exit code 2: one is given that cannot be used, or none where the problem has no query; or the problem has a validity
@@ -69,7 +74,7 @@ pub(super) fn ends(
     run: &Recorded,
     start: &Option<String>,
     goal: &Option<String>,
-) -> Result<(Vec<f64>, Vec<f64>), Failure> {
+) -> Result<Ends, Failure> {
     run.expect_validity_function()?;
     let given = run.problem().query();
     let end = |name: &str, text: &Option<String>, given: Option<&Vec<f64>>| match (text, given) {
@@ -79,5 +84,8 @@ pub(super) fn ends(
         (None, None) => Err(Failure::usage(format!("--{name} expected: the problem has no query"))),
     };
     let start = end("start", start, given.map(|query| &query.start))?;
-    Ok((start, end("goal", goal, given.map(|query| &query.goal))?))
+    let is_given = goal.is_some();
+    let goal = end("goal", goal, given.map(|query| &query.goal))?;
+    let others = given.filter(|_| !is_given).map(|query| query.other_goals.clone());
+    Ok(Ends { start, goal, other_goals: others.unwrap_or_default() })
 }

@@ -206,6 +206,6 @@ fn shown_of_folding(
         in_words += " The time was up before all of them were looked at.";
     }
     let first = pathways.pathways.first().and_then(|first| first.path.configs.iter().next());
-    let ends = Ends { start: first.unwrap_or(&native.q).to_vec(), goal: native.q.clone() };
+    let ends = Ends::new(first.unwrap_or(&native.q).to_vec(), native.q.clone());
     Ok(Shown { ends, pathways, asked: in_words, folding: Some(folding) })
 }

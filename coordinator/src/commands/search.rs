@@ -26,6 +26,19 @@ pub(super) fn usual_spacing(cx: &Context) -> f64 {
     cx.space().diameter() / 100.0
 }
 
+/// The ends with one goal: of several the one that the path which costs least ends at, or the first where there is none.
+fn with_one_goal(run: &Recorded, ends: Ends) -> Ends {
+    if ends.other_goals.is_empty() {
+        return ends;
+    }
+    let answer = run.solve_any(&ends, &mut Scratch::new());
+    let reached = answer.path.and_then(|path| ends.goal_number(path.configs.iter()));
+    let number = reached.unwrap_or(1);
+    note(format_args!("goal {number} of {}, to which the way costs least", ends.goals().count()));
+    let goal = ends.goals().nth(number - 1).unwrap_or(&ends.goal).to_vec();
+    Ends::new(ends.start, goal)
+}
+
 /// What is asked for, with what the model says of it.
 pub(super) struct Asked<'a> {
     pub run: &'a Recorded,
@@ -45,11 +58,11 @@ impl<'a> Asked<'a> {
     /// # Errors
     /// Exit code 2: what the model does not have is asked for, or an end that cannot be used.
     pub fn of(run: &'a Recorded, arguments: &'a SearchArguments) -> Result<Asked<'a>, Failure> {
-        let (start, goal) = ends(run, &arguments.start, &arguments.goal)?;
+        let ends = with_one_goal(run, ends(run, &arguments.start, &arguments.goal)?);
         let (cx, description) = (run.context(), run.problem().model().description());
         let scratch = &mut Scratch::new();
-        let has_energies = cx.model().energy(&start, scratch).is_some();
-        let has_alphas = cx.model().shape(&start, scratch).is_some();
+        let has_energies = cx.model().energy(&ends.start, scratch).is_some();
+        let has_alphas = cx.model().shape(&ends.start, scratch).is_some();
         let rank = match arguments.by {
             Some(RankBy::Barrier) if !has_energies => {
                 let message = "--by: barrier found; this model has no energies, cost expected";
@@ -68,7 +81,7 @@ impl<'a> Asked<'a> {
         Ok(Asked {
             run,
             arguments,
-            ends: Ends { start, goal },
+            ends,
             rank,
             spacing: arguments.spacing.unwrap_or(usual),
             molecule,

@@ -2,6 +2,7 @@ use super::{SUMMARY_JSON, Stopped};
 use crate::dispatch::{Audited, Machine, Machines};
 use crate::files::open_in_run;
 use crate::output::Plain;
+use roadmill::Ends;
 use roadmill::evaluate::{Bound, CutEdge, EvaluatorKind, Verdict};
 use roadmill::problem::Problem;
 use roadmill::roadmap::{Digest, Tally};
@@ -79,6 +80,9 @@ pub struct EvaluatorValue {
     pub dropped_edges: Option<u64>,
     /// Of a solved query: the sum of the costs of the path's edges, of most models its length in the space's metric.
     pub path_length: Option<f64>,
+    /// Of a solved query with several goals: the number of the one that the path ends at, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goal: Option<usize>,
     /// Of a max-flow or a flow ratio: the edges of a least cut.
     pub cut: Option<Vec<CutEdge>>,
 }
@@ -88,11 +92,12 @@ impl EvaluatorValue {
     /// first judgement.
     pub fn all(problem: &Problem, verdicts: &[Verdict]) -> Vec<EvaluatorValue> {
         let mut values = Vec::new();
-        Self::collect(problem.evaluators(), verdicts, &mut values);
+        Self::collect(problem.query(), problem.evaluators(), verdicts, &mut values);
         values
     }
 
     fn collect(
+        query: Option<&Ends>,
         evaluators: &[EvaluatorKind],
         verdicts: &[Verdict],
         values: &mut Vec<EvaluatorValue>,
@@ -109,9 +114,12 @@ impl EvaluatorValue {
                 measures: names.iter().copied().zip(verdict.measures.iter().copied()).collect(),
                 dropped_edges: answer.map(|answer| answer.dropped_edges),
                 path_length: answer.and_then(|answer| answer.path.as_ref()).map(|path| path.length),
+                goal: answer
+                    .and_then(|answer| answer.path.as_ref())
+                    .and_then(|path| query?.goal_number(path.configs.iter())),
                 cut: verdict.cut.clone(),
             });
-            Self::collect(evaluator.method().parts(), &verdict.parts, values);
+            Self::collect(query, evaluator.method().parts(), &verdict.parts, values);
         }
     }
 }
@@ -129,6 +137,9 @@ impl fmt::Display for EvaluatorValue {
         }
         if let Some(length) = self.path_length {
             write!(f, ", path of length {length:.3}")?;
+        }
+        if let Some(goal) = self.goal {
+            write!(f, " to goal {goal}")?;
         }
         if let Some(dropped @ 1..) = self.dropped_edges {
             write!(f, ", {dropped} edges failed the finer check")?;

@@ -1,11 +1,11 @@
 use crate::exit::Failure;
 use crate::run::ledger::{Ledger, Stopped};
-use roadmill::Context;
 use roadmill::export::RoundOutcome;
 use roadmill::model::{Scratch, ValidityFunction};
 use roadmill::problem::Problem;
 use roadmill::query::{Answer, Attachment, EndError, Path, PreparedRoadmap};
 use roadmill::roadmap::{Digest, Roadmap};
+use roadmill::{Context, Ends};
 
 /// A run as it is recorded: the roadmap, and the way to paths through it.
 pub struct Recorded {
@@ -103,5 +103,12 @@ impl Recorded {
     /// [`Recorded::query`] for ends that were checked before.
     pub(crate) fn solve(&self, ends: (&[f64], &[f64]), scratch: &mut Scratch) -> Answer {
         self.roadmap.solve(&self.cx, ends, &self.attachment, scratch)
+    }
+
+    /// The better of the answers for the goals of a query, as [`query::solve_any`](roadmill::query::solve_any) has it.
+    pub(crate) fn solve_any(&self, ends: &Ends, scratch: &mut Scratch) -> Answer {
+        let mut to = |goal: &[f64]| self.solve((&ends.start, goal), scratch);
+        let first = to(&ends.goal);
+        ends.other_goals.iter().fold(first, |best, goal| best.or(to(goal)))
     }
 }

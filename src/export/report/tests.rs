@@ -47,7 +47,7 @@ fn page(built: &Built, angles: &[DomainAngle], change: impl Fn(&mut Problem)) ->
             problem: &problem,
             cx,
             roadmap: built.roadmap(),
-            ends: &Ends { start: ends.start.clone(), goal: ends.goal.clone() },
+            ends: &Ends::new(ends.start.clone(), ends.goal.clone()),
             pathways: &pathways,
             asked: "Two paths were asked for & <found>.",
             angles,

@@ -42,7 +42,8 @@ pub(in crate::generator) fn grow_from_root(
     // What is refused in a problem file can still come in bytes.
     let Some(root) = root(cx) else { return Err(GaveUp { attempts: 0 }) };
     let [mut tree] = GrowingTree::of(&mut set, seed, [root]);
-    let aim = cx.query.as_ref().map(|query| Aim { goal: &query.goal[..], bias: goal_bias });
+    let goal = cx.query.as_ref().map(|query| query.of_set(seed.ordinal())[1]);
+    let aim = goal.map(|goal| Aim { goal, bias: goal_bias });
     explore(&mut set, &mut tree, aim, exploration)?;
     Ok(set.made)
 }

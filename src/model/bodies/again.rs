@@ -1,6 +1,7 @@
 //! From a checked description back to what asks for it.
 
 use super::Bodies;
+use super::padding::spec_of_padding;
 use super::robot::{Joint, JointKind, Limits, Link, Mimic};
 use super::spec::{
     BodiesSpec, BodySpec, FrameSpec, JointSpec, LinkSpec, RobotSpec, ShapeSpec, SpaceSpec,
@@ -39,6 +40,7 @@ pub(super) fn spec_of(bodies: &Bodies) -> BodiesSpec {
     for (first, second) in &robot.may_touch {
         spec = spec.may_touch(name(*first), name(*second));
     }
+    let spec = RobotSpec { padding: spec_of_padding(robot), ..spec };
     BodiesSpec::new(space, spec).obstacles(bodies.obstacles.iter().map(body))
 }
 

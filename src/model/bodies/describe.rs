@@ -1,7 +1,9 @@
 //! What `check` says of bodies.
 
 use super::Bodies;
+use super::padding::spec_of_padding;
 use super::robot::{JointKind, Limits, Mimic};
+use super::spec::PaddingSpec;
 use super::validity::{BoundsMeaning, MotionChecking, TOLERANCE};
 use crate::internal::plain::plain;
 use crate::model::Description;
@@ -87,6 +89,21 @@ pub(super) fn describe(bodies: &Bodies, out: &mut String) -> std::fmt::Result {
     if bodies.robot.links.len() > 1 {
         let links = bodies.robot.links.len();
         writeln!(out, "                 {links} links, {pairs} pairs of which must not touch")?;
+    }
+    match spec_of_padding(&bodies.robot) {
+        None => {}
+        Some(PaddingSpec::Same(length)) => {
+            writeln!(
+                out,
+                "                 obstacles stay {length} away from every link (padding)"
+            )?;
+        }
+        Some(PaddingSpec::ByLink(by_link)) => {
+            let entry = |(link, length)| format!("{length} from {link}");
+            let entries: Vec<String> = by_link.iter().map(entry).collect();
+            let entries = entries.join(", ");
+            writeln!(out, "                 obstacles stay away (padding): {entries}")?;
+        }
     }
     writeln!(out, "                 lengths in the unit of the file")?;
     let axes = bodies.robot.motion.bounded_axes();

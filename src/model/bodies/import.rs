@@ -53,13 +53,13 @@ fn from_urdf(path: &Path, options: &SceneOptions) -> Result<ForeignProblem, Prob
         // The message names the file.
         _ => ProblemError::pathless(message),
     })?;
-    let ReadRobot { mut links, motion, may_touch, states, group, mut notes, sources } = read;
+    let ReadRobot { mut links, motion, may_touch, states, group, mut notes, sources, .. } = read;
     let locks = Locks { lock: &BTreeMap::new(), rest: &[], group: group.as_ref() };
     lock_joints(&mut links, &locks, &states, &mut notes)
         .map_err(|(_, message)| ProblemError::file(path, message))?;
     let stands = motion == BaseJoint::Fixed;
     let motion = if stands && !links.iter().any(moves) { BaseJoint::Rigid3d } else { motion };
-    let robot = Robot { motion, base: Pose::IDENTITY, links, may_touch };
+    let robot = Robot { motion, links, may_touch, ..Robot::rigid(motion, Vec::new()) };
     let (bounds, note) =
         bounds_of_reach(&robot).map_err(|message| ProblemError::file(path, message))?;
     notes.push("a robot without a scene: no obstacles, no query".to_owned());
@@ -131,6 +131,7 @@ fn robot_of(scene: &ForeignScene) -> Robot {
         base,
         links,
         may_touch: scene.may_touch.iter().map(|(a, b)| (*a as u32, *b as u32)).collect(),
+        padding: Vec::new(),
     }
 }
 

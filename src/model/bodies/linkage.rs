@@ -1,6 +1,7 @@
 //! The robot: its base, its links and their joints.
 
 use super::locks::{Locks, lock_joints};
+use super::padding::padding_of;
 use super::robot::{Follower, Joint, JointKind, LINKS_MAX, Limits, Link, Robot, TURN_MAX, couple};
 use super::robot_files::{ReadRobot, RobotFiles, read_robot};
 use super::shapes::{bodies, pose_of, unit};
@@ -31,6 +32,7 @@ pub(super) fn robot_of(
             notes.extend(read.notes);
             read.sources.into_iter().for_each(|file| source.read(file));
             source.states.replace(read.states);
+            source.hands.replace(read.hands);
             group = read.group;
             let ReadRobot { links, motion: said, may_touch, .. } = read;
             robot = Robot { motion: motion.unwrap_or(said), links, may_touch, ..robot };
@@ -101,6 +103,12 @@ pub(super) fn robot_of(
             pair.push(*link as u32);
         }
         robot.may_touch.push((pair[0].min(pair[1]), pair[0].max(pair[1])));
+    }
+    if let Some(padding) = &spec.padding {
+        robot.padding =
+            padding_of(padding, &index_of, robot.links.len()).map_err(|(place, message)| {
+                source.error(&[&[Key("robot")], &place[..]].concat(), message)
+            })?;
     }
     Ok(robot)
 }

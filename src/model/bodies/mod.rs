@@ -12,6 +12,7 @@ mod import;
 mod inverse_kinematics;
 mod linkage;
 mod locks;
+mod padding;
 mod resolve;
 pub mod robot;
 mod robot_files;

@@ -4,7 +4,7 @@ use super::foreign::{Srdf, UrdfRobot, VirtualKind, read_srdf, read_urdf};
 use super::linkage::fitting_names;
 use super::robot::Link;
 use crate::digest::SourceFile;
-use crate::source::{NamedState, fitting};
+use crate::source::{Hand, NamedState, fitting};
 use crate::space::BaseJoint;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -25,6 +25,8 @@ pub(super) struct ReadRobot {
     /// Pairs of links, the lower index first, that may touch.
     pub may_touch: Vec<(u32, u32)>,
     pub states: Vec<NamedState>,
+    /// The end effectors of the group, or of the robot where no group is chosen.
+    pub hands: Vec<Hand>,
     /// The links whose joints are those of the group; `None` where none is chosen.
     pub group: Option<BTreeSet<usize>>,
     pub notes: Vec<String>,
@@ -39,6 +41,8 @@ pub(super) fn read_robot(files: &RobotFiles) -> Result<ReadRobot, (&'static str,
     let UrdfRobot { links, base: mut motion, mut notes, mut sources } =
         read_urdf(files.urdf).map_err(|error| ("urdf", error.to_string()))?;
     let (mut may_touch, mut states, mut group) = (Vec::new(), Vec::new(), None);
+    // The end effectors by name, and the indices of the links on which they are mounted.
+    let mut mounted = Vec::new();
     match (files.srdf, files.group) {
         (None, None) => {}
         (None, Some(name)) => {
@@ -57,11 +61,14 @@ pub(super) fn read_robot(files: &RobotFiles) -> Result<ReadRobot, (&'static str,
                 Some((_, has_base)) if !has_base => BaseJoint::Fixed,
                 _ => virtual_motion(&srdf, &links, &mut notes).unwrap_or(motion),
             };
+            mounted = mounted_hands(&srdf, name, joints.as_ref(), &links);
             group = joints.map(|(links, _)| links);
         }
     }
     let links = fitting_names(links);
-    Ok(ReadRobot { links, motion, may_touch, states, group, notes, sources })
+    let hand = |(name, link): (String, usize)| Hand { name, link: links[link].name.clone() };
+    let hands = mounted.into_iter().map(hand).collect();
+    Ok(ReadRobot { links, motion, may_touch, states, hands, group, notes, sources })
 }
 
 /// The links whose joints the group has, and whether it moves the base.
@@ -78,18 +85,49 @@ fn joints_of(
         return Err(("group", message));
     };
     let joints = joints.map_err(|error| ("srdf", error.to_string()))?;
-    if !joints.unknown.is_empty() {
-        let unknown = joints.unknown.join(", ");
-        notes.push(format!("group `{name}`: {unknown} left out, which the robot does not have"));
-    }
-    let moves =
-        |link: &usize| links[*link].joint.as_ref().is_some_and(|joint| joint.kind.values() > 0);
-    if !joints.has_base && !joints.links.iter().any(moves) {
+    let unknown = (!joints.unknown.is_empty()).then(|| {
+        let (path, unknown) = (srdf.path.display(), joints.unknown.join(", "));
+        format!("{path}: group `{name}`: {unknown} left out, which the robot does not have")
+    });
+    let has_moving = joints.links.iter().any(|link| has_values(&links[*link]));
+    if !joints.has_base && !has_moving {
+        let why = unknown.map_or_else(String::new, |unknown| format!(" ({unknown})"));
         let message =
-            format!("`{name}` found, a group without a joint that moves; one with expected");
+            format!("`{name}` found, a group without a joint that moves; one with expected{why}");
         return Err(("group", message));
     }
+    notes.extend(unknown);
     Ok((joints.links, joints.has_base))
+}
+
+/// Whether the joint of a link has values of its own in a configuration.
+fn has_values(link: &Link) -> bool {
+    link.joint.as_ref().is_some_and(|joint| joint.kind.values() > 0)
+}
+
+/// The end effectors by name, each with the index of the link on which it is mounted: of a group (`name`, with its joints)
+/// those that extend it by the file's word or, where the file does not say which group they extend, those that it moves.
+fn mounted_hands(
+    srdf: &Srdf,
+    name: Option<&str>,
+    joints: Option<&(BTreeSet<usize>, bool)>,
+    links: &[Link],
+) -> Vec<(String, usize)> {
+    let is_moved = |link: usize| {
+        let Some((group, has_base)) = joints else { return true };
+        let parent = |link: &usize| links[*link].joint.as_ref().map(|joint| joint.parent as usize);
+        let mut carriers = std::iter::successors(Some(link), parent);
+        *has_base || carriers.any(|link| group.contains(&link) && has_values(&links[link]))
+    };
+    let mounted = srdf.end_effectors.iter().filter_map(|hand| {
+        let link = links.iter().position(|link| link.name == hand.parent_link)?;
+        let extends = match (&hand.parent_group, name) {
+            (Some(extended), Some(name)) => extended == name,
+            _ => is_moved(link),
+        };
+        extends.then(|| (hand.name.clone(), link))
+    });
+    mounted.collect()
 }
 
 /// The pairs of links that may touch.

@@ -69,7 +69,7 @@ fn bounds_sound(Bounds { min, max, meaning: _ }: &Bounds, robot: &Robot) -> Resu
 }
 
 fn robot_sound(robot: &Robot) -> Result<(), String> {
-    let Robot { motion, base, links, may_touch } = robot;
+    let Robot { motion, base, links, may_touch, padding } = robot;
     pose_sound(base).map_err(|why| format!("robot.base: {why}"))?;
     if !(1..=LINKS_MAX).contains(&links.len()) {
         return Err(format!("robot: {} links found; 1 to {LINKS_MAX} expected", links.len()));
@@ -83,6 +83,14 @@ fn robot_sound(robot: &Robot) -> Result<(), String> {
     }
     if let Some((index, message)) = mimic_complaint(links) {
         return Err(format!("robot: link {index}.joint: {message}"));
+    }
+    if !(padding.is_empty() || padding.len() == links.len()) {
+        let (found, expected) = (padding.len(), links.len());
+        return Err(format!("robot.padding: {found} lengths found; none or {expected} expected"));
+    }
+    // Written so that NaN fails it.
+    if let Some(length) = padding.iter().find(|length| !(**length >= 0.0 && **length <= FAR)) {
+        return Err(format!("robot.padding: {length} found; a length of at least 0 expected"));
     }
     let listed = |link: &u32| (*link as usize) < links.len();
     match may_touch.iter().find(|(one, other)| !(listed(one) && listed(other))) {

@@ -1,7 +1,9 @@
 //! Rigid robots and obstacles written out as the tables of a problem file.
 
 use super::Bodies;
+use super::padding::spec_of_padding;
 use super::robot::{JointKind, Limits, Link, Mimic};
+use super::spec::PaddingSpec;
 use crate::digest::Digest;
 use crate::model::Documents;
 use crate::scene::{Body, Mesh, Pose, Shape};
@@ -45,6 +47,15 @@ impl Writer<'_> {
             let pair = |(a, b): &(u32, u32)| format!("[{}, {}]", name(*a), name(*b));
             let pairs: Vec<String> = robot.may_touch.iter().map(pair).collect();
             writeln!(out, "may_touch = [{}]", pairs.join(", "))?;
+        }
+        match spec_of_padding(robot) {
+            None => {}
+            Some(PaddingSpec::Same(length)) => writeln!(out, "padding = {length:?}")?,
+            Some(PaddingSpec::ByLink(by_link)) => {
+                let entry = |(link, length)| format!("{} = {length:?}", value(link));
+                let entries: Vec<String> = by_link.iter().map(entry).collect();
+                writeln!(out, "padding = {{ {} }}", entries.join(", "))?;
+            }
         }
         for link in &robot.links[1..] {
             let joint = link.joint.as_ref().expect("every link but the base hangs on a joint");

@@ -269,10 +269,8 @@ fn the_shortest_route_of_every_class_is_found() {
     assert_eq!(punctures.points(), [[2.4, 3.0], [5.6, 3.2]]);
     let roadmap = grid(&problem, 6, 5);
     // The ends are the nodes in the middle of the first and last column, and attached to nothing else.
-    let ends = Ends {
-        start: roadmap.configs().get(12).to_vec(),
-        goal: roadmap.configs().get(17).to_vec(),
-    };
+    let [start, goal] = [12, 17].map(|node| roadmap.configs().get(node).to_vec());
+    let ends = Ends::new(start, goal);
     let attachment = Attachment { neighbors: 1, ..Attachment::default() };
     let configs = [&ends.start[..], &ends.goal];
     let mut ways = Ways::between(&cx, &roadmap, configs, &attachment, scratch);

@@ -2,6 +2,7 @@
 //! they are used, as problem files are. A file whose hashes are right may still have been made by anybody.
 
 use super::record::Chapter;
+use roadmill::Ends;
 use roadmill::evaluate::Verdict;
 use roadmill::img::Joined;
 use roadmill::local::Planner;
@@ -151,8 +152,8 @@ fn criteria_complaint(problem: &Problem) -> Option<String> {
         }
     }
     let space = problem.space();
-    let ends = problem.query().into_iter().flat_map(|query| [&query.start, &query.goal]);
-    if ends.into_iter().any(|end| !is_in(&space, end)) {
+    let mut ends = problem.query().into_iter().flat_map(Ends::all);
+    if ends.any(|end| !is_in(&space, end)) {
         return Some("a query whose ends are not in the space".to_owned());
     }
     problem.limits().complaint().map(|(key, message)| format!("limits: {key}: {message}"))

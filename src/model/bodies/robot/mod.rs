@@ -5,6 +5,7 @@
 //! those of the joints in the order of their links; joints that are fixed, locked or follow another have none.
 
 mod joint;
+mod layout;
 mod locked;
 mod mimics;
 mod pairs;
@@ -30,7 +31,7 @@ use bincode::{Decode, Encode};
 pub const LINKS_MAX: usize = 1000;
 
 /// A robot.
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// How the base, link 0, moves.
     pub motion: BaseJoint,
@@ -41,6 +42,9 @@ pub struct Robot {
     /// Pairs of links, the lower index first, that may touch one another although they are not
     /// neighbours.
     pub may_touch: Vec<(u32, u32)>,
+    /// Per link: how near to it obstacles are already in the way, a length; empty where it is zero for all. Other links and
+    /// the bounds may come as near as they like.
+    pub padding: Vec<f64>,
 }
 
 /// A link: bodies that move as one.
@@ -58,12 +62,23 @@ impl Robot {
     /// A rigid body.
     pub fn rigid(motion: BaseJoint, bodies: Vec<Body>) -> Robot {
         let base = Link { name: "body".to_owned(), bodies, joint: None };
-        Robot { motion, base: Pose::IDENTITY, links: vec![base], may_touch: Vec::new() }
+        Robot {
+            motion,
+            base: Pose::IDENTITY,
+            links: vec![base],
+            may_touch: Vec::new(),
+            padding: Vec::new(),
+        }
     }
 
     /// All bodies, link after link.
     pub fn bodies(&self) -> impl Iterator<Item = &Body> {
         self.links.iter().flat_map(|link| &link.bodies)
+    }
+
+    /// How near to a link obstacles are already in the way, a length.
+    pub fn padding_of(&self, link: usize) -> f64 {
+        self.padding.get(link).copied().unwrap_or(0.0)
     }
 
     fn base_pose(&self, q: &[f64]) -> Pose {

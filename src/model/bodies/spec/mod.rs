@@ -15,6 +15,7 @@ pub use space::SpaceSpec;
 
 pub(super) use body::Solid;
 pub(super) use joint::{JointKindSpec, MimicSpec};
+pub(super) use robot::{ALL_OTHERS, PaddingSpec};
 
 use serde::Deserialize;
 

@@ -24,7 +24,24 @@ pub struct RobotSpec {
     pub(in crate::model::bodies) attach: Vec<AttachSpec>,
     #[serde(default)]
     pub(in crate::model::bodies) may_touch: Vec<[String; 2]>,
+    pub(in crate::model::bodies) padding: Option<PaddingSpec>,
 }
+
+/// How near to links obstacles are already in the way: the key `padding`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected a length, or a table of links and their lengths, \"*\" being all others"
+)]
+pub(in crate::model::bodies) enum PaddingSpec {
+    /// The same of all links.
+    Same(f64),
+    /// By the names of links; [`ALL_OTHERS`] stands for those that are not named.
+    ByLink(BTreeMap<String, f64>),
+}
+
+/// What stands for all links that a padding does not name; no link can have this name.
+pub(in crate::model::bodies) const ALL_OTHERS: &str = "*";
 
 impl RobotSpec {
     /// A base without bodies and links.
@@ -87,6 +104,23 @@ impl RobotSpec {
     pub fn attach(mut self, attached: AttachSpec) -> RobotSpec {
         self.attach.push(attached);
         self
+    }
+
+    /// Lets obstacles be in the way as soon as they come as near as this length to any link, in the place of all padding that
+    /// was given before.
+    pub fn padding(self, length: f64) -> RobotSpec {
+        RobotSpec { padding: Some(PaddingSpec::Same(length)), ..self }
+    }
+
+    /// Lets obstacles be in the way as soon as they come as near as this length to a link, whatever is said of all links.
+    pub fn padding_of(self, link: impl Into<String>, length: f64) -> RobotSpec {
+        let mut by_link = match self.padding {
+            None => BTreeMap::new(),
+            Some(PaddingSpec::Same(length)) => BTreeMap::from([(ALL_OTHERS.to_owned(), length)]),
+            Some(PaddingSpec::ByLink(by_link)) => by_link,
+        };
+        by_link.insert(link.into(), length);
+        RobotSpec { padding: Some(PaddingSpec::ByLink(by_link)), ..self }
     }
 
     /// Allows two links to touch, which are no neighbours: neighbours always may.

@@ -51,6 +51,7 @@ pub enum MotionChecking {
 /// Validity of a robot among obstacles that stand still.
 ///
 /// Bodies collide when their surfaces meet or when one lies wholly inside another that is solid.
+/// Of a link with a padding ([`Robot::padding`]) obstacles already collide that are as near as that.
 /// Links that are neighbours, or that [`Robot::may_touch`] names, may touch. [`MotionChecking`] says what is promised of
 /// motions; `docs/validity.md` describes the methods.
 pub struct BodyValidity {
@@ -64,6 +65,8 @@ pub struct BodyValidity {
     pub(super) edges: MotionChecking,
     /// A bound on the distance of the robot's points from the base's origin.
     pub(super) reach: f64,
+    /// The same with the padding of the links.
+    pub(super) padded_reach: f64,
     pub(super) links: Vec<Moving>,
     pub(super) obstacles: Option<Group>,
     /// The obstacles' boxes.
@@ -82,6 +85,15 @@ pub struct BodyValidity {
 pub(super) struct Moving {
     pub link: usize,
     pub group: Group,
+    /// The link with its padding, if it has one, which is what obstacles must not touch.
+    padded: Option<Group>,
+}
+
+impl Moving {
+    /// What obstacles must not touch.
+    pub fn among_obstacles(&self) -> &Group {
+        self.padded.as_ref().unwrap_or(&self.group)
+    }
 }
 
 /// Two links with bodies, as indices into [`BodyValidity::links`]. A robot of a thousand links has half a
@@ -117,7 +129,10 @@ impl BodyValidity {
     ) -> BodyValidity {
         let links = robot.links.iter().enumerate().filter_map(|(link, bodies)| {
             let group = Group::new(bodies.bodies.iter())?;
-            Some(Moving { link, group })
+            let padding = robot.padding_of(link);
+            let is_padded = padding > 0.0 && !obstacles.is_empty();
+            let padded = is_padded.then(|| Group::padded(&bodies.bodies, padding)).flatten();
+            Some(Moving { link, group, padded })
         });
         let links: Vec<Moving> = links.collect();
         // Where each link that has a surface stands among these.
@@ -130,10 +145,12 @@ impl BodyValidity {
         });
         let self_pairs = pairs.collect();
         let reach = robot.reach();
+        let padded_reach = reach + robot.padding.iter().fold(0.0, |most, one| f64::max(most, *one));
         let obstacles = Group::of_obstacles(obstacles, places_of(robot, &bounds, reach));
         let boxes = obstacles.iter().flat_map(|group| &group.pieces);
         let far = |point: &[f64; 3]| Vector::from_array(*point).abs().max_element();
-        let scale = [reach, far(&bounds.min), far(&bounds.max), far(&robot.base.translation)];
+        let scale =
+            [padded_reach, far(&bounds.min), far(&bounds.max), far(&robot.base.translation)];
         let scale = obstacles
             .iter()
             .flat_map(|group| &group.tree.elements)
@@ -151,6 +168,7 @@ impl BodyValidity {
             resolution,
             edges,
             reach,
+            padded_reach,
             boxes: boxes.map(|piece| piece.box_at(&ParryPose::IDENTITY)).collect(),
             links,
             obstacles,
@@ -164,9 +182,9 @@ impl BodyValidity {
     /// Everything that could collide: every link with the obstacles, then the pairs of links that must not touch.
     pub(super) fn meetings(&self) -> impl Iterator<Item = Meeting<'_>> {
         let (slack, lanes) = (self.slack, self.lanes);
-        let among = self.links.iter().filter_map(move |Moving { link, group }| {
+        let among = self.links.iter().filter_map(move |moving| {
             let still = self.obstacles.as_ref()?;
-            let (mover, mover_link) = (group, *link);
+            let (mover, mover_link) = (moving.among_obstacles(), moving.link);
             Some(Meeting { mover, mover_link, still, still_link: None, slack, lanes })
         });
         let own = self.self_pairs.iter().map(move |pair| {

@@ -1,6 +1,6 @@
 //! Discrete collision detection: whether the bodies of two groups meet at one configuration.
 
-use super::convex::{Convex, meet};
+use super::convex::{Convex, meet, nearest};
 use super::directions::triangles_meet;
 use super::element::{Element, elements};
 use super::frame::{Frame, Stance};
@@ -115,6 +115,11 @@ impl Meeting<'_> {
         let first = &self.mover.tree.elements[mover.element as usize];
         let second = &self.still.tree.elements[still.element as usize];
         if !first.primitive && !second.primitive {
+            // Triangles with a padding are rounded.
+            if first.radius > 0.0 {
+                let corners = first.corners.map(|p| frame.point(p));
+                return self.nearest(first, &corners, second, stance).distance <= 0.0;
+            }
             return triangles_meet(
                 self.lanes,
                 &first.corners.map(|p| frame.point(p)),
@@ -124,6 +129,7 @@ impl Meeting<'_> {
         let (one, other) = (self.mover.piece(first), self.still.piece(second));
         let at = stance.pose(Some(self.mover_link));
         let other_at = stance.pose(self.still_link);
+        let padding = one.padding();
         match (one.is_point(), other.is_point()) {
             (true, true) => false,
             (true, false) => other.holds(&other_at, one.pose_at(&at).translation),
@@ -131,6 +137,10 @@ impl Meeting<'_> {
             (false, false) => {
                 let (one, at) = part(one, first, &at);
                 let (other, other_at) = part(other, second, &other_at);
+                if padding > 0.0 {
+                    let way = nearest((&other, &other_at), (&one, &at));
+                    return way.is_none_or(|(p, q)| (p - q).length() <= padding);
+                }
                 meet((&other, &other_at), (&one, &at))
             }
         }
@@ -150,6 +160,25 @@ impl Group {
     /// Makes a group of the bodies of a link; `None` if there are none.
     pub fn new<'a>(bodies: impl Iterator<Item = &'a Body>) -> Option<Group> {
         Group::about(bodies, |_| None)
+    }
+
+    /// Makes a group of the bodies of a link that are thicker by `padding` on all sides; `None` if there are none.
+    pub fn padded(bodies: &[Body], padding: f64) -> Option<Group> {
+        let (mut surface, mut pieces) = (Vec::new(), Vec::new());
+        for body in bodies {
+            let index = pieces.len() as u32;
+            // Of round shapes the thicker one is of the same kind.
+            if let Some(shape) = body.shape.thickened(padding) {
+                let thicker = Body { shape, ..body.clone() };
+                surface.extend(elements(&thicker, index));
+                pieces.push(Piece::new(&thicker));
+            } else {
+                let thicker = |e: Element| Element { radius: e.radius + padding, ..e };
+                surface.extend(elements(body, index).into_iter().map(thicker));
+                pieces.push(Piece::padded(body, padding));
+            }
+        }
+        Tree::new(surface, None).map(|tree| Group { tree, pieces })
     }
 
     /// Makes a group of obstacles, given a box in which the robot is; `None` if there are none.
@@ -191,7 +220,7 @@ impl Group {
         let piece = self.piece(element);
         match piece.primitive() {
             Some(shape) if element.flat => {
-                Support { shape: *shape, at: piece.pose_at(at), thick: 0.0 }
+                Support { shape: *shape, at: piece.pose_at(at), thick: piece.padding() }
             }
             _ => {
                 let (shape, at) = Convex::triangle(element.corners, at);

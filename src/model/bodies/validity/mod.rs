@@ -6,6 +6,7 @@ mod convex;
 mod directions;
 mod element;
 mod frame;
+mod freedom;
 mod inside;
 mod light;
 mod meet;
@@ -32,6 +33,8 @@ pub use work::Work;
 
 #[cfg(test)]
 mod invariance_tests;
+#[cfg(test)]
+mod padding_tests;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

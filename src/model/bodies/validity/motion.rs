@@ -68,7 +68,7 @@ impl BodyValidity {
         let Some(obstacles) = &self.obstacles else { return true };
         let planar = self.robot.motion.translations() == 2;
         let origin = |q: &[f64]| Vector::new(q[0], q[1], if planar { 0.0 } else { q[2] });
-        let room = self.reach + room + self.slack;
+        let room = self.padded_reach + room + self.slack;
         obstacles.tree.nodes[0].space.misses([origin(a), origin(b)], room)
     }
 

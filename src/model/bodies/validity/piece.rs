@@ -3,7 +3,7 @@
 use super::convex::Convex;
 use super::inside::Inside;
 use crate::scene::{Body, Shape};
-use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::{Pose, Vector};
 
 /// A body prepared for collision tests.
@@ -20,8 +20,10 @@ pub(super) struct Piece {
     inside: Option<Inside>,
     /// A point of each connected part of the surface, in the body's frame.
     witnesses: Vec<Vector>,
-    /// The bounding box in the link's frame or the world's.
+    /// The bounding box in the link's frame or the world's, padding included.
     aabb: Aabb,
+    /// By how much the body is thicker than [`Piece::primitive`] or the mesh, on all sides.
+    padding: f64,
 }
 
 impl Piece {
@@ -48,7 +50,18 @@ impl Piece {
         };
         let is_point = matches!(body.shape, Shape::Point);
         let witnesses = body.shape.witnesses().into_iter().map(Vector::from_array).collect();
-        Piece { primitive, pose, body: frame, is_point, inside, witnesses, aabb }
+        Piece { primitive, pose, body: frame, is_point, inside, witnesses, aabb, padding: 0.0 }
+    }
+
+    /// A body that is thicker by `padding` on all sides.
+    pub fn padded(body: &Body, padding: f64) -> Piece {
+        let piece = Piece::new(body);
+        Piece { aabb: piece.aabb.loosened(padding), padding, ..piece }
+    }
+
+    /// By how much the body is thicker than its primitive or its mesh, on all sides.
+    pub fn padding(&self) -> f64 {
+        self.padding
     }
 
     pub fn is_point(&self) -> bool {

@@ -5,8 +5,8 @@
 
 use super::bodies::{BodyValidity, Bounds};
 use super::frame::Stance;
+use super::freedom::Freedom;
 use super::meet::Meeting;
-use super::tree::Tree;
 use crate::model::{BodyName, Reason, SOLE_LINK, out_of_range};
 use parry3d_f64::bounding_volume::BoundingVolume;
 use parry3d_f64::math::Vector;
@@ -32,7 +32,7 @@ impl BodyValidity {
         }
         let mut stack = Vec::new();
         for meeting in self.meetings() {
-            let [own, other] = [meeting.mover, meeting.still].map(|group| body_nodes(&group.tree));
+            let [own, other] = [meeting.mover, meeting.still].map(|group| group.tree.body_nodes());
             for pair in self.near_pairs(&meeting, &stance) {
                 let nodes = (own[pair.0], other[pair.1]);
                 let meets = |stance: &Stance, stack: &mut Vec<(u32, u32)>| {
@@ -47,7 +47,11 @@ impl BodyValidity {
                     (f64::NAN, [0.0; 3])
                 };
                 let (body, other) = self.names(&meeting, pair);
-                reasons.push(Reason::Collision { body, other, depth, direction });
+                let padding = match meeting.still_link {
+                    None => self.robot.padding_of(meeting.mover_link),
+                    Some(_) => 0.0,
+                };
+                reasons.push(Reason::Collision { body, other, depth, direction, padding });
             }
         }
         reasons
@@ -96,8 +100,9 @@ impl BodyValidity {
     /// The shortest translation of the moving body that was found after which `meets` says no: its length and direction.
     ///
     /// Tried are the 26 directions to the sides, edges and corners of a cube, along the world's axes, and the one from the
-    /// middle of the other body's box; of planar robots those of these that lie in the plane. A direction is looked at closer only if the best way so far is longer than what it
-    /// takes along it; then the border is found by halving.
+    /// middle of the other body's box; where the body moves in a plane or along a line only, what these directions have in it
+    /// ([`Freedom`]). A direction is looked at closer only if the best way so far is longer than what it takes along it; then
+    /// the border is found by halving.
     fn way_out(
         &self,
         meeting: &Meeting,
@@ -118,16 +123,8 @@ impl BodyValidity {
         // Moved so far along any direction, the boxes are apart.
         let far = 1.01 * (own.extents().length() + other.extents().length()) + self.slack;
         let mut best = (far, Vector::X);
-        let mut apart = own.center() - other.center();
-        // What moves in the plane has no way out of it.
-        let is_planar = self.robot.motion.translations() == 2;
-        if is_planar {
-            apart.z = 0.0;
-        }
-        for direction in directions(apart) {
-            if is_planar && direction.z != 0.0 {
-                continue;
-            }
+        let freedom = Freedom::of(&self.robot, stance, meeting);
+        for direction in freedom.within(&directions(own.center() - other.center())) {
             let (length, _) = best;
             if !is_free(direction, length) {
                 continue;
@@ -188,29 +185,6 @@ fn directions(apart: Vector) -> Vec<Vector> {
     axes.chain(apart.try_normalize()).chain(aslant).collect()
 }
 
-/// For each body of a tree the node that holds all of its elements and no others.
-fn body_nodes(tree: &Tree) -> Vec<u32> {
-    let count = tree.elements.iter().map(|element| element.piece as usize + 1).max().unwrap_or(0);
-    let mut nodes = vec![0; count];
-    sole_body(tree, 0, &mut nodes);
-    nodes
-}
-
-/// The body of all elements below a node, if there is only one; notes the node as that of this body, over the nodes below it.
-fn sole_body(tree: &Tree, at: u32, nodes: &mut [u32]) -> Option<u32> {
-    let node = &tree.nodes[at as usize];
-    let piece = if node.is_leaf() {
-        Some(tree.elements[node.element as usize].piece)
-    } else {
-        let children = [node.left, node.left + 1].map(|child| sole_body(tree, child, nodes));
-        children[0].filter(|piece| children[1] == Some(*piece))
-    };
-    if let Some(piece) = piece {
-        nodes[piece as usize] = at;
-    }
-    piece
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -244,7 +218,7 @@ position = [8.0, 8.0, 8.0]
 
     /// A collision's body, obstacle and depth; the direction is a unit vector.
     fn collision(reason: &Reason) -> (usize, usize, f64, [f64; 3]) {
-        let Reason::Collision { body, other, depth, direction } = reason else {
+        let Reason::Collision { body, other, depth, direction, .. } = reason else {
             panic!("{reason:?} is no collision")
         };
         let (BodyName::Link { body, of: 2, .. }, BodyName::Obstacle { obstacle }) = (body, other)

@@ -25,7 +25,7 @@ impl BodyValidity {
         if self.robot.motion != BaseJoint::Fixed {
             let planar = self.robot.motion.translations() == 2;
             let origin = |q: &[f64]| Vector::new(q[0], q[1], if planar { 0.0 } else { q[2] });
-            let (from, to, reach) = (origin(a), origin(b), self.reach + margin);
+            let (from, to, reach) = (origin(a), origin(b), self.padded_reach + margin);
             if obstacles.tree.nodes[0].space.misses([from, to], reach) {
                 return false;
             }
@@ -52,7 +52,7 @@ impl BodyValidity {
         }
         self.links.iter().zip(between.chunks_exact(6)).any(|(moving, first)| {
             let rates = self.hops.rates(None, moving.link, (a, b), &mut stacks.descent);
-            let space = &moving.group.tree.nodes[0].space;
+            let space = &moving.among_obstacles().tree.nodes[0].space;
             let farthest = rates.distance(space.centre) + space.radius;
             let room = Vector::splat(rates.bend_at(farthest) / 8.0 + margin);
             let last = box_at(moving, &stance.frames[moving.link]);
@@ -70,7 +70,7 @@ impl BodyValidity {
 
 /// The box around a link in the world's frame, the link standing at `frame`.
 fn box_at(moving: &Moving, frame: &Frame) -> Aabb {
-    let space = &moving.group.tree.nodes[0].space;
+    let space = &moving.among_obstacles().tree.nodes[0].space;
     let centre = frame.point(space.centre);
     let sides = space.axes.map(|axis| frame.direction(axis).abs());
     let half = sides[0] * space.half.x + sides[1] * space.half.y + sides[2] * space.half.z;

@@ -12,7 +12,7 @@ pub(in crate::model::bodies) struct GroupJoints {
     pub links: BTreeSet<usize>,
     /// Whether the virtual joint that moves the base is one of them.
     pub has_base: bool,
-    /// What the group names and the robot does not have.
+    /// What the group names and the robot does not have, each with its line of the file.
     pub unknown: Vec<String>,
 }
 
@@ -54,6 +54,7 @@ impl Srdf {
     ) -> Result<(), ForeignError> {
         let link_of = |name: &str| links.iter().position(|link| link.name == name);
         for (line, member) in &group.members {
+            let lost = |what: &str, name: &str| format!("{what} `{name}` (line {line})");
             let error = |message: String| {
                 let message = format!("group `{}`: {message}", group.name);
                 Err(ForeignError::line(&self.path, *line, message))
@@ -68,19 +69,20 @@ impl Srdf {
                     match found {
                         Some(link) => _ = joints.links.insert(link),
                         None if is_virtual => {}
-                        None => joints.unknown.push(format!("joint `{name}`")),
+                        None => joints.unknown.push(lost("joint", name)),
                     }
                 }
                 Member::Link(name) => match link_of(name) {
                     Some(link) => _ = joints.links.insert(link),
-                    None => joints.unknown.push(format!("link `{name}`")),
+                    None => joints.unknown.push(lost("link", name)),
                 },
                 Member::Chain { base, tip } => {
                     let (first, last) = match (link_of(base), link_of(tip)) {
                         (Some(first), Some(last)) => (first, last),
                         (first, _) => {
-                            let lost = if first.is_none() { base } else { tip };
-                            joints.unknown.push(format!("link `{lost}` of a chain"));
+                            let (end, name) =
+                                if first.is_none() { ("base", base) } else { ("tip", tip) };
+                            joints.unknown.push(lost(&format!("{end} link"), name));
                             continue;
                         }
                     };
@@ -98,7 +100,7 @@ impl Srdf {
                 }
                 Member::Group(name) => {
                     let Some(inner) = self.groups.iter().find(|group| group.name == *name) else {
-                        joints.unknown.push(format!("group `{name}`"));
+                        joints.unknown.push(lost("group", name));
                         continue;
                     };
                     if walk.open.contains(&name.as_str()) {

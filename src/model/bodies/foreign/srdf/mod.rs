@@ -103,6 +103,8 @@ pub struct EndEffector {
     pub parent_link: String,
     /// The hand's own group.
     pub group: String,
+    /// The group that the hand extends, if the file says so.
+    pub parent_group: Option<String>,
 }
 
 /// Reads an SRDF. Elements other than those of [`Srdf`], such as grippers and rotors of other programs, are passed over.
@@ -161,6 +163,7 @@ pub fn read_srdf(path: &Path) -> Result<Srdf, ForeignError> {
                 name: reader.text(node, "name")?,
                 parent_link: reader.text(node, "parent_link")?,
                 group: reader.text(node, "group")?,
+                parent_group: node.attribute("parent_group").map(str::to_owned),
             }),
             _ => {}
         }
