@@ -74,7 +74,7 @@ def build(
     limits = Limits(max_nodes, max_sets, max_time, max_memory)
     in_threads = crew.threads if validity is None else crew.threads_for_function()
     with tempfile.TemporaryDirectory(prefix="roadmill-") as folder:
-        file, raised = _file_of(problem, pathlib.Path(folder))
+        file, raised = file_of(problem, pathlib.Path(folder))
         if in_threads is not None:
             course = _course(in_threads, limits, progress, validity)
             return _in_threads(lambda: _core.grow(file, path_of(out), seed, force, or_resume, course), raised, validity)
@@ -94,7 +94,7 @@ def resumed(
 ) -> Roadmap:
     """Goes on with a run: see `Roadmap.resume`."""
     with tempfile.TemporaryDirectory(prefix="roadmill-") as folder:
-        file, raised = (None, failure) if changed is None else _file_of(changed, pathlib.Path(folder))
+        file, raised = (None, failure) if changed is None else file_of(changed, pathlib.Path(folder))
         if validity is not None:
             course = _course(crew.threads_for_function(), limits, progress, validity)
             return _in_threads(lambda: _core.go_on(run, file, course), raised, validity)
@@ -102,7 +102,7 @@ def resumed(
         return grown(arguments, raised, progress)
 
 
-def _file_of(
+def file_of(
     problem: str | os.PathLike[str] | Problem, folder: pathlib.Path
 ) -> tuple[pathlib.Path, Callable[[int, str], BaseException]]:
     """The file of a problem, written into the folder if it has none, and the exception for an exit code and a message."""

@@ -10,9 +10,10 @@ from collections.abc import Callable, Iterable, Sequence
 
 from distributed import Client
 
+from .._options import Crew, Limits, options, path_of, seed_of, whole
 from .._program import Argument
-from ..build import grown
-from ..errors import failure, problem_failure
+from ..build import file_of, grown
+from ..errors import failure
 from ..problem import Problem
 from ..roadmap import Roadmap
 from ..status import Progress
@@ -75,7 +76,7 @@ def build(
         or_resume: Go on with the run that `out` names, if there is one of this problem.
 
     Raises:
-        ValueError: A number cannot be what it is, or this is the client's event loop.
+        ValueError, TypeError: A number cannot be what it is, or this is the client's event loop.
         Interrupted: Ctrl-C came; its `roadmap` is that of the last complete round.
         ProblemError: Something is wrong with a `Problem`; the message names the key.
         UsageError: The cluster has no TLS, and `insecure` is not said; or the problem or the run folder cannot be used.
@@ -85,11 +86,9 @@ def build(
     with tempfile.TemporaryDirectory(prefix="roadmill-") as name:
         folder = pathlib.Path(name)
         file, raised = file_of(problem, folder)
-        command: list[Argument] = ["build", file]
-        command += options(
-            out=out, workers=workers, seed=seed, max_nodes=max_nodes, max_sets=max_sets, max_time=max_time,
-            max_memory=max_memory, agent_wait=agent_wait, audit=audit,
-        )  # fmt: skip
+        command: list[Argument] = ["build", file, *options(out=path_of(out), seed=seed_of(seed))]
+        command += [*Crew(workers).options(), *Limits(max_nodes, max_sets, max_time, max_memory).options()]
+        command += options(agent_wait=agent_wait, audit=audit)
         for sets in imports:
             command += ["--import", pathlib.Path(sets)]
         command += [flag for flag, given in (("--force", force), ("--or-resume", or_resume)) if given]
@@ -126,7 +125,7 @@ def resume(
     All else is as of `build`.
 
     Raises:
-        ValueError: A number cannot be what it is, or this is the client's event loop.
+        ValueError, TypeError: A number cannot be what it is, or this is the client's event loop.
         Interrupted: Ctrl-C came; its `roadmap` is that of the last complete round.
         RoadmillError: The build cannot go on; see `roadmill.errors`.
     """
@@ -134,11 +133,9 @@ def resume(
     with tempfile.TemporaryDirectory(prefix="roadmill-") as name:
         folder = pathlib.Path(name)
         file, raised = (None, failure) if changed is None else file_of(changed, folder)
-        command: list[Argument] = ["resume", place]
-        command += options(
-            workers=workers, max_nodes=max_nodes, max_sets=max_sets, max_time=max_time, max_memory=max_memory,
-            agent_wait=agent_wait, audit=audit, **{"with": file},
-        )  # fmt: skip
+        command: list[Argument] = ["resume", place, *options(**{"with": file})]
+        command += [*Crew(workers).options(), *Limits(max_nodes, max_sets, max_time, max_memory).options()]
+        command += options(agent_wait=agent_wait, audit=audit)
         relays = Relays(client, folder, chosen=dask_workers, program=program, direct=direct, insecure=insecure)
         return _grown_by_agents(command, relays, agents, raised, progress)
 
@@ -152,8 +149,7 @@ def _grown_by_agents(
 ) -> Roadmap:
     """Runs a command of the program that grows a roadmap, by agents on Dask workers."""
     refuse_loop(relays.client)
-    if agents is not None and not 1 <= agents <= _AGENTS_MAX:
-        raise ValueError(f"agents: {agents} found; 1 to {_AGENTS_MAX} expected")
+    agents = whole("agents", agents, largest=_AGENTS_MAX)
     with relays:
         count = agents or min(max(len(relays.workers), 1), _AGENTS_MAX)
         names = ",".join(f"dask-{number}" for number in range(count))
@@ -174,22 +170,3 @@ def refuse_loop(client: Client) -> None:
         raise ValueError(
             "this function waits and would stop the client's event loop; `await asyncio.to_thread(roadmill.dask.build, …)` does not"
         )
-
-
-def file_of(
-    problem: str | os.PathLike[str] | Problem, folder: pathlib.Path
-) -> tuple[pathlib.Path, Callable[[int, str], BaseException]]:
-    """The file of a problem, written into the folder if it has none, and the exception for an exit code and a message."""
-    if not isinstance(problem, Problem):
-        return pathlib.Path(problem), failure
-    file = problem.write(folder / "problem.toml")
-    return file, lambda code, message: problem_failure(code, message, str(file))
-
-
-def options(**values: str | int | float | os.PathLike[str] | None) -> list[Argument]:
-    """Options of the command line for those of the values that are given."""
-    return [
-        f"--{name.replace('_', '-')}={os.fspath(value) if isinstance(value, os.PathLike) else value}"
-        for name, value in values.items()
-        if value is not None
-    ]

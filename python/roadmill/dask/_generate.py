@@ -11,10 +11,12 @@ from collections.abc import Callable, Mapping
 
 from distributed import Client, as_completed
 
+from .._options import options, seed_of, whole
 from .._program import call, find_program, said
+from ..build import file_of
 from ..errors import RoadmillError, failure
 from ..problem import Problem
-from ._build import file_of, options, refuse_loop
+from ._build import refuse_loop
 from ._security import refuse_insecure
 
 # Files by their names in a folder.
@@ -60,13 +62,14 @@ def generate(
         progress: Is called with how many sets are made and how many are to be, whenever a task is done.
 
     Raises:
-        ValueError: A number cannot be what it is, or this is the client's event loop.
+        ValueError, TypeError: A number cannot be what it is, or this is the client's event loop.
         UsageError: The cluster has no TLS, and `insecure` is not said; or the problem has no such sets.
         RoadmillError: The sets cannot be made; see `roadmill.errors`. What was made before is in the folder.
     """
     refuse_loop(client)
-    if per_task < 1:
-        raise ValueError(f"per_task: {per_task} found; at least 1 expected")
+    whole("per_task", per_task)
+    whole("threads", threads)
+    seed = seed_of(seed)
     refuse_insecure([client.scheduler.address, *client.nthreads()], insecure)
     place = pathlib.Path(folder)
     place.mkdir(parents=True, exist_ok=True)
