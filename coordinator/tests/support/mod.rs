@@ -290,6 +290,13 @@ pub struct Summary {
     pub run_cpu_seconds: Option<f64>,
 }
 
+impl Summary {
+    /// What every build of a problem comes to, whoever was killed on the way.
+    pub fn result(&self) -> (u64, &str, &str) {
+        (self.sets, &self.stop, &self.digest)
+    }
+}
+
 /// The binary at work. Ended when dropped.
 pub struct Running {
     child: Child,
