@@ -119,7 +119,7 @@ impl Bad {
 
     fn hear(&mut self) -> ToAgent {
         loop {
-            if let Some(message) = self.link.next() {
+            if let Some(message) = self.link.receive() {
                 return wire::decode(&message).expect("the coordinator speaks well");
             }
             let mut bytes = vec![0; 1 << 16];

@@ -285,7 +285,7 @@ impl Fleet for Carriers {
                 running.has_joined = true;
                 self.news.push_back(News::Joined { member, place });
             }
-            while let Some(message) = running.pump.next() {
+            while let Some(message) = running.pump.receive() {
                 self.news.push_back(News::Message { member, message });
             }
             if let Some(why) = running.pump.ended() {

@@ -99,7 +99,7 @@ impl Agent<'_> {
 
     /// The next message, if one has come.
     fn next(&self) -> Option<Heard> {
-        if let Some(message) = self.pump.next() {
+        if let Some(message) = self.pump.receive() {
             return Some(match wire::decode::<ToAgent>(&message) {
                 Ok(ToAgent::Refused(why)) => Heard::End(Served::Refused(why)),
                 Ok(message) => Heard::Message(message),

@@ -46,8 +46,9 @@ impl Audit {
         let digest = Digest::of(&wire::encode(&job));
         let [a, b, c, d, e, f, g, h, ..] = digest.0;
         let drawn = u64::from_le_bytes([a, b, c, d, e, f, g, h]);
-        // 2^-64 times a number below 2^64 is below 1, so that everything is due at a share of 1.
-        (drawn as f64) * 2f64.powi(-64) < self.share || self.share >= 1.0
+        // 53 bits, as many as a number has: below 1, so that everything is due at a share of 1.
+        let share = (drawn >> 11) as f64 / (1u64 << 53) as f64;
+        share < self.share
     }
 
     /// Takes in an outcome; `ready` agents are there.

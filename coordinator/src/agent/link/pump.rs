@@ -145,8 +145,8 @@ impl Pump {
     }
 
     /// The next message, or `None` where none has come.
-    pub fn next(&self) -> Option<Vec<u8>> {
-        let message = self.shared.lock().link.next()?;
+    pub fn receive(&self) -> Option<Vec<u8>> {
+        let message = self.shared.lock().link.receive()?;
         // There may be credit to be told.
         self.shared.wake.ring();
         Some(message)

@@ -192,7 +192,7 @@ impl Link {
     }
 
     /// The next message, if one has come.
-    pub fn next(&mut self) -> Option<Vec<u8>> {
+    pub fn receive(&mut self) -> Option<Vec<u8>> {
         let message = self.messages.pop_front()?;
         self.give_credit();
         Some(message)

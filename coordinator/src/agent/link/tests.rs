@@ -47,8 +47,8 @@ fn talk(ends: [&mut Link; 2], holds: usize, steps: &[usize], takes: bool) -> [Ve
         moved += back.drain(near, step()).expect("it is a link");
         if takes || moved == 0 {
             let before = heard[0].len() + heard[1].len();
-            heard[0].extend(std::iter::from_fn(|| near.next()));
-            heard[1].extend(std::iter::from_fn(|| far.next()));
+            heard[0].extend(std::iter::from_fn(|| near.receive()));
+            heard[1].extend(std::iter::from_fn(|| far.receive()));
             if moved == 0 && heard[0].len() + heard[1].len() == before {
                 return heard;
             }
@@ -102,7 +102,7 @@ proptest! {
             link.take_in(OPENING, 0).expect("it is the opening");
         }
         let taken = link.take_in(&bytes, 0);
-        prop_assert!(link.next().is_none());
+        prop_assert!(link.receive().is_none());
         prop_assert!(!is_open || bytes.len() < HEADER_BYTES || taken.is_err());
     }
 
@@ -119,7 +119,7 @@ proptest! {
         bytes[at] ^= flip;
         bytes.resize(bytes.len() + 70_000, 0);
         prop_assert!(far.take_in(&bytes, 0).is_err());
-        prop_assert!(far.next().is_none());
+        prop_assert!(far.receive().is_none());
     }
 }
 
@@ -141,7 +141,7 @@ fn frames_that_come_again_end_the_link_and_those_of_others_are_dropped() {
     let (mut link, taken) = after(&[last(7, 0, b"one"), last(6, 0, b"old"), last(7, 1, b"two")]);
     assert_eq!((taken, link.stale()), (Ok(()), 1));
     assert_eq!(
-        [link.next(), link.next(), link.next()],
+        [link.receive(), link.receive(), link.receive()],
         [Some(b"one".to_vec()), Some(b"two".to_vec()), None]
     );
     let (_, taken) = after(&[last(7, 0, b"one"), last(7, 0, b"one")]);
@@ -162,7 +162,7 @@ fn what_is_said_before_the_opening_is_skipped_and_remembered() {
         link.take_in(piece, 0).expect("it is a link");
     }
     assert!(link.is_open());
-    assert_eq!(link.next().as_deref(), Some(&b"hello"[..]));
+    assert_eq!(link.receive().as_deref(), Some(&b"hello"[..]));
     let mut link = Link::near(7);
     let noise = [b'x'; 4096];
     let refused = (0..).find_map(|_| link.take_in(&noise, 0).err());
@@ -243,5 +243,5 @@ fn frames_are_no_longer_than_they_may_be() {
         Frame::read(&good(Kind::Beat)).unwrap().unwrap().0.value(),
         Ok(u64::from_le_bytes(*b"12345678"))
     );
-    assert!(MESSAGE_BYTES_MAX > WINDOW_BYTES, "a long message needs credit while it comes");
+    const { assert!(MESSAGE_BYTES_MAX > WINDOW_BYTES, "a long message needs credit while it comes") };
 }
