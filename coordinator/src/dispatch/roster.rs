@@ -7,6 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// costs the coordinator some 50 µs and a worker that waits for the reply some 100 µs: little beside this. And
 /// when one worker runs out of jobs, no other has more left than this.
 const HELD_SECONDS: f64 = 0.02;
+/// The most work for each core that an agent is given beyond that since it had run out of work.
+const ADDED_SECONDS_MAX: f64 = 0.5;
 /// The weight of the newest measurement in the moving average of what jobs of a kind take.
 const NEWEST: f64 = 0.25;
 
@@ -39,8 +41,12 @@ struct Desk {
     jobs: BTreeSet<Job>,
     /// How many jobs are done at once.
     cores: usize,
-    /// The work for each core beyond [`HELD_SECONDS`], in seconds.
-    ahead: f64,
+    /// The work for each core beyond [`HELD_SECONDS`], in seconds. Of an agent only.
+    ahead: Option<f64>,
+    /// What was added to that, since the agent had run out of work.
+    added: f64,
+    /// Whether jobs that waited were not given, since it held enough.
+    had_enough: bool,
 }
 
 /// How many urgencies there are.
@@ -83,7 +89,7 @@ impl Roster {
     /// ready when a worker is done.
     pub fn set_round_trip(&mut self, agent: WorkerId, seconds: f64) {
         if let Some(desk) = self.held.get_mut(&agent) {
-            desk.ahead = HELD_SECONDS + seconds;
+            desk.ahead = Some(HELD_SECONDS + seconds);
         }
     }
 
@@ -128,15 +134,19 @@ impl Roster {
     pub fn give(&mut self, worker: WorkerId, is_needed: impl Fn(Job) -> bool) -> Vec<Job> {
         let mut given = Vec::new();
         let all_cores = self.cores;
-        let Some(Desk { jobs: held, cores, ahead }) = self.held.get_mut(&worker) else {
-            return given;
-        };
+        let Some(desk) = self.held.get_mut(&worker) else { return given };
+        let Desk { jobs: held, cores, ahead, added, had_enough } = desk;
+        // What it held was not enough after all: messages take longer than signs of life.
+        if std::mem::take(had_enough) && ahead.is_some() && held.len() < *cores {
+            *added = (*added + HELD_SECONDS).min(ADDED_SECONDS_MAX);
+        }
         // Who has several workers keeps a suspect from the other jobs.
         let is_single = *cores == 1;
         if is_single && held.iter().any(|job| self.suspects.contains(job)) {
             return given;
         }
-        let enough = *cores as f64 * (HELD_SECONDS + *ahead);
+        let ahead = ahead.map_or(0.0, |ahead| ahead + *added);
+        let enough = *cores as f64 * (HELD_SECONDS + ahead);
         let seconds_of = |job: &Job| self.seconds.get(&kind(job)).copied().unwrap_or(HELD_SECONDS);
         let mut seconds: f64 = held.iter().map(seconds_of).sum();
         for (waiting, open) in self.waiting.iter_mut().zip(&mut self.open) {
@@ -150,6 +160,7 @@ impl Roster {
                 let more = seconds_of(&job);
                 let would_wait = held.len() >= *cores;
                 if would_wait && (is_suspect || seconds + more > enough) {
+                    *had_enough = true;
                     return given;
                 }
                 let own = held.iter().filter(|other| urgency(other) == urgency(&job)).count();
@@ -308,6 +319,27 @@ mod tests {
             }
             prop_assert_eq!(all.len() as u64, joins + ahead);
             prop_assert_eq!(roster.open, [0; URGENCIES]);
+        }
+    }
+
+    /// An agent over a slow way is given more, until it does not run out of work; a worker never is.
+    #[test]
+    fn who_runs_out_of_work_is_given_more() {
+        for (is_agent, expected) in [(true, 12..60), (false, 6..7)] {
+            let mut roster = roster(1, 0.003);
+            let member = WorkerId(0);
+            if is_agent {
+                roster.set_round_trip(member, 0.0);
+            }
+            (0..1000).for_each(|number| roster.submit(generate(number)));
+            let mut given = Vec::new();
+            for _ in 0..5 {
+                given = roster.give(member, |_| true);
+                for job in &given {
+                    assert!(roster.done(member, *job, 0.003));
+                }
+            }
+            assert!(expected.contains(&given.len()), "{} jobs", given.len());
         }
     }
 

@@ -10,6 +10,9 @@ pub const PREAMBLE_BYTES_MAX: usize = 1 << 20;
 /// So far a sender may be ahead of what the receiver has taken in, in bytes of messages.
 pub const WINDOW_BYTES: u64 = 4 << 20;
 
+/// So many of the last answers to signs of life are remembered.
+const ROUND_TRIPS: usize = 16;
+
 /// Why a link is of no more use.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {
@@ -73,7 +76,8 @@ pub struct Link {
     written: usize,
 
     has_ended: bool,
-    round_trip: Option<u64>,
+    /// How long the last answers to signs of life took.
+    round_trips: VecDeque<u64>,
     bytes_in: u64,
     bytes_out: u64,
     stale: u64,
@@ -165,7 +169,12 @@ impl Link {
                 self.give_credit();
             }
             Kind::Beat => self.short.push_back((Kind::Echo, Some(frame.value()?))),
-            Kind::Echo => self.round_trip = Some(now.saturating_sub(frame.value()?)),
+            Kind::Echo => {
+                self.round_trips.push_back(now.saturating_sub(frame.value()?));
+                if self.round_trips.len() > ROUND_TRIPS {
+                    self.round_trips.pop_front();
+                }
+            }
             Kind::Credit => {
                 let taken = frame.value()?;
                 if taken > self.sent {
@@ -293,9 +302,10 @@ impl Link {
         self.has_ended
     }
 
-    /// How long the last answer to a sign of life took, in microseconds.
+    /// How long an answer to a sign of life takes, in microseconds: the longest of the last ones. Some carriers are quick
+    /// with short frames and slow with long ones, which a sign of life shows only when it travels behind one.
     pub fn round_trip(&self) -> Option<u64> {
-        self.round_trip
+        self.round_trips.iter().copied().max()
     }
 
     /// Bytes that came and that were written, frames and all.
