@@ -17,7 +17,8 @@ program=$(realpath "${1:?the program}")
 shift
 [ $# -gt 0 ] || set -- pipe ssh srun link
 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+# A Slurm that is told to end still writes for a moment.
+trap 'rm -rf "$scratch" 2>/dev/null || { sleep 1; rm -rf "$scratch"; }' EXIT
 cd "$scratch"
 mount -t tmpfs -o size=1g tmpfs /dev/shm
 mkdir -p /run/netns
@@ -26,7 +27,7 @@ ip link set lo up
 ip addr add 10.0.1.1/32 dev lo
 
 # Nodes of a set, sets of a round, nodes of the roadmap.
-sizes=("50 5 20000" "50 40 40000" "500 8 40000" "2000 8 64000")
+sizes=("50 5 10000" "50 40 20000" "500 8 24000" "50 400 60000")
 for size in "${sizes[@]}"; do
     read -r nodes sets limit <<< "$size"
     { printf '[img]\nsets_per_round = %s\n' "$sets"
