@@ -1,4 +1,4 @@
-use super::fleet::{Condition, Fleet, News};
+use super::fleet::{Condition, Fleet, News, REFUSED};
 use super::link::{Bell, Link, Patience, Pump, Traffic};
 use super::place::{Carrier, Place};
 use crate::output::note;
@@ -204,7 +204,7 @@ impl Fleet for Carriers {
         let (state, reason, round_trip) = match &slot.state {
             State::Waiting(_, why) if why.is_empty() => ("starting", String::new(), None),
             State::Waiting(_, why) => ("waiting", why.clone(), None),
-            State::Refused(why) => ("refused", why.clone(), None),
+            State::Refused(why) => (REFUSED, why.clone(), None),
             State::Running(running) => {
                 add(&mut traffic, running.pump.traffic());
                 let state = if running.has_joined { "joined" } else { "starting" };
@@ -216,15 +216,6 @@ impl Fleet for Carriers {
 
     fn place_of(&self, member: WorkerId) -> Option<&str> {
         Some(self.slots[*self.members.get(&member)?].place.name())
-    }
-
-    fn all_refused(&self) -> Option<String> {
-        let mut reasons = Vec::with_capacity(self.slots.len());
-        for slot in &self.slots {
-            let State::Refused(why) = &slot.state else { return None };
-            reasons.push(format!("{}: {why}", slot.place));
-        }
-        reasons.last().cloned()
     }
 
     fn last_loss(&self) -> Option<String> {

@@ -33,6 +33,9 @@ pub enum News {
     },
 }
 
+/// The state of a place that will never have an agent again.
+pub const REFUSED: &str = "refused";
+
 /// How a place is doing, for people.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Condition {
@@ -59,9 +62,6 @@ pub trait Fleet {
 
     /// The name of a member's place, while the member is there.
     fn place_of(&self, member: WorkerId) -> Option<&str>;
-
-    /// Why no place will ever have an agent again, if that is so.
-    fn all_refused(&self) -> Option<String>;
 
     /// Why the agent that was lost last is not there, for people.
     fn last_loss(&self) -> Option<String>;

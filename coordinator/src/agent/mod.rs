@@ -21,7 +21,7 @@ mod place;
 mod serve;
 
 pub use carriers::{Carriers, SILENCE_MAX};
-pub use fleet::{Condition, Fleet, News};
+pub use fleet::{Condition, Fleet, News, REFUSED};
 pub use identity::Identity;
 pub use message::{FromAgent, ToAgent};
 pub use place::{PLACES_MAX, Place};

@@ -17,7 +17,8 @@ pub struct AgentsArguments {
     /// How long a build goes on with no agent at work: seconds, or with a unit (90s, 10m, 2h)
     #[arg(long, value_name = "TIME", requires = "agents", value_parser = seconds, default_value = "10m")]
     pub agent_wait: f64,
-    /// Have a share of all jobs done by two agents and compare; without it agents are trusted
+    /// Have a share of all jobs done by two agents and compare; without it agents are trusted. What is to be compared
+    /// waits until two are there
     #[arg(long, value_name = "PERCENT", requires = "agents", value_parser = share)]
     pub audit: Option<f64>,
 }

@@ -27,7 +27,13 @@ pub(super) fn workers(crew: &CrewArguments) -> Result<Workers, Failure> {
             wait: Duration::from_secs_f64(*agent_wait),
             audit: audit.unwrap_or(0.0),
         };
-        return Ok(Workers::agents(Place::list(names, agent_command)?, options));
+        let places = Place::list(names, agent_command)?;
+        if options.audit > 0.0 && places.len() < 2 {
+            return Err(Failure::usage(
+                "--audit: one agent found, two or more expected, to be compared",
+            ));
+        }
+        return Ok(Workers::agents(places, options));
     }
     let count = count(crew)?;
     Ok(match crew.threads {

@@ -2,7 +2,7 @@ use super::audit::{Audit, Compared};
 use super::fan_out::FanOut;
 use super::roster::Roster;
 use super::staff::{Board, Machine, Machines, Made, Report, Staff};
-use crate::agent::{Fleet, FromAgent, Identity, News, Place, ToAgent};
+use crate::agent::{Fleet, FromAgent, Identity, News, Place, REFUSED, ToAgent};
 use crate::crew::CrewError;
 use crate::output::Plain;
 use roadmill::img::{Front, Job, Loss, Round, Setup, canaries};
@@ -91,7 +91,7 @@ pub struct Agents<F> {
     /// The digest of every agent's canaries, once there is an agent to be compared.
     canaries: Option<Digest>,
     reports: VecDeque<Report>,
-    /// Since when no agent is ready.
+    /// Since when there are fewer agents than are needed.
     nobody_since: Option<Instant>,
     failed: bool,
     board: Board,
@@ -313,8 +313,7 @@ impl<F: Fleet> Agents<F> {
             }
             let begin = outcome.as_ptr().addr() - message.as_ptr().addr();
             let made = Made::new(*job, member, *micros, message, begin..begin + outcome.len());
-            let others = self.members.values().filter(|agent| agent.phase == Phase::Ready).count();
-            match self.audit.take(made, others) {
+            match self.audit.take(made) {
                 Compared::Kept => {}
                 Compared::Same(made) => self.finish(made),
                 Compared::Differs(made, first) => {
@@ -325,7 +324,6 @@ impl<F: Fleet> Agents<F> {
                 }
             }
         }
-        self.release_audits();
     }
 
     /// Takes an outcome in for good.
@@ -341,27 +339,26 @@ impl<F: Fleet> Agents<F> {
         self.reports.push_back(Report::Done(made));
     }
 
-    /// Outcomes that were to be made a second time, and there is nobody to do it, count as they are.
-    fn release_audits(&mut self) {
-        let ready = self.members.values().filter(|agent| agent.phase == Phase::Ready).count();
-        for made in self.audit.release(ready) {
-            self.finish(made);
-        }
-    }
-
-    /// Notices when there is nobody, and when there has been nobody for too long.
+    /// Notices when there is nobody, or nobody to do a job a second time, and when that has been so for too long.
     fn look_for_anybody(&mut self) {
-        if self.roster.cores() > 0 {
+        let ready = self.members.values().filter(|agent| agent.phase == Phase::Ready).count();
+        let wanted = if self.audit.is_waiting() { 2 } else { 1 };
+        if ready >= wanted {
             self.nobody_since = None;
             return;
         }
-        if let Some(why) = self.fleet.all_refused() {
-            return self.fail(format!("no agent can be used; the last: {why}"));
+        let places = self.fleet.places().len();
+        let is_refused = |place: &usize| self.fleet.condition(*place).state == REFUSED;
+        if places - (0..places).filter(is_refused).count() < wanted {
+            let who = if wanted == 2 { "no two agents" } else { "no agent" };
+            let last = self.fleet.last_loss().map_or_else(String::new, |why| format!("; {why}"));
+            return self.fail(format!("{who} can be used{last}"));
         }
         let since = *self.nobody_since.get_or_insert_with(Instant::now);
         if since.elapsed() >= self.options.wait {
+            let who = if wanted == 2 { "no second agent, to compare," } else { "no agent" };
             let last = self.fleet.last_loss().map_or_else(String::new, |why| format!("; {why}"));
-            self.fail(format!("no agent was at work for {} s{last}", self.options.wait.as_secs()));
+            self.fail(format!("{who} was at work for {} s{last}", self.options.wait.as_secs()));
         }
     }
 }
@@ -396,7 +393,6 @@ impl<F: Fleet> Staff for Agents<F> {
         if self.reports.is_empty() {
             self.fleet.wait(wait, also);
             self.hear();
-            self.release_audits();
         }
         self.reports.pop_front()
     }

@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 /// Jobs that two agents do, so that their outcomes can be compared. Which jobs these are follows from the jobs alone, not
 /// from chance: an agent cannot know, since the share is not told to it.
 ///
-/// The first outcome is kept back until the second has come: a wrong one never gets into a roadmap.
+/// The first outcome is kept back until the second has come, however long that takes: a wrong one never gets into a
+/// roadmap.
 #[derive(Debug)]
 pub struct Audit {
     share: f64,
@@ -51,8 +52,8 @@ impl Audit {
         share < self.share
     }
 
-    /// Takes in an outcome; `ready` agents are there.
-    pub fn take(&mut self, made: Made, ready: usize) -> Compared {
+    /// Takes in an outcome.
+    pub fn take(&mut self, made: Made) -> Compared {
         if self.share <= 0.0 {
             return Compared::Same(made);
         }
@@ -71,10 +72,6 @@ impl Audit {
             return Compared::Differs(made, second.first.member);
         }
         if !self.is_due(made.job) {
-            return Compared::Same(made);
-        }
-        if ready < 2 {
-            self.counts.left_out += 1;
             return Compared::Same(made);
         }
         self.open.insert(made.job, Second { first: made, by: None });
@@ -105,16 +102,9 @@ impl Audit {
         true
     }
 
-    /// First outcomes for which there is nobody left to make the second: so many agents are ready.
-    pub fn release(&mut self, ready: usize) -> Vec<Made> {
-        if ready >= 2 {
-            return Vec::new();
-        }
-        let waits = |second: &Second| second.by.is_none();
-        let jobs: Vec<Job> =
-            self.open.iter().filter(|(_, second)| waits(second)).map(|(job, _)| *job).collect();
-        self.counts.left_out += jobs.len() as u64;
-        jobs.iter().filter_map(|job| self.open.remove(job)).map(|second| second.first).collect()
+    /// Whether an outcome waits for somebody who could make it a second time.
+    pub fn is_waiting(&self) -> bool {
+        self.open.values().any(|second| second.by.is_none())
     }
 
     /// What was compared so far, where anything is to be.
