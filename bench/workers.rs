@@ -39,7 +39,6 @@ use roadmill::internal::wire;
 use roadmill::model::Scratch;
 use roadmill::numbers::{EvaluatorIndex, SetName, SetNumber};
 use roadmill::problem::{NODES_MAX, Problem};
-use roadmill::roadmap::Increment;
 use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
@@ -59,6 +58,7 @@ const NOTHING: &str = r#"
 motion = "translation-2d"
 min = [0.0, 0.0]
 max = [9.0, 9.0]
+bounds = "body"
 [robot]
 bodies = [{ shape = { sphere = { radius = 0.2 } } }]
 [query]
@@ -204,7 +204,8 @@ fn measure(problem: &Problem, nodes: u64) -> (Costs, f64) {
             costs.generate.push(generate);
             costs.join.push(join);
             take_in.push(taking);
-            let joined = Joined { edges: edges.clone(), asked: Default::default() };
+            let joined =
+                Outcome::Joined(Joined { edges: edges.clone(), asked: Default::default() });
             sizes.push((bytes.len() + wire::encode(&joined).len()) as f64);
             fold.push(folding);
         }
@@ -213,7 +214,13 @@ fn measure(problem: &Problem, nodes: u64) -> (Costs, f64) {
     costs.take_in = take_in.iter().sum::<f64>() / take_in.len() as f64;
     costs.fold = fold.iter().sum::<f64>() / fold.len() as f64;
     let mut joins = Vec::new();
-    for earlier in 0..ROUND {
+    // Sets that grow are of a round each: what earlier sets of a round add is then left out.
+    let grows = problem.strategies().iter().any(|strategy| strategy.generator().grows());
+    for earlier in 0..if grows { 4 } else { ROUND } {
+        if grows {
+            joins.push(0.0);
+            continue;
+        }
         let bytes = generate(&setup, &replica, number + earlier, scratch);
         take(&setup, &mut replica, &bytes);
         joins.push(timed(|| join(&setup, &replica, number + earlier, scratch)).1);
@@ -235,14 +242,15 @@ fn generate(setup: &Setup, replica: &Replica, number: SetNumber, scratch: &mut S
     let SetName { strategy, ordinal } = name;
     let job = Job::Generate { number, strategy, ordinal };
     let task = replica.task(setup, job).expect("sets can be generated");
-    let Outcome::Increment(Ok(increment)) = task.run(setup, scratch) else {
-        panic!("the scene has free configurations")
-    };
-    wire::encode(&increment)
+    let outcome = task.run(setup, scratch);
+    assert!(matches!(outcome, Outcome::Increment(Ok(_))), "the scene has free configurations");
+    wire::encode(&outcome)
 }
 
 fn take(setup: &Setup, replica: &mut Replica, bytes: &[u8]) {
-    let increment: Increment = wire::decode(bytes).expect("what was encoded");
+    let Ok(Outcome::Increment(Ok(increment))) = wire::decode(bytes) else {
+        panic!("what was encoded")
+    };
     replica.publish(setup, Arc::new(increment));
 }
 

@@ -169,7 +169,7 @@ fn names_that_could_be_options_and_commands_without_end_are_refused() {
     done.assert_code(2);
     let done = scratch.run(&["build", "endless.toml", "--agents", "a", "--audit", "1%"]);
     done.assert_code(2);
-    done.assert_stderr(&["--audit: one agent found"]);
+    done.assert_stderr(&["--audit: one machine found"]);
 }
 
 /// A worker that dies counts against its job; the agent stays.

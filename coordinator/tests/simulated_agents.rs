@@ -439,7 +439,12 @@ fn simulated_agents_give_the_same_roadmap() {
             1 => 0.0,
             _ => [0.0, 0.3, 1.0][Random(!seed).below(3)],
         };
-        let options = AgentOptions { workers: None, wait: Duration::from_secs(3600), audit };
+        let options = AgentOptions {
+            workers: None,
+            wait: Duration::from_secs(3600),
+            audit,
+            audit_key: [seed as u8; 32],
+        };
         let agents =
             Agents::new(setup.clone(), options, fleet, folder.path()).expect("a file can be made");
         let outline = Outline::new(setup.context().space());

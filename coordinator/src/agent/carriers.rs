@@ -21,6 +21,8 @@ const PAUSES: (Duration, Duration) = (Duration::from_secs(1), Duration::from_sec
 const STEADY: Duration = Duration::from_secs(60);
 /// So long an agent may take to end when it is told to, and then again when it is made to.
 const LEAVE: Duration = Duration::from_secs(5);
+/// Messages of one agent that are taken before the next has its turn.
+const MESSAGES_MAX: usize = 1000;
 /// Lines of an agent's standard error that are shown, each time that it is started.
 const LINES_MAX: usize = 20;
 /// The most bytes of a line that are shown.
@@ -59,6 +61,8 @@ struct Slot {
     pause: Duration,
     /// Traffic of links that have ended.
     traffic: Traffic,
+    /// Why its agent was lost last.
+    last_loss: String,
 }
 
 enum State {
@@ -92,6 +96,7 @@ impl Carriers {
             restarts: 0,
             pause: PAUSES.0,
             traffic: Traffic::default(),
+            last_loss: String::new(),
         };
         Ok(Carriers {
             slots: places.into_iter().map(slot).collect(),
@@ -132,6 +137,7 @@ impl Carriers {
         slot.state = State::Waiting(Instant::now() + slot.pause, why.to_owned());
         slot.pause = (slot.pause * 2).min(PAUSES.1);
         add(&mut slot.traffic, pump.traffic());
+        why.clone_into(&mut slot.last_loss);
         pump.close();
         let _pump = (!grace.is_zero()).then_some(pump);
         let begin = Instant::now() + grace;
@@ -160,6 +166,7 @@ impl Carriers {
                 Ok(running) => State::Running(Box::new(running)),
                 Err(error) => {
                     let why = format!("cannot be started: {error}");
+                    why.clone_into(&mut slot.last_loss);
                     if !is_again {
                         note(format_args!("agent {}: {why}", slot.place));
                     }
@@ -208,7 +215,8 @@ impl Fleet for Carriers {
             State::Running(running) => {
                 add(&mut traffic, running.pump.traffic());
                 let state = if running.has_joined { "joined" } else { "starting" };
-                (state, String::new(), running.pump.round_trip())
+                let why = if running.has_joined { "" } else { &slot.last_loss };
+                (state, why.to_owned(), running.pump.round_trip())
             }
         };
         Condition { state, reason, restarts, traffic, round_trip }
@@ -219,12 +227,8 @@ impl Fleet for Carriers {
     }
 
     fn last_loss(&self) -> Option<String> {
-        self.slots.iter().rev().find_map(|slot| match &slot.state {
-            State::Waiting(_, why) | State::Refused(why) if !why.is_empty() => {
-                Some(format!("{}: {why}", slot.place))
-            }
-            _ => None,
-        })
+        let slot = self.slots.iter().rev().find(|slot| !slot.last_loss.is_empty())?;
+        Some(format!("{}: {}", slot.place, slot.last_loss))
     }
 
     fn send(&self, member: WorkerId, message: Arc<Vec<u8>>) {
@@ -276,7 +280,8 @@ impl Fleet for Carriers {
                 running.has_joined = true;
                 self.news.push_back(News::Joined { member, place });
             }
-            while let Some(message) = running.pump.receive() {
+            for _ in 0..MESSAGES_MAX {
+                let Some(message) = running.pump.receive() else { break };
                 self.news.push_back(News::Message { member, message });
             }
             if let Some(why) = running.pump.ended() {
@@ -294,8 +299,10 @@ impl Fleet for Carriers {
         let begin = Instant::now() + LEAVE;
         for slot in std::mem::take(&mut self.slots) {
             let State::Running(running) = slot.state else { continue };
-            let Running { pump, child, .. } = *running;
+            let Running { pump, child, has_joined, .. } = *running;
             pump.close();
+            // One that has not even opened its link has nothing to put in order.
+            let begin = if has_joined { begin } else { Instant::now() };
             let signals = vec![(begin + LEAVE, Signal::KILL), (begin, Signal::TERM)];
             self.leaving.push(Leaving { child, _pump: Some(pump), signals });
         }
@@ -330,7 +337,7 @@ impl Running {
     /// Why the agent is lost, with what was said on its standard error and how its carrier ended, where that is known.
     fn why(&mut self, why: &str) -> String {
         // The two ends of a carrier's life come shortly after one another.
-        let status = ended_within(&mut self.child, Duration::from_millis(200));
+        let status = ended_within(&mut self.child, Duration::from_millis(30));
         let status = status.filter(|status| !status.success());
         let status = status.map_or_else(String::new, |status| format!(" ({status})"));
         match self.errors.last() {

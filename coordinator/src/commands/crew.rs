@@ -10,6 +10,8 @@ use crate::run::summary_in;
 use crate::work::{Begun, Ended, Growth, Status, Torn, WORKERS_MAX, Watch, Workers};
 use roadmill::problem::Problem;
 use roadmill::survey::Survey;
+use std::fs::File;
+use std::io::Read;
 use std::time::Duration;
 
 /// After so many seconds without a set it is said what is in the way.
@@ -24,13 +26,15 @@ pub(super) fn workers(crew: &CrewArguments) -> Result<Workers, Failure> {
         let workers = crew.workers.map(|workers| checked("--workers", Some(workers)));
         let options = AgentOptions {
             workers: workers.transpose()?,
-            wait: Duration::from_secs_f64(*agent_wait),
+            wait: Duration::try_from_secs_f64(*agent_wait).unwrap_or(Duration::MAX),
             audit: audit.unwrap_or(0.0),
+            audit_key: audit_key()?,
         };
         let places = Place::list(names, agent_command)?;
-        if options.audit > 0.0 && places.len() < 2 {
+        let first = places.first().map(Place::name);
+        if options.audit > 0.0 && places.iter().all(|place| Some(place.name()) == first) {
             return Err(Failure::usage(
-                "--audit: one agent found, two or more expected, to be compared",
+                "--audit: one machine found, two or more expected, to be compared",
             ));
         }
         return Ok(Workers::agents(places, options));
@@ -40,6 +44,13 @@ pub(super) fn workers(crew: &CrewArguments) -> Result<Workers, Failure> {
         Some(_) => Workers::threads(count),
         None => Workers::own_processes(count),
     })
+}
+
+/// Bytes that nobody else knows.
+fn audit_key() -> Result<[u8; 32], Failure> {
+    let mut key = [0; 32];
+    let read = File::open("/dev/urandom").and_then(|mut file| file.read_exact(&mut key));
+    read.map(|()| key).map_err(|error| Failure::system(format!("/dev/urandom: {error}")))
 }
 
 /// How many workers or threads the command line asks for; one for each processor if it does not say.

@@ -23,6 +23,10 @@ const CORES_MAX: u32 = 4096;
 const QUEUED_MAX: u64 = 1 << 20;
 /// Sets per core that may be generated ahead of the current round where messages take no time.
 const LOOKAHEAD_PER_CORE: f64 = 8.0;
+/// A round trip that is longer than this does not make an agent get more work.
+const ROUND_TRIP_MAX: Duration = Duration::from_millis(250);
+/// An agent that has opened its link says within this time who it is.
+const GREETING_MAX: Duration = Duration::from_secs(60);
 /// The work that a core is given at once, in seconds: see [`Roster`].
 const HELD_SECONDS: f64 = 0.02;
 
@@ -38,6 +42,8 @@ pub struct AgentOptions {
     pub wait: Duration,
     /// The share of jobs that two agents do, to be compared.
     pub audit: f64,
+    /// Decides which jobs these are: bytes that nobody else knows.
+    pub audit_key: [u8; 32],
 }
 
 /// How far the conversation with an agent has come.
@@ -54,7 +60,7 @@ struct Agent {
     /// The entries before this one have been sent to it.
     told: usize,
     cores: usize,
-    /// Since when it is ready.
+    /// Since when it is in its phase.
     since: Instant,
 }
 
@@ -118,7 +124,7 @@ impl<F: Fleet> Agents<F> {
             front: Front::default(),
             entries: spool,
             fleet,
-            audit: Audit::new(options.audit),
+            audit: Audit::new(options.audit, options.audit_key),
             options,
             members: BTreeMap::new(),
             accounts,
@@ -146,12 +152,29 @@ impl<F: Fleet> Agents<F> {
         place.map_or("", Place::name)
     }
 
+    /// The machine of a member: the first place of its name.
+    fn machine_of(&self, member: WorkerId) -> usize {
+        let name = self.place_of(member);
+        let places = self.fleet.places();
+        places.iter().position(|place| place.name() == name).unwrap_or(usize::MAX)
+    }
+
+    /// How long a sign of life takes to a member and back, in seconds, as far as it decides how much work is given out
+    /// ahead: one that was stopped for a while, or a machine that was logged in to slowly, is not given work for minutes.
+    fn round_trip(&self, member: WorkerId) -> f64 {
+        let round_trip = self.fleet.round_trip(member).unwrap_or_default();
+        round_trip.min(ROUND_TRIP_MAX).as_secs_f64()
+    }
+
     fn say(&self, member: WorkerId, what: &str) {
         self.fleet.tell(format_args!("agent {}: {}", Plain(self.place_of(member)), Plain(what)));
     }
 
     /// Takes leave of an agent; its jobs are lost. `is_refused`: for good.
     fn leave(&mut self, member: WorkerId, why: &str, is_refused: bool) {
+        if !self.members.contains_key(&member) {
+            return;
+        }
         self.say(member, why);
         let Some(agent) = self.members.remove(&member) else { return };
         if agent.phase == Phase::Ready {
@@ -184,11 +207,11 @@ impl<F: Fleet> Agents<F> {
         let ready = self.members.iter().filter(|(_, agent)| agent.phase == Phase::Ready);
         let ready: Vec<WorkerId> = ready.map(|(member, _)| *member).collect();
         for member in ready {
-            let round_trip = self.fleet.round_trip(member).unwrap_or_default();
-            self.roster.set_round_trip(member, round_trip.as_secs_f64());
+            self.roster.set_round_trip(member, self.round_trip(member));
             if self.fleet.queued(member) >= QUEUED_MAX {
                 continue;
             }
+            let machine = self.machine_of(member);
             let Some(agent) = self.members.get_mut(&member) else { continue };
             let (entries, told) = match self.entries.part(agent.told, member) {
                 Ok(part) => part,
@@ -201,7 +224,7 @@ impl<F: Fleet> Agents<F> {
             if told == self.entries.end() {
                 jobs = self.roster.give(member, |job| self.front.has(&self.setup, job));
                 let most = (2 * agent.cores).saturating_sub(self.roster.held(member));
-                for job in self.audit.take_for(member, most) {
+                for job in self.audit.take_for(member, machine, most) {
                     self.roster.assign(member, job);
                     jobs.push(job);
                 }
@@ -212,6 +235,16 @@ impl<F: Fleet> Agents<F> {
             let alone = jobs.iter().copied().filter(|job| self.roster.is_suspect(job)).collect();
             let work = ToAgent::Work { entries, jobs, alone };
             self.fleet.send(member, Arc::new(wire::encode(&work)));
+        }
+    }
+
+    /// Gives up agents that do not say who they are.
+    fn give_up_silent(&mut self) {
+        let is_silent =
+            |agent: &Agent| agent.phase == Phase::Greeted && agent.since.elapsed() > GREETING_MAX;
+        let silent = self.members.iter().filter(|(_, agent)| is_silent(agent));
+        for member in silent.map(|(member, _)| *member).collect::<Vec<_>>() {
+            self.leave(member, "lost: it did not say who it is", false);
         }
     }
 
@@ -301,6 +334,7 @@ impl<F: Fleet> Agents<F> {
 
     /// Takes in what an agent has done.
     fn take_outcomes(&mut self, member: WorkerId, message: &Arc<Vec<u8>>, done: &[Done<'_>]) {
+        let machine = self.machine_of(member);
         for Done { job, micros, outcome } in done {
             let seconds = *micros as f64 * 1e-6;
             if !self.roster.done(member, *job, seconds) {
@@ -313,7 +347,7 @@ impl<F: Fleet> Agents<F> {
             }
             let begin = outcome.as_ptr().addr() - message.as_ptr().addr();
             let made = Made::new(*job, member, *micros, message, begin..begin + outcome.len());
-            match self.audit.take(made) {
+            match self.audit.take(made, machine) {
                 Compared::Kept => {}
                 Compared::Same(made) => self.finish(made),
                 Compared::Differs(made, first) => {
@@ -388,6 +422,7 @@ impl<F: Fleet> Staff for Agents<F> {
         }
         self.write_board();
         self.fleet.tend();
+        self.give_up_silent();
         self.look_for_anybody();
         self.feed();
         if self.reports.is_empty() {
@@ -410,7 +445,7 @@ impl<F: Fleet> Staff for Agents<F> {
     fn lookahead(&self) -> Option<u64> {
         let ready = self.members.iter().filter(|(_, agent)| agent.phase == Phase::Ready);
         let each = ready.map(|(member, agent)| {
-            let round_trip = self.fleet.round_trip(*member).unwrap_or_default().as_secs_f64();
+            let round_trip = self.round_trip(*member);
             agent.cores as f64 * LOOKAHEAD_PER_CORE * (1.0 + round_trip / HELD_SECONDS)
         });
         Some(each.sum::<f64>().ceil() as u64)

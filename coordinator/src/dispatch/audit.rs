@@ -5,14 +5,15 @@ use roadmill::roadmap::Digest;
 use roadmill_workers::WorkerId;
 use std::collections::BTreeMap;
 
-/// Jobs that two agents do, so that their outcomes can be compared. Which jobs these are follows from the jobs alone, not
-/// from chance: an agent cannot know, since the share is not told to it.
+/// Jobs that two machines do, so that their outcomes can be compared. Which jobs these are follows from the jobs and from a key that
+/// never leaves this process: an agent cannot know. No outcome depends on it.
 ///
 /// The first outcome is kept back until the second has come, however long that takes: a wrong one never gets into a
 /// roadmap.
 #[derive(Debug)]
 pub struct Audit {
     share: f64,
+    key: [u8; 32],
     /// First outcomes, and who is to make or makes the second.
     open: BTreeMap<Job, Second>,
     counts: Audited,
@@ -21,6 +22,8 @@ pub struct Audit {
 #[derive(Debug)]
 struct Second {
     first: Made,
+    /// The machine on which that was made.
+    machine: usize,
     /// `None` while nobody has been given the job.
     by: Option<WorkerId>,
 }
@@ -37,14 +40,14 @@ pub enum Compared {
 }
 
 impl Audit {
-    /// So large a share of all jobs is done twice.
-    pub fn new(share: f64) -> Audit {
-        Audit { share, open: BTreeMap::new(), counts: Audited::default() }
+    /// So large a share of all jobs is done twice; which, depends on `key`.
+    pub fn new(share: f64, key: [u8; 32]) -> Audit {
+        Audit { share, key, open: BTreeMap::new(), counts: Audited::default() }
     }
 
     /// Whether a job is one of those that are done twice.
     fn is_due(&self, job: Job) -> bool {
-        let digest = Digest::of(&wire::encode(&job));
+        let digest = Digest::of(&[&self.key[..], &wire::encode(&job)].concat());
         let [a, b, c, d, e, f, g, h, ..] = digest.0;
         let drawn = u64::from_le_bytes([a, b, c, d, e, f, g, h]);
         // 53 bits, as many as a number has: below 1, so that everything is due at a share of 1.
@@ -52,8 +55,8 @@ impl Audit {
         share < self.share
     }
 
-    /// Takes in an outcome.
-    pub fn take(&mut self, made: Made) -> Compared {
+    /// Takes in an outcome that was made on this machine.
+    pub fn take(&mut self, made: Made, machine: usize) -> Compared {
         if self.share <= 0.0 {
             return Compared::Same(made);
         }
@@ -74,18 +77,18 @@ impl Audit {
         if !self.is_due(made.job) {
             return Compared::Same(made);
         }
-        self.open.insert(made.job, Second { first: made, by: None });
+        self.open.insert(made.job, Second { first: made, machine, by: None });
         Compared::Kept
     }
 
-    /// Jobs that this agent is to do a second time, so many at most.
-    pub fn take_for(&mut self, member: WorkerId, most: usize) -> Vec<Job> {
+    /// Jobs that this agent is to do a second time, so many at most; none that was done on its own machine.
+    pub fn take_for(&mut self, member: WorkerId, machine: usize, most: usize) -> Vec<Job> {
         let mut jobs = Vec::new();
         for (job, second) in &mut self.open {
             if jobs.len() == most {
                 break;
             }
-            if second.by.is_none() && second.first.member != member {
+            if second.by.is_none() && second.machine != machine {
                 second.by = Some(member);
                 jobs.push(*job);
             }

@@ -39,6 +39,8 @@ pub struct Roster {
 #[derive(Debug, Default)]
 struct Desk {
     jobs: BTreeSet<Job>,
+    /// How many of them are of each kind.
+    kinds: BTreeMap<Kind, usize>,
     /// How many jobs are done at once.
     cores: usize,
     /// The work for each core beyond [`HELD_SECONDS`], in seconds. Of an agent only.
@@ -49,16 +51,28 @@ struct Desk {
     had_enough: bool,
 }
 
+impl Desk {
+    fn insert(&mut self, job: Job) -> bool {
+        let is_new = self.jobs.insert(job);
+        *self.kinds.entry(kind(&job)).or_default() += usize::from(is_new);
+        is_new
+    }
+
+    fn remove(&mut self, job: &Job) -> bool {
+        let was_there = self.jobs.remove(job);
+        if let Some(count) = self.kinds.get_mut(&kind(job)) {
+            *count -= usize::from(was_there);
+        }
+        was_there
+    }
+}
+
 /// How many urgencies there are.
 const URGENCIES: usize = 3;
 
 /// How urgent a job is: 0 is the most urgent, since most other work waits for it.
 fn urgency(job: &Job) -> usize {
-    match job {
-        Job::Evaluate { .. } => 0,
-        Job::Join { .. } => 1,
-        Job::Generate { .. } => 2,
-    }
+    kind(job).urgency()
 }
 
 /// What a job does, whatever the set or the round. Jobs of one kind take about equally long.
@@ -67,6 +81,17 @@ enum Kind {
     Evaluate(EvaluatorIndex),
     Join(StrategyIndex),
     Generate(StrategyIndex),
+}
+
+impl Kind {
+    /// How urgent its jobs are: see [`urgency`].
+    fn urgency(&self) -> usize {
+        match self {
+            Kind::Evaluate(_) => 0,
+            Kind::Join(_) => 1,
+            Kind::Generate(_) => 2,
+        }
+    }
 }
 
 fn kind(job: &Job) -> Kind {
@@ -135,21 +160,27 @@ impl Roster {
         let mut given = Vec::new();
         let all_cores = self.cores;
         let Some(desk) = self.held.get_mut(&worker) else { return given };
-        let Desk { jobs: held, cores, ahead, added, had_enough } = desk;
+        let Desk { jobs: held, kinds, cores, ahead, added, had_enough } = desk;
         // What it held was not enough after all: messages take longer than signs of life.
         if std::mem::take(had_enough) && ahead.is_some() && held.len() < *cores {
             *added = (*added + HELD_SECONDS).min(ADDED_SECONDS_MAX);
         }
         // Who has several workers keeps a suspect from the other jobs.
         let is_single = *cores == 1;
-        if is_single && held.iter().any(|job| self.suspects.contains(job)) {
+        if is_single
+            && !self.suspects.is_empty()
+            && held.iter().any(|job| self.suspects.contains(job))
+        {
             return given;
         }
         let ahead = ahead.map_or(0.0, |ahead| ahead + *added);
         let enough = *cores as f64 * (HELD_SECONDS + ahead);
-        let seconds_of = |job: &Job| self.seconds.get(&kind(job)).copied().unwrap_or(HELD_SECONDS);
-        let mut seconds: f64 = held.iter().map(seconds_of).sum();
-        for (waiting, open) in self.waiting.iter_mut().zip(&mut self.open) {
+        let seconds_of = |kind: &Kind| self.seconds.get(kind).copied().unwrap_or(HELD_SECONDS);
+        let each = kinds.iter().map(|(kind, count)| *count as f64 * seconds_of(kind));
+        let mut seconds: f64 = each.sum();
+        for (level, (waiting, open)) in self.waiting.iter_mut().zip(&mut self.open).enumerate() {
+            let of_level = kinds.iter().filter(|(kind, _)| kind.urgency() == level);
+            let mut own: usize = of_level.map(|(_, count)| *count).sum();
             while let Some(job) = waiting.first().copied() {
                 if !is_needed(job) {
                     waiting.pop_first();
@@ -157,13 +188,12 @@ impl Roster {
                     continue;
                 }
                 let is_suspect = is_single && self.suspects.contains(&job);
-                let more = seconds_of(&job);
+                let more = seconds_of(&kind(&job));
                 let would_wait = held.len() >= *cores;
                 if would_wait && (is_suspect || seconds + more > enough) {
                     *had_enough = true;
                     return given;
                 }
-                let own = held.iter().filter(|other| urgency(other) == urgency(&job)).count();
                 // The share is rounded down: what remains is for the workers that are done first.
                 if own >= (*open * *cores / all_cores).max(*cores) {
                     break;
@@ -171,6 +201,8 @@ impl Roster {
                 seconds += more;
                 waiting.pop_first();
                 held.insert(job);
+                *kinds.entry(kind(&job)).or_default() += 1;
+                own += 1;
                 given.push(job);
                 if is_suspect {
                     return given;
@@ -183,7 +215,7 @@ impl Roster {
     /// Gives a job that does not wait to a worker: one that is done a second time.
     pub fn assign(&mut self, worker: WorkerId, job: Job) {
         if let Some(desk) = self.held.get_mut(&worker)
-            && desk.jobs.insert(job)
+            && desk.insert(job)
         {
             self.open[urgency(&job)] += 1;
         }
@@ -191,7 +223,7 @@ impl Roster {
 
     /// Takes note that a worker has done a job, in so many seconds. False if the worker did not hold the job.
     pub fn done(&mut self, worker: WorkerId, job: Job, seconds: f64) -> bool {
-        if !self.held.get_mut(&worker).is_some_and(|desk| desk.jobs.remove(&job)) {
+        if !self.held.get_mut(&worker).is_some_and(|desk| desk.remove(&job)) {
             return false;
         }
         self.open[urgency(&job)] -= 1;
@@ -216,7 +248,7 @@ impl Roster {
     /// Takes note that one of a member's own workers died while it held these jobs; those that are lost.
     pub fn lose(&mut self, member: WorkerId, jobs: &[Job]) -> Vec<Job> {
         let Some(desk) = self.held.get_mut(&member) else { return Vec::new() };
-        let lost: Vec<Job> = jobs.iter().copied().filter(|job| desk.jobs.remove(job)).collect();
+        let lost: Vec<Job> = jobs.iter().copied().filter(|job| desk.remove(job)).collect();
         lost.iter().for_each(|job| self.open[urgency(job)] -= 1);
         self.suspects.extend(&lost);
         lost

@@ -21,6 +21,11 @@ const OWN_WRITE_BYTES: usize = 64 << 10;
 /// When fewer bytes of messages than this wait to be written, it is time for more.
 const QUEUED_FEW: u64 = 512 << 10;
 
+/// Whether it has become time for more.
+fn has_room_again(before: u64, after: u64) -> bool {
+    before >= QUEUED_FEW && after < QUEUED_FEW
+}
+
 /// For how long an end puts up with silence.
 #[derive(Debug, Clone, Copy)]
 pub struct Patience {
@@ -156,10 +161,14 @@ impl Pump {
     pub fn send(&self, message: Arc<Vec<u8>>) {
         let mut state = self.shared.lock();
         state.link.send(message);
+        let before = state.link.queued();
         // At once, where that cannot block: a thread need not be woken for it. What goes wrong the thread notices, too.
         let is_own = state.writer.as_ref().is_some_and(|writer| writer.most == OWN_WRITE_BYTES);
         while is_own && matches!(state.write(), Written::Some) {}
         let is_done = state.link.output().is_empty();
+        if has_room_again(before, state.link.queued()) {
+            self.shared.bell.ring();
+        }
         drop(state);
         if !is_done {
             self.shared.wake.ring();
@@ -346,7 +355,7 @@ impl Shared {
         match state.write() {
             Written::Some => {
                 // Whoever waits until there is room for more is to be woken.
-                if before >= QUEUED_FEW && state.link.queued() < QUEUED_FEW {
+                if has_room_again(before, state.link.queued()) {
                     self.bell.ring();
                 }
                 None

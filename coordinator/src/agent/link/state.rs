@@ -7,7 +7,7 @@ use std::sync::Arc;
 pub const OPENING: &[u8] = b"\x00\xff\x00roadmill link 1\x00\xff\x00\n";
 /// So many bytes may come before the opening.
 pub const PREAMBLE_BYTES_MAX: usize = 1 << 20;
-/// So far a sender may be ahead of what the receiver has taken in, in bytes of messages.
+/// So far a sender may be ahead of what the receiver has taken in, in bytes of frames with parts of messages.
 pub const WINDOW_BYTES: u64 = 4 << 20;
 
 /// So many of the last answers to signs of life are remembered.
@@ -31,6 +31,11 @@ pub enum LinkError {
     /// A message is longer than messages can be.
     #[error("it sent a message of more than {MESSAGE_BYTES_MAX} bytes")]
     TooLong,
+}
+
+/// What a part of a message takes of the credit: its frame counts, too, so that messages of nothing do not come without end.
+fn cost(piece: &[u8]) -> u64 {
+    (HEADER_BYTES + 1 + piece.len()) as u64
 }
 
 /// The last of what was heard instead of an opening, for people.
@@ -155,7 +160,7 @@ impl Link {
     fn take_frame(&mut self, frame: &Frame<'_>, now: u64) -> Result<(), LinkError> {
         match frame.kind {
             Kind::Piece | Kind::Last => {
-                self.came += frame.bytes.len() as u64;
+                self.came += cost(frame.bytes);
                 if self.came - self.taken > WINDOW_BYTES {
                     return Err(LinkError::Credit);
                 }
@@ -168,7 +173,11 @@ impl Link {
                 }
                 self.give_credit();
             }
-            Kind::Beat => self.short.push_back((Kind::Echo, Some(frame.value()?))),
+            Kind::Beat => {
+                // Only the last one needs an answer: whoever sends many does not make this end remember them.
+                self.short.retain(|(kind, _)| *kind != Kind::Echo);
+                self.short.push_back((Kind::Echo, Some(frame.value()?)));
+            }
             Kind::Echo => {
                 self.round_trips.push_back(now.saturating_sub(frame.value()?));
                 if self.round_trips.len() > ROUND_TRIPS {
@@ -219,8 +228,10 @@ impl Link {
     }
 
     /// Queues a sign of life.
+    ///
+    /// Not before the other end has opened the link: it would wait in the stream until then and be answered much later.
     pub fn beat(&mut self, now: u64) {
-        if !self.short.iter().any(|(kind, _)| *kind == Kind::Beat) {
+        if self.is_open && !self.short.iter().any(|(kind, _)| *kind == Kind::Beat) {
             self.short.push_back((Kind::Beat, Some(now)));
         }
     }
@@ -269,16 +280,16 @@ impl Link {
             return;
         }
         let Some(message) = self.outbox.front() else { return };
-        let credit = (self.acknowledged + WINDOW_BYTES - self.sent) as usize;
+        let credit = self.acknowledged + WINDOW_BYTES - self.sent;
         let rest = &message[self.begun..];
         let piece = &rest[..rest.len().min(PIECE_BYTES)];
-        if piece.len() > credit {
+        if cost(piece) > credit {
             return;
         }
         let kind = if piece.len() == rest.len() { Kind::Last } else { Kind::Piece };
         Frame { kind, session, number, bytes: piece }.write(&mut self.output);
         self.next_out += 1;
-        self.sent += piece.len() as u64;
+        self.sent += cost(piece);
         self.queued -= piece.len() as u64;
         self.begun += piece.len();
         if kind == Kind::Last {

@@ -73,6 +73,8 @@ proptest! {
     ) {
         let (mut near, mut far) = (Link::near(7), Link::far());
         // The coordinator speaks first: only then does an agent know which conversation it is.
+        near.send(message(1, 42));
+        // Nobody would answer it before the link is open.
         near.beat(5);
         for (number, length) in there.iter().enumerate() {
             near.send(message(*length, number as u8));
@@ -85,10 +87,15 @@ proptest! {
         let sent = |lengths: &[usize], fill: u8| -> Vec<Vec<u8>> {
             lengths.iter().enumerate().map(|(n, length)| message(*length, fill + n as u8).to_vec()).collect()
         };
-        prop_assert!(heard_far == sent(&there, 0));
+        prop_assert_eq!(&*heard_far[0], &[42][..]);
+        prop_assert!(heard_far[1..] == sent(&there, 0));
         prop_assert!(heard_near == sent(&back, 100));
         prop_assert_eq!((near.queued(), far.queued()), (0, 0));
-        prop_assert!(near.round_trip().is_some());
+        prop_assert_eq!(near.round_trip(), None);
+        near.beat(5);
+        near.beat(6);
+        talk([&mut near, &mut far], 500, &[100], true);
+        prop_assert_eq!(near.round_trip(), Some(0));
     }
 
     /// Whatever comes instead of a link: an error or nothing, and never more memory than came.
@@ -199,6 +206,7 @@ fn nobody_sends_more_than_there_is_credit_for() {
 #[test]
 fn a_sign_of_life_waits_behind_one_frame_at_most() {
     let mut link = Link::near(7);
+    link.take_in(OPENING, 0).expect("it is the opening");
     link.send(message(1 << 20, 0));
     let opening = link.output().len();
     link.written(opening);
@@ -208,6 +216,27 @@ fn a_sign_of_life_waits_behind_one_frame_at_most() {
     link.written(first);
     let (frame, _) = Frame::read(link.output()).expect("it is a frame").expect("it is whole");
     assert_eq!(frame.kind, Kind::Beat);
+}
+
+/// Whoever sends signs of life without reading the answers does not make the other end remember them all.
+#[test]
+fn only_the_last_sign_of_life_is_answered() {
+    let beats: Vec<_> = (0..1000u64).map(|number| (number, number.to_le_bytes())).collect();
+    let frame = |(number, bytes): &'static (u64, [u8; 8])| Frame {
+        kind: Kind::Beat,
+        session: 7,
+        number: *number,
+        bytes,
+    };
+    let (mut link, taken) = after(&beats.leak().iter().map(frame).collect::<Vec<_>>());
+    assert_eq!(taken, Ok(()));
+    let opening = link.output().len();
+    link.written(opening);
+    let (answer, _) = Frame::read(link.output()).expect("it is a frame").expect("it is whole");
+    assert_eq!((answer.kind, answer.value()), (Kind::Echo, Ok(999)));
+    let all = link.output().len();
+    link.written(all);
+    assert_eq!(link.output(), b"");
 }
 
 #[test]
