@@ -1,8 +1,7 @@
 //! Agents that are broken, of another program, or harmful: each is given up or refused alone, and the build goes on by
 //! the others to the same roadmap. Wrong bits are found by comparison, and end the build.
 //!
-//! The bad agents are this test program itself, started with one test that is no test: what the harness prints before it
-//! is skipped as any greeting of a machine is.
+//! The bad agents are threads of the tests: what carries them leads their streams to two named pipes.
 
 mod support;
 
@@ -14,41 +13,48 @@ use roadmill_coordinator::agent::link::{
 };
 use roadmill_coordinator::agent::{FromAgent, Identity, ToAgent};
 use roadmill_workers::message::Done;
-use std::env;
+use rustix::fs::{CWD, Mode, mkfifoat};
 use std::fs::File;
 use std::io::{Read, Write};
-use std::os::fd::AsFd;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::Arc;
-use support::Scratch;
+use support::{Scratch, wait_until};
 
 const SETS: u64 = 60;
-/// Says to the test program what kind of agent it is.
-const KIND: &str = "ROADMILL_TEST_AGENT";
+/// The pipe to a bad agent.
+const TO_BAD: &str = "to-bad";
+/// The pipe from it.
+const FROM_BAD: &str = "from-bad";
+/// What it leaves once it has done what it does.
+const MARK: &str = "bad-was-here";
 
 /// Builds with a bad agent of this kind and a good one, which comes once the bad one has done what it does.
-fn build(scratch: &Scratch, kind: &str, names: &str, rest: &[&str]) -> support::Done {
-    let program = env::current_exe().expect("it has a name");
+fn build(scratch: &Scratch, kind: &'static str, names: &str, rest: &[&str]) -> support::Done {
+    for pipe in [TO_BAD, FROM_BAD] {
+        mkfifoat(CWD, scratch.path(pipe), Mode::RUSR | Mode::WUSR).expect("a pipe can be made");
+    }
+    // A command in the background reads nothing of a shell's own standard input.
     scratch.write(
         "carrier.sh",
         &format!(
-            "if [ $1 = bad ]; then exec {} as_agent --exact --ignored --nocapture; fi\n\
-             while ! [ -e bad-was-here ]; do sleep 0.01; done\n\
+            "if [ $1 = bad ]; then exec 3<&0; cat <&3 >{TO_BAD} & exec cat {FROM_BAD}; fi\n\
+             while ! [ -e {MARK} ]; do sleep 0.01; done\n\
              exec {} agent\n",
-            program.display(),
             env!("CARGO_BIN_EXE_roadmill"),
         ),
     );
+    let folder = scratch.path(".");
+    let bad = std::thread::spawn(move || be_bad(kind, &folder));
     let sets = SETS.to_string();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_roadmill"));
-    command
-        .args(["build", "endless.toml", "--out", "run", "--force", "--max-sets", &sets])
-        .args(["--workers", "1", "--agents", names, "--agent-command", "sh carrier.sh {}"])
-        .args(rest)
-        .env(KIND, kind);
-    let done = scratch.start_command(command, "").finish();
-    std::fs::remove_file(scratch.path("bad-was-here")).expect("the bad agent was there");
+    let build = ["build", "endless.toml", "--out", "run", "--force", "--max-sets", &sets];
+    let agents = ["--workers", "1", "--agents", names, "--agent-command", "sh carrier.sh {}"];
+    let done = scratch.run(&[&build[..], &agents, rest].concat());
+    wait_until("the end of the bad agent", || bad.is_finished());
+    bad.join().expect("the bad agent does what it is to do");
+    for name in [TO_BAD, FROM_BAD, MARK] {
+        std::fs::remove_file(scratch.path(name)).expect("it was there");
+    }
     done
 }
 
@@ -106,15 +112,21 @@ struct Bad {
     link: Link,
     input: File,
     output: File,
+    folder: PathBuf,
 }
 
 impl Bad {
-    fn new() -> Bad {
-        let file = |fd: std::os::fd::BorrowedFd<'_>| {
-            File::from(fd.try_clone_to_owned().expect("it is open"))
-        };
-        let (input, output) = (file(std::io::stdin().as_fd()), file(std::io::stdout().as_fd()));
-        Bad { link: Link::far(), input, output }
+    /// Waits until something carries it.
+    fn new(folder: &Path) -> Bad {
+        let input = File::open(folder.join(TO_BAD)).expect("it can be opened");
+        let output = File::options().write(true).open(folder.join(FROM_BAD));
+        let output = output.expect("it can be opened");
+        Bad { link: Link::far(), input, output, folder: folder.to_owned() }
+    }
+
+    /// Lets the good agents come.
+    fn mark(&self) {
+        File::create(self.folder.join(MARK)).expect("a file can be made");
     }
 
     fn hear(&mut self) -> ToAgent {
@@ -180,29 +192,22 @@ impl Bad {
 
     /// Until the coordinator has closed the link.
     fn wait(mut self) {
-        mark();
+        self.mark();
         let _ = std::io::copy(&mut self.input, &mut std::io::sink());
     }
 }
 
-/// Lets the good agents come.
-fn mark() {
-    File::create("bad-was-here").expect("a file can be made");
-}
-
-#[test]
-#[ignore = "a bad agent, started by the tests"]
-fn as_agent() {
-    let Ok(kind) = env::var(KIND) else { return };
-    let mut bad = Bad::new();
+/// Is a bad agent of this kind until the coordinator has closed the link.
+fn be_bad(kind: &str, folder: &Path) {
+    let mut bad = Bad::new(folder);
     let own = Identity::own();
-    match &*kind {
+    match kind {
         "rubbish" => {
             bad.flush();
             bad.raw(&[0xa5; 10_000]);
         }
         "noise" => {
-            mark();
+            bad.mark();
             for _ in 0..400 {
                 bad.raw(&[b'x'; 4096]);
             }
@@ -271,10 +276,9 @@ fn as_agent() {
         }
         "vanishes" => {
             bad.be_given_jobs();
-            mark();
-            std::process::exit(0);
+            return bad.mark();
         }
-        "wrong-bits" => return relay(),
+        "wrong-bits" => return relay(bad),
         other => panic!("no kind of agent is called {other}"),
     }
     bad.wait();
@@ -290,8 +294,9 @@ fn session(bad: &mut Bad) -> u64 {
 }
 
 /// A good agent behind one that changes a bit of every outcome.
-fn relay() {
-    mark();
+fn relay(bad: Bad) {
+    bad.mark();
+    let Bad { mut input, mut output, .. } = bad;
     let program = Path::new(env!("CARGO_BIN_EXE_roadmill"));
     let mut good = Command::new(program)
         .arg("agent")
@@ -302,9 +307,8 @@ fn relay() {
     let mut to_good = good.stdin.take().expect("it has one");
     let mut from_good = good.stdout.take().expect("it has one");
     // What the coordinator says goes on as it is.
-    let mut input = Bad::new().input;
     std::thread::spawn(move || std::io::copy(&mut input, &mut to_good));
-    pass_on(&mut from_good, &mut Bad::new().output);
+    pass_on(&mut from_good, &mut output);
     drop(from_good);
     let _ = good.kill().and_then(|()| good.wait());
 }
