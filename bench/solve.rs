@@ -1,24 +1,27 @@
-//! How soon scenes are solved, beside OMPL's PRM and RRT-Connect: the same surfaces, metric resolution and query.
+//! How soon scenes are solved, beside planners of OMPL: the same surfaces, metric resolution and query.
 //!
 //! ```text
 //! ROADMILL_PEER=PEER cargo bench --bench solve -- [--seeds N] [--first-seed F] [--seconds S] [--among WAYS]
-//!     [--settings FILES] [--peers PLANNERS] [--csv FILE] [--svg FILE] SCENE …
+//!     [--settings FILES] [--peers PLANNERS] [--times T] [--csv FILE] [--svg FILE] SCENE …
 //! cargo bench --bench solve -- --from FILE --svg FILE
 //! ```
 //!
 //! PEER is `bench/peers/race.cpp`, built as `bench/race.rs` says.
 //!
-//! Builds every scene with N seeds (default 20), the first of which is F (default 1),
-//! each for at most S CPU seconds (default 60), ours and OMPL's in turn. Ours are built at default settings, or, with
+//! Builds every scene with N seeds (default 20), the first of which is F (default 1), each for at most S CPU seconds (default
+//! 60), ours first and then OMPL's. Ours are built at default settings, or, with
 //! `--among nearest-nodes,until-joined,…`, as often again with these connections among sets (`docs/problems.md`), or, with
 //! `--settings one.toml,two.toml`, with the tables `[img]` and `[[strategies]]` of these files. PLANNERS are `prm`,
-//! `rrt-connect` (both by default) or `none`; `prm:3` solves only with the first three seeds, for scenes in which a planner always takes
-//! all the time that it has. A path of OMPL's counts only if its motions also pass at steps 20 times finer
-//! than those that OMPL has looked at, as ours do before they are given out.
+//! `rrt-connect` (both by default), `kpiece`, `est`, `bit-star`, or `none`; `prm:3` solves only with the first three seeds, for scenes in
+//! which a planner always takes all the time that it has. With `--times T` they get at most T times the median of our first way, but no less than a second.
 //!
-//! Prints the medians, those of the times over all builds: one that is not solved counts with the seconds that it took. The
-//! last column is the better of OMPL's two medians, divided by this one. The CSV file gets a line for each build: scene, program,
-//! seed, solved or not, nodes, CPU seconds; the SVG file a dot, or a ring where it was not solved. `--from` draws what stands in a
+//! Who judges paths: ours by FCL, the peer's kernel, and OMPL's by ours, both at steps 20 times finer than the resolution. A path
+//! that is refused does not count as solved. Without PEER ours are not judged.
+//!
+//! Prints the medians, those of the times over all builds: one that is not solved counts with the seconds that it took. *Refused* counts paths that the
+//! judge refused. The last column is the best of OMPL's medians, divided by this one. The CSV file gets a line for each build as it ends: scene, program,
+//! seed, solved or not, nodes, CPU seconds, refused or not. Builds that stand in it are not done again, so that a bench that was interrupted goes
+//! on where it was. The SVG file gets a dot for each build, or a ring where it was not solved. `--from` draws what stands in a
 //! CSV file.
 
 mod support;
@@ -27,58 +30,22 @@ use roadmill::connect::{AmongKind, ComponentPairs, NearestNodes, NodesAndCompone
 use roadmill::img::Setup;
 use roadmill::local::Planner;
 use roadmill::model::Scratch;
+use roadmill::model::bodies::BodyValidity;
 use roadmill::model::bodies::validity::MotionChecking;
 use roadmill::problem::{Problem, StrategySpec};
 use serde::Deserialize;
-use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
+use support::book::{Book, Build, Builds, of_csv};
 use support::edges::with_edges;
-use support::peer::{run, scene_text, surfaces};
+use support::peer::{pairs_text, run, scene_text, surfaces, verdicts};
 use support::plot::{COLOURS, Plot, Scale, plain};
-use support::{arguments_with, median, method, solve};
+use support::{Solved, arguments_with, method, solve};
 
-/// Builds of one scene by one program.
-#[derive(Default)]
-struct Builds {
-    scene: String,
-    program: String,
-    seconds: Vec<f64>,
-    nodes: Vec<f64>,
-    solved: Vec<bool>,
-}
-
-impl Builds {
-    fn add(&mut self, solved: bool, nodes: f64, seconds: f64) {
-        self.seconds.push(seconds);
-        self.nodes.push(nodes);
-        self.solved.push(solved);
-    }
-
-    fn row(&self, of: f64) -> String {
-        let [nodes, seconds] = [&self.nodes, &self.seconds].map(|values| {
-            let mut values = values.clone();
-            (median(&mut values), values[0], values[values.len() - 1])
-        });
-        format!(
-            "| {} | {} | {} of {} | {:.0} ({:.0}–{:.0}) | {:.3} ({:.3}–{:.2}) | {:.1} |",
-            self.scene,
-            self.program,
-            self.solved.iter().filter(|solved| **solved).count(),
-            self.solved.len(),
-            nodes.0,
-            nodes.1,
-            nodes.2,
-            seconds.0,
-            seconds.1,
-            seconds.2,
-            of / seconds.0,
-        )
-    }
-}
-
-/// How many times finer than OMPL the steps are at which a path of OMPL's is looked at again.
+/// How many times finer than the resolution the steps are at which a judge looks at a path.
 const FINER: u32 = 20;
+/// The least that a peer is given, in CPU seconds.
+const LEAST_SECONDS: f64 = 1.0;
 
 /// A way in which our scenes are built.
 struct Way {
@@ -139,16 +106,16 @@ struct Img {
 }
 
 fn main() {
-    let options = ["--among", "--csv", "--svg", "--from", "--settings", "--peers", "--first-seed"];
+    let options =
+        ["--among", "--csv", "--svg", "--from", "--settings", "--peers", "--first-seed", "--times"];
     let (arguments, words) = arguments_with(20.0, 60.0, &options);
-    let write = |file: &Option<String>, text: String| {
-        if let Some(file) = file {
-            std::fs::write(file, text).expect("the file can be written");
+    let draw = |all: &[Builds]| {
+        if let Some(file) = &words[2] {
+            std::fs::write(file, picture(all)).expect("the file can be written");
         }
     };
     if let Some(file) = &words[3] {
-        let text = std::fs::read_to_string(file).expect("the file can be read");
-        return write(&words[2], picture(&of_csv(&text)));
+        return draw(&of_csv(&std::fs::read_to_string(file).expect("the file can be read")));
     }
     let planners = words[5].as_deref().unwrap_or("prm,rrt-connect");
     let planners = planners.split(',').filter(|name| *name != "none");
@@ -165,41 +132,42 @@ fn main() {
         ways.push(Way::default());
     }
     let first: u64 = words[6].as_deref().map_or(1, |word| word.parse().expect("a seed"));
-    println!("| scene | program | solved | nodes | CPU s | OMPL's better median : this |");
-    println!("|{}", " --- |".repeat(6));
+    let times: Option<f64> = words[7].as_deref().map(|word| word.parse().expect("a number"));
+    let mut book = Book::open(words[1].as_deref());
+    println!("| scene | program | solved | refused | nodes | CPU s | OMPL's best median : this |");
+    println!("|{}", " --- |".repeat(7));
     let mut all = Vec::new();
     for scene in &arguments.scenes {
         let track = Track::new(Path::new(scene), &peer);
-        let builds = |program: String| Builds {
-            scene: track.problem.name().to_owned(),
-            program,
-            ..Builds::default()
-        };
-        let mut ours: Vec<_> = ways.iter().map(|way| builds(way.name.clone())).collect();
-        let mut theirs: Vec<_> =
-            planners.iter().map(|(name, _)| builds(format!("OMPL {name}"))).collect();
-        for seed in first..first + arguments.seeds {
-            for (builds, way) in ours.iter_mut().zip(&ways) {
-                let problem = (way.change)(track.problem.clone().with_seed(seed));
-                let built = solve(&Arc::new(Setup::new(problem)), arguments.seconds);
-                builds.add(built.satisfied, built.nodes as f64, built.seconds);
-            }
-            for (builds, (planner, seeds)) in theirs.iter_mut().zip(&planners) {
-                if seed - first >= *seeds {
-                    continue;
-                }
-                let (solved, nodes, seconds) = track.peer_solves(planner, seed, arguments.seconds);
-                builds.add(solved, nodes, seconds);
-            }
+        let seeds = |count: u64| first..first + count.min(arguments.seeds);
+        let mut of_scene: Vec<Builds> = Vec::new();
+        for way in &ways {
+            let builds = seeds(u64::MAX).map(|seed| {
+                book.build((track.problem.name(), &way.name), seed, || {
+                    track.solves(way, seed, arguments.seconds)
+                })
+            });
+            let (scene, program) = (track.problem.name().to_owned(), way.name.clone());
+            of_scene.push(Builds { all: builds.collect(), scene, program });
         }
-        let medians = theirs.iter().map(|builds| median(&mut builds.seconds.clone()));
-        let best = medians.fold(f64::INFINITY, f64::min);
-        ours.extend(theirs);
-        ours.iter().for_each(|builds| println!("{}", builds.row(best)));
-        all.extend(ours);
+        let ours = of_scene[0].median_seconds();
+        let limit = times.map_or(arguments.seconds, |times| (times * ours).max(LEAST_SECONDS));
+        for (planner, count) in &planners {
+            let program = format!("OMPL {planner}");
+            let builds = seeds(*count).map(|seed| {
+                book.build((track.problem.name(), &program), seed, || {
+                    track.peer_solves(planner, seed, limit)
+                })
+            });
+            let (builds, scene) = (builds.collect(), track.problem.name().to_owned());
+            of_scene.push(Builds { all: builds, scene, program });
+        }
+        let theirs = of_scene[ways.len()..].iter().map(Builds::median_seconds);
+        let best = theirs.fold(f64::INFINITY, f64::min);
+        of_scene.iter().for_each(|builds| println!("{}", builds.row(best)));
+        all.extend(of_scene);
     }
-    write(&words[1], csv_of(&all));
-    write(&words[2], picture(&all));
+    draw(&all);
 }
 
 /// A planner's name, and how many seeds it is given: `prm:3` is three of `prm`.
@@ -233,14 +201,37 @@ impl Track<'_> {
         self.folder.path().join(name).display().to_string()
     }
 
-    /// Whether OMPL's planner finds a path that passes the finer check, its nodes, and the CPU seconds that it took.
-    fn peer_solves(&self, planner: &str, seed: u64, limit: f64) -> (bool, f64, f64) {
+    /// Builds in one of our ways.
+    fn solves(&self, way: &Way, seed: u64, limit: f64) -> Build {
+        let problem = (way.change)(self.problem.clone().with_seed(seed));
+        let Solved { satisfied, nodes, seconds, path, .. } =
+            solve(&Arc::new(Setup::new(problem)), limit);
+        let refused = path.is_some_and(|path| !self.peer.is_empty() && !self.peer_accepts(&path));
+        Build { seed, solved: satisfied && !refused, nodes: nodes as f64, seconds, refused }
+    }
+
+    /// Whether FCL finds all motions of a path of ours free.
+    fn peer_accepts(&self, path: &roadmill::query::Path) -> bool {
+        let configs: Vec<&[f64]> = path.configs.iter().collect();
+        let cx = self.problem.context();
+        let ends = configs.windows(2).map(|ends| (ends[0], ends[1]));
+        let bodies = BodyValidity::of(cx.model()).expect("bodies");
+        let steps = ends.clone().map(|(a, b)| bodies.steps(a, b, FINER));
+        let [pairs, verdicts_file] = ["pairs", "verdicts"].map(|name| self.file(name));
+        std::fs::write(&pairs, pairs_text(ends, steps)).expect("the pairs can be written");
+        run(self.peer, &["edges", &self.file("scene"), &pairs, &verdicts_file]);
+        verdicts(&verdicts_file).into_iter().all(|is_free| is_free)
+    }
+
+    /// Lets OMPL's planner search.
+    fn peer_solves(&self, planner: &str, seed: u64, limit: f64) -> Build {
         let [scene, query, path] = ["scene", "query", "path"].map(|name| self.file(name));
-        let [seed, limit] = [seed.to_string(), limit.to_string()];
-        let words = ["solve", &scene, &query, &seed, &limit, planner, &path];
+        let [word, limit] = [seed.to_string(), limit.to_string()];
+        let words = ["solve", &scene, &query, &word, &limit, planner, &path];
         let found = run(self.peer, &words);
-        let solved = found[2] == 1.0 && self.passes(&path);
-        (solved, found[1], found[0])
+        let has_path = found[2] == 1.0;
+        let refused = has_path && !self.passes(&path);
+        Build { seed, solved: has_path && !refused, nodes: found[1], seconds: found[0], refused }
     }
 
     /// Whether all motions of the path in a file are valid.
@@ -254,34 +245,6 @@ impl Track<'_> {
         let scratch = &mut Scratch::new();
         path.windows(2).all(|ends| cx.model().motion(&ends[0], &ends[1], FINER, scratch).is_some())
     }
-}
-
-fn csv_of(all: &[Builds]) -> String {
-    let mut csv = "scene,program,seed,solved,nodes,cpu_seconds\n".to_owned();
-    for Builds { scene, program, seconds, nodes, solved } in all {
-        for (i, ((seconds, nodes), solved)) in seconds.iter().zip(nodes).zip(solved).enumerate() {
-            let (seed, solved) = (i + 1, u8::from(*solved));
-            writeln!(csv, "{scene},{program},{seed},{solved},{nodes},{seconds:.4}")
-                .expect("memory");
-        }
-    }
-    csv
-}
-
-fn of_csv(text: &str) -> Vec<Builds> {
-    let mut all: Vec<Builds> = Vec::new();
-    for line in text.lines().skip(1) {
-        let words: Vec<&str> = line.split(',').collect();
-        let (scene, program) = (words[0].to_owned(), words[1].to_owned());
-        let number = |word: usize| words[word].parse::<f64>().expect("a number");
-        let known = all.iter().position(|b| b.scene == scene && b.program == program);
-        let index = known.unwrap_or_else(|| {
-            all.push(Builds { scene, program, ..Builds::default() });
-            all.len() - 1
-        });
-        all[index].add(number(3) == 1.0, number(4), number(5));
-    }
-    all
 }
 
 fn among(name: &str) -> AmongKind {
@@ -307,7 +270,7 @@ fn picture(all: &[Builds]) -> String {
     let coloured = || programs.iter().zip(COLOURS.iter().cycle());
     // An empty row below each scene.
     let rows = (all.len() + scenes.len()) as f64;
-    let x = Scale::decades(all.iter().flat_map(|builds| &builds.seconds).copied());
+    let x = Scale::decades(all.iter().flat_map(|builds| &builds.all).map(|build| build.seconds));
     let y = Scale { low: 0.0, high: rows, log: false };
     let title = "CPU seconds until the query is solved; bars are medians, rings were not solved";
     let mut plot = Plot::new(title, ["CPU seconds", ""], [900.0, 120.0 + 24.0 * rows], x, y);
@@ -320,16 +283,16 @@ fn picture(all: &[Builds]) -> String {
             let y = top - 0.5 - row as f64;
             let own = coloured().find(|(program, _)| **program == builds.program);
             let (_, colour) = own.expect("all programs are listed");
-            for (i, (seconds, solved)) in builds.seconds.iter().zip(&builds.solved).enumerate() {
+            for (i, build) in builds.all.iter().enumerate() {
                 // A little up and down, so that dots do not cover one another.
-                let point = [*seconds, y + 0.12 * ((i % 5) as f64 - 2.0)];
-                if *solved {
+                let point = [build.seconds, y + 0.12 * ((i % 5) as f64 - 2.0)];
+                if build.solved {
                     plot.dots(&[point], colour, 3.0);
                 } else {
                     plot.ring(point, colour);
                 }
             }
-            plot.bar([median(&mut builds.seconds.clone()), y], 10.0, colour);
+            plot.bar([builds.median_seconds(), y], 10.0, colour);
         }
         top -= of_scene.len() as f64 + 1.0;
     }
@@ -337,6 +300,9 @@ fn picture(all: &[Builds]) -> String {
         let name = match *program {
             "OMPL prm" => "OMPL's PRM".to_owned(),
             "OMPL rrt-connect" => "OMPL's RRT-Connect".to_owned(),
+            "OMPL kpiece" => "OMPL's KPIECE".to_owned(),
+            "OMPL est" => "OMPL's EST".to_owned(),
+            "OMPL bit-star" => "OMPL's BIT*".to_owned(),
             ours => format!("roadmill, {ours}"),
         };
         (name, *colour)

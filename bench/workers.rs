@@ -1,9 +1,9 @@
 //! How far more workers help: the build's own state machine with up to 4096 workers in virtual time.
 //!
 //! ```text
-//! cargo bench --bench workers -- [--nodes N] [--set NODES] [--slower F] [--shared] [--set-us U]
+//! cargo bench -p roadmill-coordinator --bench workers -- [--nodes N] [--set NODES] [--slower F] [--shared] [--set-us U]
 //!     [--message-us U] [--latency-us U] [--gigabytes G] [--svg FILE] SCENE
-//! cargo bench --bench workers -- --agents CORES [--way-us U] [--network-gigabits G] [--nodes N] [--set NODES] … SCENE
+//! cargo bench -p roadmill-coordinator --bench workers -- --agents CORES [--way-us U] [--network-gigabits G] [--nodes N] [--set NODES] … SCENE
 //! ```
 //!
 //! First the scene is grown up to N nodes (default 20 000), in sets of NODES (as the scene says), by doing
@@ -11,7 +11,7 @@
 //! (decoding it, finding its components), joining it, folding it; of the criterion, judging the last roadmap
 //! that does not meet it. Then 256 sets are joined as one round, which gives what every earlier set of a
 //! round adds to a join. Then `img::Core` is driven by workers that take these times
-//! (`bench/support/virtual_pool.rs`), jobs being F times longer with `--slower`: proteins' energies take
+//! (`bench/support/virtual_staff.rs`), jobs being F times longer with `--slower`: proteins' energies take
 //! far longer than rigid bodies' tests. The coordinator works U microseconds per set (default 60, which
 //! is right for sets of 50 nodes) and 40 per message, which brings jobs of up to 20 ms; messages arrive after
 //! 45 µs and are copied at 0.8 GB/s, 90 bytes per set and worker
@@ -30,10 +30,15 @@
 //! time), longer joins in `rounds` of many sets, the `criteria`, or else `waiting` for the end of a round.
 //! Costs are those of a roadmap of N nodes throughout.
 
-mod support;
-#[path = "support/virtual_pool.rs"]
-mod virtual_pool;
+#[path = "support/plot.rs"]
+#[allow(dead_code, reason = "each bench uses its part")]
+mod plot;
+#[path = "support/timing.rs"]
+mod timing;
+#[path = "support/virtual_staff.rs"]
+mod virtual_staff;
 
+use plot::{COLOURS, Plot, Scale};
 use roadmill::img::{Core, Job, Joined, Observer, Outcome, Replica, Setup, Task, drive};
 use roadmill::internal::wire;
 use roadmill::model::Scratch;
@@ -42,14 +47,14 @@ use roadmill::problem::{NODES_MAX, Problem};
 use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
-use support::plot::{COLOURS, Plot, Scale};
-use support::{cpu_seconds, median};
-use virtual_pool::{Costs, Machine, Network, Spent, TOLD_BYTES, VirtualPool};
+use timing::{cpu_seconds, median};
+use virtual_staff::{Costs, Machine, Network, Spent, TOLD_BYTES, VirtualStaff};
 
 const WORKERS: [usize; 7] = [1, 4, 16, 64, 256, 1024, 4096];
 const SETS_PER_ROUND: [u32; 5] = [5, 50, 500, 5000, 20_000];
 /// As `coordinator` has it.
 const LOOKAHEAD_PER_WORKER: u64 = 8;
+const HELD_SECONDS: f64 = 0.02;
 /// A coordinator that is at work for a larger share of the time is what workers wait for.
 const BUSY: f64 = 0.7;
 /// What is built in virtual time: a point in an empty room, judged as other problems are.
@@ -125,10 +130,16 @@ fn main() {
         println!("workers: skipped, no scene given");
         return;
     };
+    // Strategies take turns: what adapts cannot be measured job by job.
+    let turns = |problem: Problem| match problem.adaptive() {
+        Some(_) => problem.to_builder().default_schedule().build(),
+        None => Ok(problem),
+    };
     let problem = Problem::load(Path::new(&scene)).and_then(|problem| match set {
         Some(set) => problem.to_builder().change_strategies(|s| s.nodes(set.into())).build(),
         None => Ok(problem),
     });
+    let problem = problem.and_then(turns);
     let problem = problem.unwrap_or_else(|error| panic!("{error}"));
     let (costs, set_bytes) = measure(&problem, nodes);
     if let Some(network) = &mut machine.network {
@@ -283,8 +294,11 @@ fn run(
         .build();
     let setup = Setup::new(endless.unwrap_or_else(|error| panic!("{error}")));
     let sets = (12 * workers as u64).max(6 * u64::from(sets_per_round)).max(1000);
-    let mut core = Core::new(&setup, LOOKAHEAD_PER_WORKER * workers as u64);
-    let mut pool = VirtualPool::new(&setup, (costs, machine), workers, sets);
+    // With agents, as much more as a round trip takes of the work that a core is given at once.
+    let longer = machine.network.map_or(1.0, |network| 1.0 + 2.0 * network.latency / HELD_SECONDS);
+    let lookahead = (LOOKAHEAD_PER_WORKER as f64 * workers as f64 * longer).ceil() as u64;
+    let mut core = Core::new(&setup, lookahead);
+    let mut pool = VirtualStaff::new(&setup, (costs, machine), workers, sets);
     struct Nobody;
     impl Observer for Nobody {
         type Error = Infallible;
@@ -295,9 +309,9 @@ fn run(
     let elapsed = since(|spent| spent.now);
     let sets = (end.sets - warm.sets) as f64;
     let all = workers as f64 * elapsed;
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let jobs = machine.slower * (mean(&costs.generate) + mean(&costs.join));
-    let useful = sets * (jobs + costs.take_in + costs.fold);
+    // What the jobs of these sets took, not sets times the mean: their times differ, of a protein by orders of magnitude.
+    let checking = since(|spent| spent.jobs - spent.rounds - spent.evaluations);
+    let useful = checking + sets * (costs.take_in + costs.fold);
     let waiting = all - since(|spent| spent.jobs) - since(|spent| spent.copies);
     let busy = since(|spent| spent.coordinator) > BUSY * elapsed;
     let losses = [

@@ -121,11 +121,15 @@ impl Ends {
         self.goals().position(|goal| goal == end).map(|index| index + 1)
     }
 
+    /// How many goals there are.
+    pub(crate) fn goal_count(&self) -> u64 {
+        1 + self.other_goals.len() as u64
+    }
+
     /// The start, and the goal that a set which grows between the ends grows toward: each goal in turn, for two sets at a
     /// time, as some methods begin at either end in turn.
     pub(crate) fn of_set(&self, ordinal: Ordinal) -> [&[f64]; 2] {
-        let count = 1 + self.other_goals.len() as u64;
-        let index = (ordinal.0 / 2 % count) as usize;
+        let index = (ordinal.0 / 2 % self.goal_count()) as usize;
         let goal = index.checked_sub(1).map_or(&self.goal, |other| &self.other_goals[other]);
         [&self.start, goal]
     }

@@ -9,7 +9,7 @@ use fearless_simd::Level;
 #[cfg(target_arch = "aarch64")]
 pub(crate) use fearless_simd::aarch64::Neon as Baseline;
 #[cfg(target_arch = "x86_64")]
-pub(crate) use fearless_simd::x86::{Avx2, Sse2 as Baseline};
+pub(crate) use fearless_simd::x86::{Avx2, Avx512, Sse2 as Baseline};
 
 /// The instructions.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +19,9 @@ pub(crate) enum Lanes {
     /// AVX2, where the processor has it: eight lanes in one.
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
+    /// AVX-512, where the processor has it: sixteen lanes in one. It has AVX2, too, which is used where sixteen are too many.
+    #[cfg(target_arch = "x86_64")]
+    Avx512(Avx512, Avx2),
 }
 
 impl Lanes {
@@ -26,8 +29,10 @@ impl Lanes {
     pub(crate) fn widest() -> Lanes {
         let level = Level::new();
         #[cfg(target_arch = "x86_64")]
-        if let Some(avx2) = level.as_avx2() {
-            return Lanes::Avx2(avx2);
+        match (level.as_avx512(), level.as_avx2()) {
+            (Some(avx512), Some(avx2)) => return Lanes::Avx512(avx512, avx2),
+            (None, Some(avx2)) => return Lanes::Avx2(avx2),
+            (_, None) => {}
         }
         Lanes::baseline(level)
     }
@@ -39,6 +44,8 @@ impl Lanes {
         let all = std::iter::once(Lanes::baseline(level));
         #[cfg(target_arch = "x86_64")]
         let all = all.chain(level.as_avx2().map(Lanes::Avx2));
+        #[cfg(target_arch = "x86_64")]
+        let all = all.chain(matches!(Lanes::widest(), Lanes::Avx512(..)).then(Lanes::widest));
         all.collect()
     }
 
@@ -58,14 +65,27 @@ impl Lanes {
     }
 }
 
-/// Evaluates an expression with the token of the chosen instructions.
+/// Evaluates an expression with the token of the chosen instructions, of those that do at most eight numbers at once.
 macro_rules! with_lanes {
     ($lanes:expr, $simd:ident => $what:expr) => {
         match $lanes {
             $crate::lanes::Lanes::Baseline($simd) => $what,
             #[cfg(target_arch = "x86_64")]
-            $crate::lanes::Lanes::Avx2($simd) => $what,
+            $crate::lanes::Lanes::Avx2($simd) | $crate::lanes::Lanes::Avx512(_, $simd) => $what,
         }
     };
 }
-pub(crate) use with_lanes;
+
+/// Evaluates an expression with the token of the chosen instructions.
+macro_rules! with_widest_lanes {
+    ($lanes:expr, $simd:ident => $what:expr) => {
+        match $lanes {
+            $crate::lanes::Lanes::Baseline($simd) => $what,
+            #[cfg(target_arch = "x86_64")]
+            $crate::lanes::Lanes::Avx2($simd) => $what,
+            #[cfg(target_arch = "x86_64")]
+            $crate::lanes::Lanes::Avx512($simd, _) => $what,
+        }
+    };
+}
+pub(crate) use {with_lanes, with_widest_lanes};

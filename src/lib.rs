@@ -37,7 +37,9 @@ mod context;
 mod digest;
 mod lanes;
 
+pub mod clearance;
 pub mod connect;
+pub mod device_rate;
 pub mod evaluate;
 pub mod export;
 pub mod finder;
@@ -54,7 +56,9 @@ pub mod neighbor;
 pub mod numbers;
 pub mod pathways;
 pub mod problem;
+pub mod push;
 pub mod query;
+pub mod relaxation;
 pub mod replan;
 pub mod roadmap;
 
@@ -67,6 +71,7 @@ pub mod space;
 mod strategy;
 pub mod structure;
 pub mod survey;
+pub mod uniformity;
 
 use internal::{shelf, wire};
 

@@ -40,6 +40,11 @@ pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
+/// Natural logarithm of the gamma function, of a positive number.
+pub fn ln_gamma(x: f64) -> f64 {
+    libm::lgamma(x)
+}
+
 /// Angle of the vector `(x, y)` in radians, in `[-π, π]`.
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)

@@ -17,6 +17,9 @@ use serde::Serialize;
 use std::fmt;
 use std::ops::{Add, Range};
 
+/// The most nodes a roadmap may have: ids take 32 bits, and two more name start and goal.
+pub const NODES_MAX: u64 = u32::MAX as u64 - 2;
+
 /// Declares a number that counts from 0.
 macro_rules! number {
     ($(#[$about:meta])* $name:ident($integer:ty)) => {

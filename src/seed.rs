@@ -70,6 +70,16 @@ impl Seed {
         Seed { own, common: own, ordinal: Ordinal(0) }
     }
 
+    /// The base seed of the problem of a level of a relaxation, the one that is tried as this number: below 2⁶³, as a problem file
+    /// can say it.
+    pub(crate) fn base_of_level(base_seed: u64, number: u32) -> u64 {
+        let mut hasher = blake3::Hasher::new_derive_key("roadmill 1 level");
+        hasher.update(&base_seed.to_le_bytes());
+        hasher.update(&number.to_le_bytes());
+        let [a, b, c, d, e, f, g, h, ..] = *hasher.finalize().as_bytes();
+        u64::from_le_bytes([a, b, c, d, e, f, g, h]) >> 1
+    }
+
     /// The ordinal of the set within its label, so that sets can share out points that stand in a fixed
     /// order; 0 for an evaluator.
     pub fn ordinal(&self) -> Ordinal {

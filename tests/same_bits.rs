@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// The digests that each problem of `problems/` has always had. Whoever changes one bumps
 /// `BITS_VERSION`.
-const GOLDEN: [(&str, &str); 17] = [
+const GOLDEN: [(&str, &str); 18] = [
     ("adaptive", "7b9cc629fc41f79345ed2c2a5b9ea14cde7d5ca9d0a4fa4dc2af4b783ffb542c"),
     ("settled", "e237813a24ad6d78c4dcb301cff52da2071c63d2af6896d9d6e0d33f7ddd62fd"),
     ("judged", "148ea74428efe955e2f3f29c826322052c2015012556b1f3989553efbb0e742a"),
@@ -30,6 +30,7 @@ const GOLDEN: [(&str, &str); 17] = [
     ("directions", "c4e945f41b7930a5c2e23e3686a22e746d460589559d61f6a102db3eb81baed8"),
     ("neighbors", "26facc6f51fd778c8a175fbb28807799b419d1aaeec6ee04436882e7d5f51553"),
     ("retraction", "5381a3a0bfcf2a681111b9c6730bb57bd2a6101a51bf00362c1a076d10521b86"),
+    ("hints", "3dead538b59b75362a2158c3cdac26db3473559cf88e9f864881ae57d25a7a9d"),
 ];
 
 fn problem(name: &str) -> Problem {
@@ -57,9 +58,10 @@ fn the_digests_are_golden() {
 
 /// Where motions are looked at step by step, these problems have another roadmap, for motions that slip by between two
 /// steps.
-const SAMPLED: [(&str, &str); 2] = [
+const SAMPLED: [(&str, &str); 3] = [
     ("adaptive", "edb641a35628449ca03ff1220876420e42843852b23e47f63cded7db100775a0"),
     ("neighbors", "e1b770d6c048cb34a6e8dfe3977f1c01770054b85566dcf01039f52b3d3633f1"),
+    ("hints", "1d755b61303398b62a6f023029cf055d668704dcbde4e2d63d3070438a17d1a3"),
 ];
 
 #[test]

@@ -4,7 +4,7 @@
 //                                     writes a verdict (1 free, 0 blocked) a line
 //   race grow SCENE NODES K SEED      OMPL's PRM::growRoadmap to NODES nodes with K neighbours
 //   race solve SCENE QUERY SEED LIMIT PLANNER PATH
-//                                     OMPL's planner, `prm` or `rrt-connect`, from the first to the second
+//                                     OMPL's planner (prm, rrt-connect, kpiece, est, bit-star), from the first to the second
 //                                     configuration of the file QUERY, within LIMIT CPU seconds; writes the
 //                                     path, a configuration a line
 //   race count SCENE PAIRS            prints how many steps OMPL cuts each pair into by itself
@@ -26,7 +26,11 @@
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/geometric/planners/est/EST.h>
+#include <ompl/geometric/planners/kpiece/KPIECE1.h>
 #include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
@@ -225,7 +229,16 @@ static int race_solve(const Scene& scene, const std::shared_ptr<SE3>& space, con
   std::shared_ptr<ob::Planner> planner;
   if (name == "prm") planner = std::make_shared<ompl::geometric::PRM>(si);
   if (name == "rrt-connect") planner = std::make_shared<ompl::geometric::RRTConnect>(si);
-  if (!planner) fail("prm or rrt-connect expected");
+  if (name == "kpiece") planner = std::make_shared<ompl::geometric::KPIECE1>(si);
+  if (name == "est") planner = std::make_shared<ompl::geometric::EST>(si);
+  if (name == "bit-star") {
+    // Any path will do: without this BIT* would go on making the path shorter.
+    auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(si);
+    objective->setCostThreshold(objective->infiniteCost());
+    problem->setOptimizationObjective(objective);
+    planner = std::make_shared<ompl::geometric::BITstar>(si);
+  }
+  if (!planner) fail("prm, rrt-connect, kpiece, est or bit-star expected");
   planner->setProblemDefinition(problem);
   planner->setup();
   const double begun = process_seconds();

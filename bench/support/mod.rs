@@ -1,6 +1,7 @@
 //! What the benches share.
 #![allow(dead_code, reason = "each bench uses its part")]
 
+pub mod book;
 pub mod brute;
 pub mod edges;
 pub mod lists;
@@ -8,6 +9,7 @@ pub mod noting;
 pub mod panels;
 pub mod peer;
 pub mod plot;
+pub mod timing;
 
 use roadmill::Context;
 use roadmill::connect::AmongKind;
@@ -15,27 +17,15 @@ use roadmill::img::{Core, Cut, Judgement, Observer, Progress, Round, Serial, Set
 use roadmill::model::{Asked, Scratch};
 use roadmill::neighbor::k_nearest;
 use roadmill::numbers::Ordinal;
+use roadmill::query::Path;
 use roadmill::roadmap::{Configs, Tally};
 use roadmill::sampler::{Sampler, SamplerKind, Uniform};
 use roadmill::seed::Seed;
-use rustix::time::{ClockId, clock_gettime};
 use serde::de::DeserializeOwned;
 use std::collections::BTreeSet;
 use std::convert::Infallible;
 use std::sync::Arc;
-
-/// CPU seconds of this thread.
-pub fn cpu_seconds() -> f64 {
-    let time = clock_gettime(ClockId::ThreadCPUTime);
-    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
-}
-
-/// Sorts the values; the middle one, or the mean of the two in the middle.
-pub fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    if values.len() % 2 == 1 { values[middle] } else { 0.5 * (values[middle - 1] + values[middle]) }
-}
+pub use timing::{cpu_seconds, median};
 
 /// What a bench over scenes is asked for.
 pub struct Arguments {
@@ -103,6 +93,8 @@ pub struct Solved {
     pub seconds: f64,
     /// What was asked of validity checking: by all sets, joins and evaluations.
     pub asked: Asked,
+    /// The path that meets the query, if there is one.
+    pub path: Option<Path>,
 }
 
 /// Builds in this thread until all criteria are met or so many CPU seconds have gone by.
@@ -110,20 +102,22 @@ pub fn solve(setup: &Arc<Setup>, seconds: f64) -> Solved {
     let begun = cpu_seconds();
     let mut core = Core::new(setup, 0);
     let mut serial = Serial::new(setup.clone());
-    let mut watch = Watch { end: begun + seconds, asked: Asked::default() };
+    let mut watch = Watch { end: begun + seconds, asked: Asked::default(), path: None };
     let Ok(stop) = drive(&mut core, &mut serial, &mut watch);
     Solved {
         satisfied: stop == Stop::Satisfied,
         nodes: core.progress().nodes,
         seconds: cpu_seconds() - begun,
         asked: watch.asked,
+        path: watch.path,
     }
 }
 
-/// Counts what is asked, and ends a build when the thread's CPU time is up.
+/// Counts what is asked, keeps the path of the last evaluation, and ends a build when the thread's CPU time is up.
 struct Watch {
     end: f64,
     asked: Asked,
+    path: Option<Path>,
 }
 
 impl Observer for Watch {
@@ -139,6 +133,8 @@ impl Observer for Watch {
 
     fn judged(&mut self, judgement: &Judgement) -> Result<(), Infallible> {
         judgement.verdicts.iter().for_each(|verdict| self.asked += verdict.asked);
+        let mut answers = judgement.verdicts.iter().filter_map(|verdict| verdict.answer.as_ref());
+        self.path = answers.find_map(|answer| answer.path.clone());
         Ok(())
     }
 

@@ -8,6 +8,7 @@ mod job;
 mod orders;
 mod paths;
 mod problem;
+mod relax;
 mod replan;
 mod transition;
 mod view;
@@ -19,6 +20,7 @@ pub use job::JobArguments;
 pub use orders::{FormationArguments, OrdersArguments};
 pub use paths::{FrameFormat, PathsArguments, RankBy, ReportArguments, SearchArguments};
 pub use problem::{Bounds, Dh, Origin, ProblemArguments, Solid, Unit, Up};
+pub use relax::RelaxArguments;
 pub use replan::{KeptComponents, ReplanArguments};
 pub use transition::{ChainArguments, EndsArguments, TransitionArguments};
 pub use view::ViewArguments;
@@ -92,6 +94,9 @@ pub enum Command {
     /// Go on with a finished roadmap after obstacles have come, moved or gone
     #[command(allow_negative_numbers = true)]
     Replan(ReplanArguments),
+    /// Solve a problem that is too hard by way of easier versions of it, made harder again step by step
+    #[command(allow_negative_numbers = true)]
+    Relax(RelaxArguments),
     /// Look at structures of proteins
     #[command(subcommand)]
     Protein(ProteinCommand),
@@ -206,7 +211,7 @@ pub struct CrewArguments {
 /// Of `resume`.
 #[derive(Debug, Args)]
 pub struct ResumeArguments {
-    /// The run folder
+    /// The run folder, or that of a relaxation
     pub run: PathBuf,
     /// Open a chapter: go on by this problem's query, criteria, limits and schedule
     #[arg(long, value_name = "PROBLEM")]
@@ -221,7 +226,7 @@ pub struct ResumeArguments {
 /// Of `status`.
 #[derive(Debug, Args)]
 pub struct StatusArguments {
-    /// The run folder
+    /// The run folder, or that of a relaxation
     pub run: PathBuf,
     /// Go on until the build has ended
     #[arg(long)]
@@ -234,7 +239,7 @@ pub struct StatusArguments {
 /// Of `verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
-    /// The run folder
+    /// The run folder, or that of a relaxation
     pub run: PathBuf,
     /// Recompute a share of all sets and judgements, at least one set [default: 1%]
     #[arg(long, value_name = "PERCENT", value_parser = share)]
@@ -274,7 +279,7 @@ pub struct LogArguments {
 /// Of `query`.
 #[derive(Debug, Args)]
 pub struct QueryArguments {
-    /// The run folder
+    /// The run folder; of a relaxation the run of the level that was solved last
     pub run: PathBuf,
     /// Configuration where the path begins [default: the problem's start]
     #[arg(long, value_name = "CONFIGURATION", allow_hyphen_values = true)]
@@ -347,7 +352,7 @@ pub struct ImportArguments {
 /// Of `export`.
 #[derive(Debug, Args)]
 pub struct ExportArguments {
-    /// The run folder
+    /// The run folder; of a relaxation the run of the level that was solved last
     pub run: PathBuf,
     /// The format
     #[arg(long, value_parser = formats())]

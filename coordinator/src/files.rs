@@ -45,13 +45,45 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// A new file beside `path`, to be given its name once it is whole; removed if it never is. Its mode follows the
-/// umask, as that of any file which others may be meant to read.
+/// What ends the names of files that are to be given another name once they are whole, and how many letters and digits stand before it.
+const UNFINISHED: &str = ".tmp";
+const MARK: usize = 6;
+
+/// A new file beside `path`, to be given its name once it is whole; removed if it never is, unless the process is killed
+/// ([`remove_unfinished`]). Its mode follows the umask, as that of any file which others may be meant to read.
 pub(crate) fn beside(path: &Path) -> io::Result<NamedTempFile> {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".");
     let mode = Permissions::from_mode(0o666);
-    Builder::new().prefix(&name).permissions(mode).tempfile_in(folder_of(path))
+    let mut builder = Builder::new();
+    builder.prefix(&name).rand_bytes(MARK).suffix(UNFINISHED).permissions(mode);
+    builder.tempfile_in(folder_of(path))
+}
+
+/// Whether `found` is the name of an unfinished file that was to be given the name `name`.
+fn is_unfinished(found: &str, name: &str) -> bool {
+    let rest = found.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
+    let mark = rest.and_then(|rest| rest.strip_suffix(UNFINISHED));
+    mark.is_some_and(|mark| {
+        mark.len() == MARK && mark.bytes().all(|byte| byte.is_ascii_alphanumeric())
+    })
+}
+
+/// Whether an entry of a folder is what a process that was killed left of one of these files.
+pub(crate) fn is_unfinished_of(entry: &fs::DirEntry, names: &[&str]) -> bool {
+    let found = entry.file_name();
+    let found = found.to_str().filter(|_| entry.file_type().is_ok_and(|kind| kind.is_file()));
+    found.is_some_and(|found| names.iter().any(|name| is_unfinished(found, name)))
+}
+
+/// Removes what processes that were killed have left of these files in a folder. To be called by whoever alone writes them. What cannot be
+/// removed stays: it is in nobody's way.
+pub(crate) fn remove_unfinished(folder: &Path, names: &[&str]) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if is_unfinished_of(&entry, names) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
 }
 
 /// Gives the folder `new` a name that nothing has.
@@ -206,5 +238,27 @@ mod tests {
         assert!(writer.join().unwrap() && read.iter().all(|byte| *byte == b'x'));
         fs::remove_file(&pipe).unwrap();
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn what_the_killed_leave_of_a_file_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        // As it is left: a file that is never given its name.
+        beside(&at("out.csv")).unwrap().keep().unwrap();
+        let others = [
+            "out.csv",
+            "out.csv.backup",
+            "out.csv.a.tmp",
+            "out.csv.ab-def.tmp",
+            "my.csv.abcdef.tmp",
+        ];
+        others.iter().for_each(|name| fs::write(at(name), "mine").unwrap());
+        fs::create_dir(at("out.csv.abcdef.tmp")).unwrap();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 7);
+        remove_unfinished(folder.path(), &["out.csv", "in.csv"]);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 6);
+        assert!(others.iter().all(|name| at(name).is_file()));
+        remove_unfinished(&at("none"), &["out.csv"]);
     }
 }

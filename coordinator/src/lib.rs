@@ -22,7 +22,7 @@ mod waiting;
 pub mod work;
 
 pub use progress::Report as ProgressReport;
-pub use work::{Ended, Growth, Run, Selection, Workers};
+pub use work::{Ended, Growth, Relaxing, Run, Selection, Workers};
 
 use exit::{Code, Failure};
 use std::process::ExitCode;
@@ -74,6 +74,7 @@ fn run(command: cli::Command) -> Result<Code, Failure> {
         cli::Command::Transition(arguments) => commands::transition(&arguments),
         cli::Command::Fold(arguments) => commands::fold(&arguments),
         cli::Command::Replan(arguments) => commands::replan(&arguments),
+        cli::Command::Relax(arguments) => commands::relax(&arguments),
         cli::Command::Protein(command) => commands::protein(&command),
         cli::Command::Completions(arguments) => commands::completions(&arguments),
         cli::Command::Man(arguments) => commands::man(&arguments),

@@ -209,7 +209,7 @@ fn formats_that_are_not_there_are_refused() {
     let scratch = Scratch::new();
     let done = scratch.run(&["export", "run", "--format", "hologram", "--out", "out"]);
     done.assert_code(2);
-    done.assert_stderr(&["hologram", "graphml, csv, npz, map, pdb, dcd, xtc, svg, vtk"]);
+    done.assert_stderr(&["hologram", "graphml, csv, npz, map, pdb, dcd, xtc, svg, vtk, clearance"]);
     assert!(!scratch.path("out").exists());
 }
 

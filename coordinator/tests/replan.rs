@@ -208,10 +208,10 @@ fn a_killed_replanning_goes_on_and_writes_the_same_bytes() {
     let scratch = scratch();
     let sets = ["--max-sets", "600"];
     replan(&scratch, "undisturbed", &[&sets[..], &["--threads", "2"]].concat()).assert_code(0);
-    for (crew, rounds) in [(["--workers", "2"], 1), (["--threads", "2"], 40)] {
+    for (crew, rounds) in [(["--workers", "2"], 1), (["--threads", "2"], 10)] {
         let call = [&REPLAN[..], &["--out", "run", "--or-resume"], &sets[..], &crew].concat();
         let running = scratch.start(&call);
-        scratch.wait_for_rounds("run", rounds);
+        scratch.wait_for_rounds_or("run", rounds, || !running.is_alive());
         running.signal(Signal::KILL);
         running.finish();
     }

@@ -252,6 +252,11 @@ fn same_bits_for_trees_and_graphs_that_grow_by_steps() {
 }
 
 #[test]
+fn same_bits_for_hints_that_are_pushed_free() {
+    processes_build_what_threads_build("hints");
+}
+
+#[test]
 fn same_bits_for_a_turning_body_and_a_mesh() {
     same_bits_however_built(&RIGID_3D);
 }

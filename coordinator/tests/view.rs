@@ -2,6 +2,8 @@
 
 mod support;
 
+use roadmill::generator::{GeneratorKind, HintPath, Hints};
+use roadmill::problem::{Problem, StrategySpec};
 use rustix::process::Signal;
 use serde_json::Value;
 use std::fs;
@@ -56,6 +58,14 @@ fn a_page_is_written_where_the_user_is_with_both_paths_and_every_round() {
         ["sets", "nodes", "edges", "components"].map(|key| &summary[key])
     );
     assert!(data["live"].is_null());
+    // A hint is drawn from the start of the query, where the path begins.
+    let hand = &data["hand"];
+    assert_eq!((hand["translations"].as_u64(), hand["turns"].as_bool()), (Some(2), Some(true)));
+    let begins = |q: &Value| -> Vec<f64> {
+        q.as_array().expect("a list").iter().filter_map(Value::as_f64).collect()
+    };
+    let (start, first) = (begins(&hand["start"]["config"]), begins(&paths[0]["configs"][0]));
+    assert!(start.len() == 3 && start.iter().zip(&first).all(|(a, b)| (a - b).abs() < 1e-6));
     // The same run gives the same page, wherever it is written.
     scratch.run(&["view", "runs/m", "--no-open", "--out", "b.html"]).assert_code(0);
     assert_eq!(read(&scratch, "b.html"), page);
@@ -151,7 +161,7 @@ fn a_build_is_followed_by_who_knows_the_address_until_a_signal_comes() {
     drop(silent);
 }
 
-/// Opens pages in a browser, wide and narrow, points at nodes, clicks, drags and moves the controls: nothing goes wrong, what is
+/// Opens pages in a browser, wide and narrow, points at nodes, clicks, drags, moves the controls and draws a hint: nothing goes wrong, what is
 /// asked for is seen, and nothing is painted while nothing changes.
 #[test]
 fn pages_can_be_walked_around_in() {
@@ -177,13 +187,52 @@ fn pages_can_be_walked_around_in() {
         let rounds = data(&page)["roadmap"]["rounds"].as_u64().expect("a number");
         assert!(rounds > 1 || name == "gantry", "{name}");
         for size in ["1280,900", "400,800"] {
-            walk(&scratch, &page, &format!("{name} {size}"), size, rounds > 1);
+            let what = format!("{name} {size}");
+            let drawn = walk(&scratch, &page, &what, size, rounds > 1);
+            assert_eq!(drawn.is_none(), name == "gantry", "{what}: robots with a base that moves");
+            if let Some((hint, poses)) = drawn {
+                is_a_hint(&scratch, &file, &hint, &poses, &what);
+            }
         }
     }
 }
 
-/// Walks around in one page, in a window of a size; `grows` says whether the page has several rounds.
-fn walk(scratch: &Scratch, page: &str, what: &str, size: &str, grows: bool) {
+/// Whether the hint that was drawn in a page is read as it was drawn: the links stand at its last configuration where the page showed them.
+fn is_a_hint(scratch: &Scratch, problem: &str, hint: &str, poses: &str, what: &str) {
+    scratch.write("drawn.csv", hint);
+    let problem = Problem::load(&scratch.path(problem));
+    let problem = problem.unwrap_or_else(|error| panic!("{what}: {error}"));
+    let path = HintPath::of_file(scratch.path("drawn.csv").display().to_string());
+    let strategy = StrategySpec::generated("hints", GeneratorKind::Hints(Hints::new(path)));
+    let hinted = problem.to_builder().strategies(vec![strategy]).default_schedule().build();
+    let hinted = hinted.unwrap_or_else(|error| panic!("{what}: {error}"));
+    let GeneratorKind::Hints(hints) = hinted.strategies()[0].generator() else { unreachable!() };
+    let path = hints.all_paths().next().expect("it has one").configurations();
+    assert!(path.len() >= 5, "{what}: {hint}");
+    let figure = problem.model().description().figure().expect("it was drawn");
+    let expected = figure.placement(path.last().expect("it has some")).poses;
+    let found: Vec<f64> =
+        poses.split_whitespace().map(|word| word.parse().expect("a number")).collect();
+    assert_eq!(found.len(), 7 * expected.len(), "{what}");
+    for (found, expected) in found.chunks(7).zip(expected) {
+        // Of a unit quaternion and its opposite, which is the same rotation.
+        let sign = (0..4).map(|i| found[3 + i] * expected.rotation[i]).sum::<f64>().signum();
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-4;
+        let stands = (0..3).all(|i| near(found[i], expected.translation[i]));
+        let turned = (0..4).all(|i| near(sign * found[3 + i], expected.rotation[i]));
+        assert!(stands && turned, "{what}: {found:?}, not {expected:?}");
+    }
+}
+
+/// Walks around in one page, in a window of a size; `grows` says whether the page has several rounds. Gives the hint that was drawn there, and where
+/// the links stood in the end, seven numbers each; of a robot whose base stands there is none.
+fn walk(
+    scratch: &Scratch,
+    page: &str,
+    what: &str,
+    size: &str,
+    grows: bool,
+) -> Option<(String, String)> {
     let watched = page.replacen("<head>", &format!("<head><script>{WALK}</script>"), 1);
     scratch.write("watched.html", &watched);
     // A browser that never answers is a failure, not a test that never ends.
@@ -215,4 +264,11 @@ fn walk(scratch: &Scratch, page: &str, what: &str, size: &str, grows: bool) {
     assert_eq!((said("grown"), said("turned")), (&*grows.to_string(), "true"), "{what}: {root}");
     assert!(said("legend").contains(" to "), "{what}: {root}");
     assert_eq!((said("idle"), said("wide")), ("0", "false"), "{what}: {root}");
+    if said("hint").is_empty() {
+        return None;
+    }
+    assert_eq!((said("undone"), said("cleared")), ("true", "1 configuration"), "{what}: {root}");
+    assert!(said("kept").ends_with(" configurations") && !said("kept").starts_with("not"));
+    assert_eq!(said("widehint"), "false", "{what}: {root}");
+    Some((said("hint").to_owned(), said("poses").to_owned()))
 }

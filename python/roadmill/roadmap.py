@@ -319,7 +319,8 @@ class Roadmap:
 
     def export(self, file: str | os.PathLike[str], format: str | None = None) -> pathlib.Path:
         """Writes the roadmap for other programs and gives the file's path. The format is that of the file's extension
-        (`graphml`, `csv`, `npz`, `map`, `svg`, `vtk`, `pdb`, `dcd`, `xtc`) if none is named; docs/formats.md describes them."""
+        (`graphml`, `csv`, `npz`, `map`, `svg`, `vtk`, `pdb`, `dcd`,
+        `xtc`, `clearance`) if none is named; docs/formats.md describes them."""
         place = pathlib.Path(file)
         call("export", self.run, *options(format=format or place.suffix.removeprefix("."), out=place))
         return place

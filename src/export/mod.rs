@@ -20,6 +20,7 @@
 //! ```
 
 mod chimerax;
+mod clearance_csv;
 mod coarse;
 mod contours;
 mod csv;
@@ -78,6 +79,7 @@ pub const FORMATS: &[&dyn RoadmapFormat] = &[
     &xtc::Xtc,
     &svg::Svg,
     &vtk::Vtk,
+    &clearance_csv::ClearanceCsv,
 ];
 
 /// The name of the local planner that a tag stands for.

@@ -138,3 +138,32 @@ fn an_energy_is_drawn_by_its_contours_and_the_way_of_the_lowest_barrier() {
     assert_well_formed(&picture);
     assert!(count(&picture, "contour") > 5);
 }
+
+#[test]
+fn clearances_are_two_tables_of_bodies_among_obstacles() {
+    let few = "[limits]\nnodes = 20\n[[strategies]]\nlabel = \"few\"\nnodes = 20\nsampler = { uniform = {} }\n\
+               [img]\nsets_per_round = 1\n";
+    let (scene, _) = SHAPES.split_once("[query]").expect("it has a query");
+    let (setup, Grown { roadmap, .. }) = built("shapes.toml", &format!("{scene}{few}"));
+    let format = super::FORMATS.iter().find(|format| format.name() == "clearance").expect("it is");
+    let exported = super::Exported { problem: &setup.problem, roadmap: &roadmap, path: None };
+    let files = format.files(&exported).expect("bodies among obstacles");
+    let tables: Vec<&str> =
+        files.iter().map(|file| std::str::from_utf8(&file.contents).expect("text")).collect();
+    let numbers = |line: &str| -> Vec<f64> {
+        line.split(',').map(|field| field.parse().expect("a number")).collect()
+    };
+    let nodes: Vec<Vec<f64>> = tables[0].lines().skip(1).map(numbers).collect();
+    let edges: Vec<Vec<f64>> = tables[1].lines().skip(1).map(numbers).collect();
+    assert_eq!((nodes.len(), edges.len()), (roadmap.configs().len(), roadmap.edges().len()));
+    for edge in &edges {
+        let [low, high] = [0, 1].map(|end| nodes[edge[end] as usize][1]);
+        // length, least, mean
+        assert!(edge[3] <= low.min(high) && edge[3] <= edge[4] + 0.1 && edge[2] > 0.0, "{edge:?}");
+    }
+    let open = SHAPES.split("[[obstacles]]").next().expect("a beginning");
+    let problem =
+        Problem::parse(Path::new("open.toml"), &format!("{open}{few}")).expect("a problem");
+    let exported = super::Exported { problem: &problem, roadmap: &roadmap, path: None };
+    assert!(format.files(&exported).is_err());
+}

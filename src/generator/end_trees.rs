@@ -69,11 +69,24 @@ pub(super) fn grow_or_draw<'a>(
     let grown = grow_from_ends(&mut set, seed, query);
     let (cx, mut made) = (set.cx, set.made);
     if grown.is_err() {
-        let left = count - made.configs.len();
-        let rest = &seed.part(REST);
-        Uniform::default().sample(cx, rest, left, set.scratch, &mut made.configs)?;
+        draw_rest(cx, seed, count, set.scratch, &mut made)?;
     }
     Ok(made)
+}
+
+/// Draws what a set lacks of its `count` milestones uniformly.
+///
+/// # Errors
+/// [`GaveUp`] where nothing can be drawn.
+pub(super) fn draw_rest(
+    cx: &Context,
+    seed: &Seed,
+    count: usize,
+    scratch: &mut Scratch,
+    made: &mut Increment,
+) -> Result<(), GaveUp> {
+    let left = count - made.configs.len();
+    Uniform::default().sample(cx, &seed.part(REST), left, scratch, &mut made.configs)
 }
 
 impl Generator for EndTrees {

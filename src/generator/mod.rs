@@ -19,12 +19,18 @@
 //! # Ok::<(), roadmill::problem::ProblemError>(())
 //! ```
 
+mod bent_trees;
+mod contact_trees;
 mod elastic_growth;
 mod elastic_walk;
 mod end_trees;
 mod expansion_step;
 mod growth;
+mod hint_path;
+mod hinting;
+mod hints;
 mod interpolation;
+mod local_trees;
 mod mrrg;
 mod parent;
 mod retraction_trees;
@@ -33,6 +39,7 @@ mod rrg;
 mod rrt;
 mod rrt_connect;
 mod sample;
+mod sliding_trees;
 mod survivors;
 mod tree;
 
@@ -51,16 +58,26 @@ methods! {
         RrtConnect(rrt_connect::RrtConnect),
         Survivors(survivors::Survivors),
         EndTrees(end_trees::EndTrees),
-        RetractionTrees(retraction_trees::RetractionTrees), // new ones at the end, since ledgers know methods by number
+        RetractionTrees(retraction_trees::RetractionTrees),
+        Hints(hints::Hints),
+        ContactTrees(contact_trees::ContactTrees),
+        SlidingTrees(sliding_trees::SlidingTrees),
+        LocalTrees(local_trees::LocalTrees), // new ones at the end, since ledgers know methods by number
     }
 }
 
 pub use crate::finder::NeighborCount;
+pub use bent_trees::BentTrees;
+pub use contact_trees::ContactTrees;
 pub use elastic_growth::{ElasticGrowth, GrowthAim};
 pub use end_trees::EndTrees;
 pub use expansion_step::ExpansionStep;
 pub use growth::{FoundNeighbors, GraphNeighbors};
+pub use hint_path::HintPath;
+pub(crate) use hint_path::{CONFIGURATIONS_MAX, too_long};
+pub use hints::Hints;
 pub use interpolation::Interpolation;
+pub use local_trees::LocalTrees;
 pub use mrrg::Mrrg;
 pub use parent::{NoRuns, Parent, ParentRoadmap, ParentRun, Runs};
 pub use retraction_trees::RetractionTrees;
@@ -69,6 +86,7 @@ pub use rrg::Rrg;
 pub use rrt::Rrt;
 pub use rrt_connect::RrtConnect;
 pub use sample::Sample;
+pub use sliding_trees::SlidingTrees;
 pub use survivors::{Start, Survived, Survivors};
 pub use tree::Tree;
 
@@ -125,6 +143,11 @@ pub trait Generator {
     /// The same, to take the roadmap in.
     fn parent_mut(&mut self) -> Option<&mut Parent> {
         None
+    }
+
+    /// The approximate paths that the method goes by, to be read.
+    fn hint_paths_mut(&mut self) -> Vec<&mut HintPath> {
+        Vec::new()
     }
 
     /// Whether sets depend on the problem's query, see [`Sampler::reads_query`](crate::sampler::Sampler::reads_query).

@@ -84,12 +84,7 @@ impl Parent {
     /// Says what is wrong with the run: it cannot be read, has another ledger than was said, or another space.
     pub fn take_in(&mut self, runs: &dyn Runs, folder: &Path, space: &Space) -> Result<(), String> {
         if !self.roadmap.is_empty() {
-            let (found, expected) = (self.roadmap.dofs(), space.len());
-            return if found == expected {
-                Ok(())
-            } else {
-                Err(format!("configurations of {found} values found; {expected} expected"))
-            };
+            return self.fits(space);
         }
         let run = runs.read(&folder.join(&self.run))?;
         if let Some(expected) = self.ledger.filter(|expected| *expected != run.ledger) {
@@ -116,10 +111,50 @@ impl Parent {
         Ok(())
     }
 
+    /// Whether the roadmap that was taken in has configurations of as many values as those of a space.
+    ///
+    /// # Errors
+    /// Says how many were found and are expected.
+    pub(super) fn fits(&self, space: &Space) -> Result<(), String> {
+        let (found, expected) = (self.roadmap.dofs(), space.len());
+        match self.roadmap.is_empty() || found == expected {
+            true => Ok(()),
+            false => Err(format!(
+                "the roadmap of another run found, with configurations of {found} values; {expected} expected"
+            )),
+        }
+    }
+
     /// A run that was read by whoever makes the problem: where its folder is, the hash of its ledger, and its roadmap.
     pub(crate) fn of(run: &str, ledger: Digest, roadmap: &Roadmap) -> Parent {
         let roadmap = Arc::new(ParentRoadmap::of(roadmap));
         Parent { run: run.to_owned(), ledger: Some(ledger), roadmap }
+    }
+
+    /// The same with no more of the roadmap than the nodes that are kept, and the edges between these.
+    pub(crate) fn of_some(
+        run: &str,
+        ledger: Digest,
+        roadmap: &Roadmap,
+        mut keeps: impl FnMut(&[f64]) -> bool,
+    ) -> Parent {
+        let mut kept =
+            ParentRoadmap { dofs: roadmap.configs().dofs() as u32, ..Default::default() };
+        let mut numbers: Vec<Option<NodeId>> = Vec::new();
+        for q in roadmap.configs().iter() {
+            let number = keeps(q).then_some(NodeId(kept.len() as u32));
+            if number.is_some() {
+                kept.values.extend_from_slice(q);
+            }
+            numbers.push(number);
+        }
+        for edge in roadmap.edges().iter() {
+            if let (Some(low), Some(high)) = (numbers[edge.low.index()], numbers[edge.high.index()])
+            {
+                kept.edges.push([low, high]);
+            }
+        }
+        Parent { run: run.to_owned(), ledger: Some(ledger), roadmap: Arc::new(kept) }
     }
 
     /// The roadmap, empty until it is [taken in](Parent::take_in).

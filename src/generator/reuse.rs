@@ -100,6 +100,10 @@ impl Generator for Reuse {
         }
         Complaint::of_attempts(self.attempts, ATTEMPTS_MAX)
     }
+
+    fn suits(&self, cx: &Context) -> Result<(), String> {
+        self.parent.fits(&cx.space)
+    }
 }
 
 impl Reuse {

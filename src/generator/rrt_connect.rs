@@ -1,6 +1,6 @@
 use super::growth::{
-    Complaints, Exploration, Extension, GrowingSet, GrowingTree, calibrated, default_attempts,
-    explore, needs_query, step_of,
+    Complaints, Exploration, GrowingSet, GrowingTree, calibrated, default_attempts, explore,
+    needs_query, step_of,
 };
 use super::{ATTEMPTS_MAX, Generator, Reads};
 use crate::context::{Context, Ends};
@@ -11,6 +11,9 @@ use crate::sampler::GaveUp;
 use crate::seed::Seed;
 use bincode::{Decode, Encode};
 use serde::{Deserialize, Serialize};
+
+/// By how much of a step a tree that slides has to come nearer to a milestone of the other to go on toward it.
+const LEAST: f64 = 0.02;
 
 /// Two trees, from the query's start and from its goal, that grow toward each other until they meet (J. J. Kuffner,
 /// S. M. LaValle, *RRT-Connect: an efficient approach to single-query path planning*, ICRA 2000, Figures 2 and 5).
@@ -117,13 +120,10 @@ fn meet<'a>(
         set.attempt()?;
         let toward = one.draw(set);
         let near = one.nearest(set, &toward);
-        let extended = near.and_then(|near| set.extend(near, &toward).milestone());
-        if let Some(new) = extended {
-            one.add(set, new);
-            if connect(set, &mut other, new) {
-                one.unite(other);
-                break;
-            }
+        let extended = near.and_then(|near| one.extend(set, near, &toward).milestone());
+        if extended.is_some_and(|new| reach_for(set, &mut other, new)) {
+            one.unite(other);
+            break;
         }
         std::mem::swap(&mut one, &mut other);
     }
@@ -131,7 +131,7 @@ fn meet<'a>(
 }
 
 /// Extends a tree toward the milestone `target` of the other, step by step; whether it got there.
-fn connect(set: &mut GrowingSet, tree: &mut GrowingTree, target: u32) -> bool {
+pub(super) fn reach_for(set: &mut GrowingSet, tree: &mut GrowingTree, target: u32) -> bool {
     let q = set.config(target).to_vec();
     loop {
         let Some(near) = tree.nearest(set, &q) else { return false };
@@ -141,9 +141,16 @@ fn connect(set: &mut GrowingSet, tree: &mut GrowingTree, target: u32) -> bool {
         if set.is_full() {
             return false;
         }
-        match set.extend(near, &q) {
-            Extension::Advanced(new) | Extension::Reached(new) => tree.add(set, new),
-            Extension::Trapped => return false,
+        match tree.extend(set, near, &q).milestone() {
+            // A slide may come nearer by ever so little.
+            Some(new) if set.slides() => {
+                let left = set.cx.space.distance(set.config(new), &q);
+                if left > near.distance - LEAST * set.step.min(near.distance) {
+                    return false;
+                }
+            }
+            Some(_) => {}
+            None => return false,
         }
     }
 }

@@ -133,6 +133,10 @@ impl Generator for Survivors {
         }
         KNearest { neighbors: self.neighbors.into() }.complaint()
     }
+
+    fn suits(&self, cx: &Context) -> Result<(), String> {
+        self.parent.fits(&cx.space)
+    }
 }
 
 impl Survivors {

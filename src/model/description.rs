@@ -1,7 +1,7 @@
 use super::bodies::foreign::SceneOptions;
 use super::{
-    Figure, Model, ModelKind, Molecule, NodeValue, PoseFound, PoseGoal, SceneChange,
-    ValidityFunction,
+    CannotRelax, Figure, Model, ModelKind, Molecule, NodeValue, PoseFound, PoseGoal, Relaxation,
+    RelaxedModel, SceneChange, ValidityFunction,
 };
 use crate::digest::SourceFile;
 use crate::seed::Seed;
@@ -96,6 +96,20 @@ pub trait Description {
         _accept: &mut dyn FnMut(&mut [f64]) -> bool,
     ) -> Result<PoseFound, (&'static str, String)> {
         Err(("link", format!("`{}` found, but the model has no links; bodies expected", goal.link)))
+    }
+
+    /// The relaxation of a problem that names none, of a model that has a usual one.
+    fn usual_relaxation(&self) -> Option<Relaxation> {
+        None
+    }
+
+    /// The model with its constraints relaxed: an easier one of the same kind. `level` is at least 0, where it is easiest, and below 1:
+    /// at 1 the model is this one. What is promised of the motions of the relaxed model is what its own description says.
+    ///
+    /// # Errors
+    /// By which setting the model cannot be relaxed.
+    fn relaxed(&self, relaxation: &Relaxation, _level: f64) -> Result<RelaxedModel, CannotRelax> {
+        Err(CannotRelax::unknown(relaxation, "this model", "another model expected"))
     }
 
     /// How it is drawn, if it can be.

@@ -1,4 +1,5 @@
 use crate::scene::{Body, Pose};
+use crate::space::BaseJoint;
 
 /// The capability of a model that can be drawn: what pictures and animations show of it. Lengths are in the
 /// problem's unit, points in the world's frame.
@@ -14,6 +15,11 @@ pub trait Figure {
 
     /// The point by which a configuration is drawn.
     fn marker(&self, q: &[f64]) -> [f64; 3];
+
+    /// How the base of what is drawn moves, and with it everything else: its values come first in a configuration.
+    fn base(&self) -> BaseJoint {
+        BaseJoint::Fixed
+    }
 
     /// What stands still.
     fn obstacles(&self) -> &[Body] {

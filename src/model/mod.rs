@@ -22,14 +22,17 @@
 //! ```
 
 mod clearance;
+mod contact;
 mod cost;
 mod description;
 mod elasticity;
 mod figure;
 mod function;
+mod gap;
 mod molecule;
 mod pose_goal;
 mod reason;
+mod relaxation;
 mod scene_change;
 mod scratch;
 
@@ -38,18 +41,25 @@ pub mod landscape;
 pub mod protein;
 
 pub use bodies::foreign::SceneOptions;
-pub use clearance::{Clearance, Clearances};
+pub use clearance::{Approach, Clearance, Clearances, PartKind, SurfacePart, Witnesses};
+pub use contact::{Contact, Contacts};
 pub use cost::{Cost, Directed};
 pub use description::{Description, Documents, ForeignProblem};
 pub use elasticity::{Draw, Elastic};
 pub use figure::{Figure, Placement};
 pub use function::{FunctionFailed, JudgeConfigurations, ValidityFunction, with_functions};
+pub use gap::Gaps;
 pub use molecule::{Energies, Molecule};
 pub use pose_goal::{PoseFound, PoseGoal};
 pub use reason::{BodyName, Reason};
+pub use relaxation::{
+    CannotRelax, ExtraJoint, ExtraJointKind, HigherEnergy, Penetration, Relaxation, RelaxedModel,
+    ScaleAxes, ScaleCentre, ScaleObstacles, ScaleRobot, ThinRobot,
+};
 pub use scene_change::SceneChange;
 pub use scratch::{Asked, ModelScratch, Scratch};
 
+pub(crate) use bodies::foreign::{is_parasol_path, read_parasol_path};
 pub(crate) use description::{Resolve, import};
 pub(crate) use reason::{SOLE_LINK, link_named, out_of_range};
 
@@ -265,6 +275,13 @@ pub trait Model: Any + Send + Sync {
     /// Whether some configuration within the bounds could be invalid.
     fn is_obstructed(&self) -> bool;
 
+    /// A box, by its least and its largest corner, that holds the position of the robot's base wherever the robot may touch an
+    /// obstacle; of a planar robot the third coordinates are any. Outside of it all configurations within the bounds are valid. `None` where
+    /// that is not so, as some of the robot's links must not touch one another, or is not known. It may be infinite.
+    fn touching_box(&self) -> Option<[[f64; 3]; 2]> {
+        None
+    }
+
     /// What numbers every milestone of a roadmap carries, in the order of [`Model::values`].
     fn node_values(&self) -> &'static [NodeValue] {
         &[]
@@ -275,6 +292,16 @@ pub trait Model: Any + Send + Sync {
 
     /// Distances to obstacles, of a model that has them.
     fn clearances(&self) -> Option<&dyn Clearances> {
+        None
+    }
+
+    /// Where bodies meet and how they come apart, of a model that has bodies.
+    fn contacts(&self) -> Option<&dyn Contacts> {
+        None
+    }
+
+    /// Gaps of a robot and of obstacles, of a model that has both.
+    fn gaps(&self) -> Option<&dyn Gaps> {
         None
     }
 }

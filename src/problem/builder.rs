@@ -6,6 +6,7 @@ use super::{ConfigurationSpec, Problem, ProblemError, StrategySpec, resolve};
 use crate::evaluate::EvaluatorKind;
 use crate::generator::{NoRuns, Runs};
 use crate::model::ModelSpec;
+use crate::relaxation::Settings;
 use crate::schedule::Adaptive;
 use crate::source::Source;
 use std::path::PathBuf;
@@ -75,6 +76,10 @@ impl Problem {
         };
         let builder = match self.nodes_to_say() {
             Some(nodes) => builder.most_nodes(nodes),
+            None => builder,
+        };
+        let builder = match &self.relaxation {
+            Some(settings) => builder.relaxation(settings.clone()),
             None => builder,
         };
         match self.limits.seconds {
@@ -223,6 +228,13 @@ impl ProblemBuilder {
     /// A build in worker processes stops at the end of the first round after so many seconds.
     pub fn most_seconds(mut self, seconds: f64) -> ProblemBuilder {
         self.file.limits.seconds = Some(seconds);
+        self
+    }
+
+    /// How the problem is relaxed where it is too hard: see [`relaxation`](crate::relaxation). It changes nothing of what the problem
+    /// itself builds.
+    pub fn relaxation(mut self, settings: Settings) -> ProblemBuilder {
+        self.file.relaxation = Some(settings);
         self
     }
 

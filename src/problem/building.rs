@@ -1,7 +1,8 @@
 //! How the roadmap is built: strategies, schedule, limits and evaluators.
 
 use super::file::{File, PolicyTable, ScheduleTable};
-use super::{Limits, StrategySpec};
+use super::{Limits, Problem, StrategySpec};
+use crate::context::Context;
 use crate::evaluate::{self, EvaluatorKind};
 use crate::generator::Sample;
 use crate::methods::{BRACKETS_MAX, too_deep};
@@ -21,6 +22,7 @@ const DEFAULT_SETS_PER_ROUND: u64 = 5;
 pub(super) struct Sets {
     pub strategies: Vec<Strategy>,
     pub schedule: Vec<StrategyIndex>,
+    pub adaptive: Option<Adaptive>,
     pub sets_per_round: u32,
 }
 
@@ -112,49 +114,70 @@ pub(super) fn sets_of(source: &Source, file: &File) -> Result<Sets, ProblemError
         let message = format!("{sets} found; 1 to {SETS_PER_ROUND_MAX} expected");
         return Err(source.error(&[Key("img"), Key("sets_per_round")], message));
     }
-    Ok(Sets { strategies, schedule, sets_per_round: sets as u32 })
+    let adaptive = adaptive_of(source, file)?;
+    Ok(Sets { strategies, schedule, adaptive, sets_per_round: sets as u32 })
 }
 
 /// How the schedule adapts, if it does.
-pub(super) fn adaptive_of(source: &Source, file: &File) -> Result<Option<Adaptive>, ProblemError> {
+fn adaptive_of(source: &Source, file: &File) -> Result<Option<Adaptive>, ProblemError> {
     match &file.img.schedule {
         Some(ScheduleTable::Policy(PolicyTable::Adaptive(Adaptive { rounds: 0 }))) => {
             let message = "rounds = 0 found; at least 1 expected".to_owned();
             Err(source.error(&[Key("img"), Key("schedule")], message))
         }
         Some(ScheduleTable::Policy(PolicyTable::Adaptive(adaptive))) => Ok(Some(*adaptive)),
+        None if file.strategies.is_empty() => Ok(default_adaptive(file.query.is_some())),
         None | Some(ScheduleTable::Labels(_)) => Ok(None),
     }
 }
 
-/// The strategies of a problem that names none, and which of them makes the sets of each round.
+/// The strategies of a problem that names none, and which of them make its sets.
 ///
-/// Uniform sampling, and, if there is a query, in every fifth set trees from both its ends whose blocked extensions are bent aside. Each of the
+/// Uniform sampling, and, if there is a query, trees from both its ends whose blocked extensions slide along what blocks them. Each of the
 /// two solves queries that the other is long about, and both together many sooner than either (`docs/performance.md`, "Time to solve").
 fn default_strategies(has_trees: bool) -> (Vec<StrategySpec>, Vec<StrategyIndex>) {
     let (uniform, growing) = (StrategyIndex(0), StrategyIndex(1));
     match has_trees {
         false => (vec![StrategySpec::uniform()], vec![uniform]),
-        true => (
-            vec![StrategySpec::uniform(), StrategySpec::from_both_ends()],
-            vec![uniform, uniform, uniform, uniform, growing],
-        ),
+        true => {
+            (vec![StrategySpec::uniform(), StrategySpec::from_both_ends()], vec![uniform, growing])
+        }
     }
+}
+
+/// How the schedule over these strategies adapts: if there are several, none takes much more effort than another unless it unites more.
+fn default_adaptive(has_trees: bool) -> Option<Adaptive> {
+    has_trees.then(Adaptive::default)
 }
 
 /// The sets of a problem that says nothing of them.
 pub(super) fn default_sets(has_query: bool) -> Sets {
     let (specs, schedule) = default_strategies(has_query);
-    let strategy = |spec: StrategySpec| Strategy {
+    Sets {
+        strategies: specs.into_iter().map(strategy_of).collect(),
+        schedule,
+        adaptive: default_adaptive(has_query),
+        sets_per_round: DEFAULT_SETS_PER_ROUND as u32,
+    }
+}
+
+/// Adds to the strategies of a problem with a query that names none trees from gaps, where the robot and the obstacles have any.
+pub(super) fn add_gaps(problem: &mut Problem, cx: &Context) {
+    if problem.query.is_none() || cx.model.gaps().is_none() {
+        return;
+    }
+    let spec = StrategySpec::from_gaps();
+    problem.schedule.push(StrategyIndex(problem.strategies.len() as u32));
+    problem.strategies.push(strategy_of(spec));
+}
+
+/// A default strategy.
+fn strategy_of(spec: StrategySpec) -> Strategy {
+    Strategy {
         generator: spec.maker().expect("default strategies have a sampler or a generator"),
         label: spec.label,
         nodes: spec.nodes as u32,
         among: spec.among,
-    };
-    Sets {
-        strategies: specs.into_iter().map(strategy).collect(),
-        schedule,
-        sets_per_round: DEFAULT_SETS_PER_ROUND as u32,
     }
 }
 

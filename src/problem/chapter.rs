@@ -126,6 +126,7 @@ impl Problem {
             notes: _,
             sources: _,
             earlier: _,
+            relaxation: _,
         } = self;
         if *seed != other.seed {
             return Some(format!("the seed is {}, {seed} expected", other.seed));

@@ -1,8 +1,10 @@
 use super::Problem;
 use crate::generator::Sample;
 use crate::internal::plain::plain;
+use crate::model::Scratch;
 use crate::schedule::Adaptive;
 use crate::source::{setting, value};
+use crate::space::Space;
 use crate::strategy::Strategy;
 use std::fmt::Write;
 
@@ -51,6 +53,7 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         let (label, among) = (plain(label), value(among));
         let methods = format!("{makes}, among = {among}");
         writeln!(out, "strategy         {label}: {nodes} nodes per set, {}", plain(&methods))?;
+        write_hints(problem, strategy, out)?;
     }
     let labels: Vec<_> = problem
         .schedule
@@ -80,8 +83,42 @@ fn write_all(problem: &Problem, out: &mut String) -> std::fmt::Result {
         Some(seconds) => writeln!(out, ", {seconds} s")?,
         None => writeln!(out, ", any time")?,
     }
+    if let Some(settings) = &problem.relaxation {
+        writeln!(out, "relaxation       {}", plain(&value(settings)))?;
+    }
     for note in &problem.notes {
         writeln!(out, "chosen           {note}")?;
     }
     writeln!(out, "problem digest   {}", problem.digest())
+}
+
+/// A line for each approximate path of a strategy: what was read, and how much of it is valid as it is.
+fn write_hints(problem: &Problem, strategy: &Strategy, out: &mut String) -> std::fmt::Result {
+    let mut generator = strategy.generator.clone();
+    let paths = generator.method_mut().hint_paths_mut();
+    if paths.is_empty() {
+        return Ok(());
+    }
+    let (cx, scratch) = (problem.context(), &mut Scratch::new());
+    for path in paths {
+        let configurations = path.configurations();
+        let name = if path.file().is_empty() { "given in numbers" } else { path.file() };
+        let is_valid = |q: &&Vec<f64>| {
+            let mut q = q.to_vec();
+            cx.stored(&mut q).is_ok() && cx.model().is_valid(&q, scratch)
+        };
+        let (count, length) = (configurations.len(), length_of(cx.space(), configurations));
+        let valid = configurations.iter().filter(is_valid).count();
+        writeln!(
+            out,
+            "hint             {}: {count} configurations, of which {valid} are valid, {length:.4} long",
+            plain(name)
+        )?;
+    }
+    Ok(())
+}
+
+/// The length of a path in the metric.
+fn length_of(space: &Space, path: &[Vec<f64>]) -> f64 {
+    path.windows(2).map(|leg| space.distance(&leg[0], &leg[1])).fold(0.0, |sum, leg| sum + leg)
 }

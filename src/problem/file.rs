@@ -4,12 +4,13 @@
 use super::goals::GoalsSpec;
 use super::{ConfigurationSpec, StrategySpec};
 use crate::evaluate::EvaluatorKind;
+use crate::relaxation::Settings;
 use crate::schedule::Adaptive;
 use serde::Deserialize;
 
 /// The keys of a problem file that every model has.
-pub(super) const KEYS: [&str; 7] =
-    ["name", "seed", "query", "img", "strategies", "evaluators", "limits"];
+pub(super) const KEYS: [&str; 8] =
+    ["name", "seed", "query", "img", "strategies", "evaluators", "limits", "relaxation"];
 
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 pub(super) struct File {
@@ -23,6 +24,7 @@ pub(super) struct File {
     pub evaluators: Option<Vec<EvaluatorKind>>,
     #[serde(default)]
     pub limits: LimitsTable,
+    pub relaxation: Option<Settings>,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]

@@ -14,7 +14,8 @@ use std::path::Path;
 pub(super) fn problem_of(path: &Path, imported: ForeignProblem) -> Result<Problem, ProblemError> {
     let ForeignProblem { name, model, query, notes, sources } = imported;
     let notes = notes.iter().map(|note| plain(note).into_owned()).collect();
-    let Sets { strategies, schedule, sets_per_round } = building::default_sets(query.is_some());
+    let Sets { strategies, schedule, adaptive, sets_per_round } =
+        building::default_sets(query.is_some());
     let limits = Limits::left_open(&model.description().space());
     let mut problem = Problem {
         name,
@@ -24,7 +25,7 @@ pub(super) fn problem_of(path: &Path, imported: ForeignProblem) -> Result<Proble
         query: None,
         strategies,
         schedule,
-        adaptive: None,
+        adaptive,
         sets_per_round,
         evaluators: Vec::new(),
         limits,
@@ -32,6 +33,7 @@ pub(super) fn problem_of(path: &Path, imported: ForeignProblem) -> Result<Proble
         notes,
         sources,
         earlier: Vec::new(),
+        relaxation: None,
     };
     if let Some([mut start, mut goal]) = query {
         let cx = problem.context();
@@ -41,6 +43,7 @@ pub(super) fn problem_of(path: &Path, imported: ForeignProblem) -> Result<Proble
         problem.query = Some(Ends::new(start, goal));
         problem.evaluators = vec![EvaluatorKind::Query(Query::default())];
         let cx = problem.context();
+        building::add_gaps(&mut problem, &cx);
         for strategy in &mut problem.strategies {
             let calibrating = Seed::of_calibration(DEFAULT_SEED, &strategy.label);
             strategy.generator.method_mut().calibrate(&cx, &calibrating);

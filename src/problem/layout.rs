@@ -212,6 +212,7 @@ impl<S> Rest<S> {
             notes: self.notes,
             sources: self.sources,
             earlier: self.earlier,
+            relaxation: None,
         })
     }
 }

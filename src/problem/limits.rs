@@ -1,11 +1,10 @@
 //! The bounds at which a build stops without having met its criteria, and what they are where a problem leaves them
 //! open.
 
+pub use crate::numbers::NODES_MAX;
 use crate::space::Space;
 use bincode::{Decode, Encode};
 
-/// The most nodes a roadmap may have: ids take 32 bits, and two more name start and goal.
-pub const NODES_MAX: u64 = u32::MAX as u64 - 2;
 /// The limit on nodes of problems that left it open, before it went by memory: ledgers of that time have it.
 const FORMER_NODES: u64 = 100_000;
 /// Bytes of memory that a roadmap may take whose limit is left open. A constant, so that where a build ends does not

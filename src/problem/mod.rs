@@ -14,8 +14,11 @@ mod file;
 mod folding;
 mod function;
 mod goals;
+mod hint_files;
+mod hinted;
 mod import;
 mod layout;
+mod level;
 mod limits;
 mod poses;
 mod replan;
@@ -33,6 +36,7 @@ pub use configuration::{configuration, configuration_at_all};
 pub use ends::ConfigurationSpec;
 pub use folding::folding;
 pub use layout::Layout;
+pub use level::{EarlierLevel, NoLevel};
 pub use limits::{Limits, NODES_MAX};
 pub use poses::PoseSpec;
 pub use replan::{Components, OldRun, Replanned, Replanning};
@@ -47,6 +51,7 @@ use crate::generator::{NoRuns, Runs};
 use crate::model::{self, ModelKind, SceneOptions, ValidityFunction};
 use crate::numbers::StrategyIndex;
 use crate::query::Attachment;
+use crate::relaxation::Settings;
 use crate::scene::is_mesh_file;
 use crate::schedule::Adaptive;
 use crate::space::Space;
@@ -92,6 +97,9 @@ pub struct Problem {
     pub(crate) sources: Vec<SourceFile>,
     /// Of a build that was continued with another schedule: what came before, in order.
     pub(crate) earlier: Vec<EarlierSchedule>,
+    /// How the problem is relaxed where it is too hard, if it says so. It changes nothing of what the problem itself builds: it is no
+    /// part of the digest, and ledgers do not keep it.
+    pub(crate) relaxation: Option<Settings>,
 }
 
 impl Problem {
@@ -292,6 +300,8 @@ impl Problem {
     }
 }
 
+#[cfg(test)]
+mod level_tests;
 #[cfg(test)]
 mod soundness_tests;
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! From what a problem asks for to a checked problem.
 
-use super::building::{Sets, adaptive_of, evaluators_of, limits_of, sets_of};
+use super::building::{Sets, add_gaps, evaluators_of, limits_of, sets_of};
 use super::file::{File, KEYS};
+use super::hint_files::take_in_hints;
 use super::poses::ends_of;
 use super::{DEFAULT_SEED, Problem};
 use crate::context::Context;
@@ -9,7 +10,7 @@ use crate::generator::{Runs, Sample};
 use crate::internal::plain::plain;
 use crate::model::{ModelKind, ModelSpec};
 use crate::seed::Seed;
-use crate::source::Step::{Index, Key};
+use crate::source::Step::{self, Index, Key};
 use crate::source::{ProblemError, Source, fits};
 use crate::space::Space;
 use crate::strategy::Strategy;
@@ -39,9 +40,10 @@ pub(super) fn resolve(
     let name = name_of(&source, file)?;
     let model = ModelKind::resolve(model, &source, &mut notes)?;
     let notes = notes.iter().map(|note| plain(note).into_owned()).collect();
-    let Sets { mut strategies, schedule, sets_per_round } = sets_of(&source, file)?;
-    take_in_parents(&source, runs, &model.description().space(), &mut strategies)?;
-    let adaptive = adaptive_of(&source, file)?;
+    let Sets { mut strategies, schedule, adaptive, sets_per_round } = sets_of(&source, file)?;
+    let space = model.description().space();
+    take_in_parents(&source, runs, &space, &mut strategies)?;
+    take_in_hints(&source, &space, &mut strategies)?;
     let limits = limits_of(&source, file, &model.description().space())?;
     let evaluators = evaluators_of(&source, file)?;
     let seed = file.seed.unwrap_or(DEFAULT_SEED);
@@ -62,8 +64,16 @@ pub(super) fn resolve(
         notes,
         sources: Vec::new(),
         earlier: Vec::new(),
+        relaxation: None,
     };
-    let problem = accepted(&source, file, problem)?;
+    let mut problem = accepted(&source, file, problem)?;
+    if let Some(settings) = &file.relaxation {
+        let checked = problem.checked_relaxation(settings.clone());
+        problem.relaxation = Some(checked.map_err(|(keys, message)| {
+            let place: Vec<Step> = keys.into_iter().map(Key).collect();
+            source.error(&place, message)
+        })?);
+    }
     Ok(Problem { sources: source.files.into_inner(), ..problem })
 }
 
@@ -100,6 +110,9 @@ fn accepted(source: &Source, file: &File, mut problem: Problem) -> Result<Proble
     if let Some(query) = &file.query {
         problem.query = Some(ends_of(source, &cx, &mut problem, query)?);
         cx.query.clone_from(&problem.query);
+    }
+    if file.strategies.is_empty() && file.img.schedule.is_none() {
+        add_gaps(&mut problem, &cx);
     }
     let seed = problem.seed;
     for (index, strategy) in problem.strategies.iter_mut().enumerate() {

@@ -1,5 +1,5 @@
 use crate::connect::{AmongKind, UntilJoined, WithinKind};
-use crate::generator::{GeneratorKind, RetractionTrees, Sample};
+use crate::generator::{GeneratorKind, LocalTrees, Sample, SlidingTrees};
 use crate::sampler::SamplerKind;
 use crate::strategy::Strategy;
 use serde::Deserialize;
@@ -18,6 +18,10 @@ pub struct StrategySpec {
     #[serde(default)]
     pub(super) among: AmongKind,
 }
+
+/// From how many nodes of the roadmap on there are trees at gaps in a problem that names no strategies: most queries are solved by fewer, and those that are not
+/// lose little by it.
+const GAPS_AFTER: u64 = 4000;
 
 fn default_nodes() -> u64 {
     50
@@ -149,9 +153,17 @@ impl StrategySpec {
     /// The second strategy of a problem with a query that names none: trees from both ends. What they grow hangs at the ends
     /// already, so that it is joined to other components only.
     pub(super) fn from_both_ends() -> StrategySpec {
-        let trees = GeneratorKind::RetractionTrees(RetractionTrees::default());
-        StrategySpec::generated("rrt-connect", trees)
+        let trees = GeneratorKind::SlidingTrees(SlidingTrees::default());
+        StrategySpec::generated("trees", trees)
             .among(AmongKind::UntilJoined(UntilJoined::default()))
+    }
+
+    /// The third strategy of a problem with a query that names none, where the robot and the obstacles have gaps: trees from
+    /// places where a gap of the one is at a gap of the others.
+    pub(super) fn from_gaps() -> StrategySpec {
+        let trees =
+            GeneratorKind::LocalTrees(LocalTrees { after: GAPS_AFTER, ..LocalTrees::default() });
+        StrategySpec::generated("gaps", trees).among(AmongKind::UntilJoined(UntilJoined::default()))
     }
 
     /// What makes the sets: as `generator` says, or a sampler and a connection within sets, which stand in the

@@ -2,6 +2,7 @@ use super::*;
 use crate::model::bodies::Bodies;
 use crate::model::bodies::validity::MotionChecking;
 use crate::numbers::StrategyIndex;
+use crate::schedule::Adaptive;
 
 const WALLS: &str = include_str!("../../problems/walls.toml");
 
@@ -14,13 +15,15 @@ fn every_choice_is_noted_and_every_default_is_the_papers() {
     let problem = parse(WALLS).unwrap();
     assert_eq!((problem.name.as_str(), problem.seed), ("walls", DEFAULT_SEED));
     assert_eq!((problem.sets_per_round, problem.strategies[0].nodes), (5, 50));
-    // With a query trees grow from both its ends in every fifth set; without one there are uniform sets alone.
-    assert_eq!(problem.schedule, [0, 0, 0, 0, 1].map(StrategyIndex));
+    // With a query trees grow from both its ends, too; without one there are uniform sets alone.
+    assert_eq!(problem.schedule, [0, 1].map(StrategyIndex));
+    assert_eq!(problem.adaptive, Some(Adaptive::default()));
     let labels: Vec<_> = problem.strategies.iter().map(|strategy| strategy.label()).collect();
-    assert_eq!(labels, ["uniform", "rrt-connect"]);
+    assert_eq!(labels, ["uniform", "trees"]);
     let (aimless, _) = WALLS.split_once("[query]").expect("walls has a query");
     let aimless = parse(aimless).unwrap();
     assert_eq!((aimless.strategies.len(), aimless.schedule), (1, vec![StrategyIndex(0)]));
+    assert_eq!(aimless.adaptive, None);
     let described = problem.describe();
     for expected in
         ["x y z qw qx qy qz", "neighbors = 10", "components = 3, pairs = 10", "12 box", "chosen"]

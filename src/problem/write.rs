@@ -1,9 +1,13 @@
 //! A problem written out as a problem file that loads to the same problem.
 
 use super::Problem;
-use crate::generator::Sample;
+use super::hint_files::csv_of;
+use crate::digest::Digest;
+use crate::generator::{GeneratorKind, Sample};
 use crate::model::Documents;
+use crate::relaxation::Settings;
 use crate::source::{setting, value};
+use crate::space::Space;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -31,7 +35,7 @@ impl Problem {
         };
         head(self, &mut documents.text).expect("writing to memory cannot fail");
         self.model.description().write(&mut documents);
-        building(self, &mut documents.text).expect("writing to memory cannot fail");
+        building(self, &mut documents).expect("writing to memory cannot fail");
         Written { text: documents.text, files: documents.files }
     }
 }
@@ -56,7 +60,36 @@ fn head(problem: &Problem, out: &mut String) -> std::fmt::Result {
     Ok(())
 }
 
-fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
+/// The generator of a strategy whose approximate paths are written as files of their own, named by what they hold.
+fn with_hint_files(
+    generator: &GeneratorKind,
+    space: &Space,
+    documents: &mut Documents,
+) -> GeneratorKind {
+    let mut generator = generator.clone();
+    for path in generator.method_mut().hint_paths_mut() {
+        let csv = csv_of(path, space);
+        let digest = Digest::of(csv.as_bytes());
+        let named = documents.names.get(&digest).cloned();
+        let name = named.unwrap_or_else(|| {
+            let name = format!("hint-{}.csv", &digest.to_string()[..12]);
+            documents.files.push((name.clone(), csv));
+            documents.names.insert(digest, name.clone());
+            name
+        });
+        *path = path.named(format!("{}/{name}", documents.folder));
+    }
+    generator
+}
+
+fn building(problem: &Problem, documents: &mut Documents) -> std::fmt::Result {
+    let space = problem.space();
+    let generators: Vec<GeneratorKind> = problem
+        .strategies
+        .iter()
+        .map(|strategy| with_hint_files(&strategy.generator, &space, documents))
+        .collect();
+    let out = &mut documents.text;
     if let Some(query) = &problem.query {
         writeln!(out, "\n[query]\nstart = {:?}", query.start)?;
         match &query.other_goals[..] {
@@ -71,14 +104,14 @@ fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
         None => writeln!(out, "schedule = {}", value(&labels))?,
         Some(adaptive) => writeln!(out, "schedule = {{ adaptive = {} }}", value(adaptive))?,
     }
-    for strategy in &problem.strategies {
+    for (strategy, generator) in problem.strategies.iter().zip(&generators) {
         writeln!(out, "\n[[strategies]]\nlabel = {}", value(&strategy.label))?;
         writeln!(out, "nodes = {}", strategy.nodes)?;
-        match strategy.generator.as_sample() {
+        match generator.as_sample() {
             Some(Sample { sampler, within }) => {
                 writeln!(out, "sampler = {}\nwithin = {}", value(sampler), value(within))?;
             }
-            None => writeln!(out, "generator = {}", value(&strategy.generator))?,
+            None => writeln!(out, "generator = {}", value(generator))?,
         }
         writeln!(out, "among = {}", value(&strategy.among))?;
     }
@@ -94,8 +127,20 @@ fn building(problem: &Problem, out: &mut String) -> std::fmt::Result {
     if limits.sets != u64::MAX {
         writeln!(out, "sets = {}", limits.sets)?;
     }
-    match limits.seconds {
-        Some(seconds) => writeln!(out, "seconds = {seconds:?}"),
-        None => Ok(()),
+    if let Some(seconds) = limits.seconds {
+        writeln!(out, "seconds = {seconds:?}")?;
     }
+    if let Some(settings) = &problem.relaxation {
+        writeln!(out, "\n[relaxation]")?;
+        let Settings { kind, start, finest, levels, nodes, sets, paths } = settings;
+        if let Some(kind) = kind {
+            writeln!(out, "kind = {}", value(kind))?;
+        }
+        writeln!(out, "start = {start:?}\nfinest = {finest:?}\nlevels = {levels}")?;
+        writeln!(out, "nodes = {nodes}\npaths = {paths}")?;
+        if let Some(sets) = sets {
+            writeln!(out, "sets = {sets}")?;
+        }
+    }
+    Ok(())
 }

@@ -15,6 +15,7 @@
 //! ```
 
 mod attach;
+mod clearest;
 mod direct;
 mod goals;
 mod path;
@@ -23,6 +24,7 @@ mod shorten;
 mod ways;
 
 pub(crate) use attach::{attach, attach_for_good, once_nearest};
+pub use clearest::{ClearPath, Clearest, clearest};
 pub use goals::solve_any;
 pub use path::Path;
 pub use prepared::PreparedRoadmap;

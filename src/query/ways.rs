@@ -5,7 +5,7 @@ use crate::context::Context;
 use crate::local::{self, Planner};
 use crate::model::Scratch;
 use crate::numbers::NodeId;
-use crate::roadmap::{Edge, Graph, Roadmap, Route};
+use crate::roadmap::{Edge, EdgeCost, Graph, Roadmap, Route};
 use std::collections::BTreeSet;
 
 /// The ids that start and goal have beside a roadmap's nodes while a path is looked for: those that follow.
@@ -66,6 +66,13 @@ impl<'a> Ways<'a> {
         edges.extend(direct);
         let graph = Graph::new(end_ids(roadmap)[1].index() + 1, &edges);
         Ways { cx, roadmap, ends, edges, graph, passed, failed: BTreeSet::new() }
+    }
+
+    /// Searches by other costs than the edges have: `cost` gives that of each by its index. All are directed, or none.
+    pub(super) fn search_by(&mut self, cost: impl Fn(usize) -> EdgeCost) {
+        let changed = |(index, edge): (usize, &Edge)| Edge { cost: cost(index), ..*edge };
+        let edges: Vec<Edge> = self.edges.iter().enumerate().map(changed).collect();
+        self.graph = Graph::new(self.graph.nodes(), &edges);
     }
 
     /// The ids of the start and of the goal.

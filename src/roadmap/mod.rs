@@ -8,6 +8,7 @@ mod digest;
 mod edges;
 mod encoding;
 mod forest;
+mod grown;
 mod increment;
 mod indices;
 pub(crate) mod landmarks;
@@ -26,6 +27,7 @@ pub use components::Components;
 pub use edges::Edges;
 pub use encoding::Full;
 pub(crate) use forest::Forest;
+pub use grown::Grown;
 pub use increment::{Edge, EdgeCost, Increment, SetForm};
 pub use round::{Joined, Round, RoundSet};
 pub use search::{Graph, Route};
@@ -52,6 +54,7 @@ pub struct Roadmap {
     /// The numbers that the model gives every milestone.
     values: Vec<f64>,
     rounds: Vec<Extent>,
+    grown: Grown,
     tally: Tally,
     keeps_edges: bool,
     /// Where full blocks of nodes and edges, which never change any more, are kept for all replicas; `None` keeps
@@ -90,6 +93,7 @@ impl Roadmap {
             components: Components::default(),
             values: Vec::new(),
             rounds: Vec::new(),
+            grown: Grown::default(),
             tally: Tally::new(space),
             keeps_edges: true,
             shelf: None,
@@ -129,6 +133,7 @@ impl Roadmap {
         for SetToFold { increment, components, joins: edges } in sets {
             let first = self.configs.len() as u32;
             self.tally.add_set(increment, edges);
+            self.grown.add_set(increment);
             self.components.append(components);
             self.configs.extend(&increment.configs);
             if self.keeps_edges {
@@ -220,6 +225,11 @@ impl Roadmap {
     pub fn extent(&self) -> Extent {
         let (nodes, edges) = (self.configs.len(), self.edges.len());
         Extent { sets: self.sets(), nodes, edges }
+    }
+
+    /// Which nodes are of sets that grew from what was there.
+    pub fn grown(&self) -> &Grown {
+        &self.grown
     }
 
     /// How far the roadmap went at the end of each round.

@@ -82,6 +82,33 @@ impl Components {
         index.closest_pairs(space, first, &members, self.nodes(), count)
     }
 
+    /// The node of `component` nearest to `q` among those for which `is_meant` says so, ties by id.
+    pub fn nearest_member(
+        &self,
+        space: &Space,
+        configs: &Configs,
+        component: &Component,
+        q: &[f64],
+        is_meant: impl Fn(NodeId) -> bool,
+    ) -> Option<Neighbor> {
+        let meant = |id: &u32| is_meant(NodeId(*id));
+        let brute = || {
+            let ids = component.members.iter().copied().filter(meant);
+            neighbor::k_nearest(space, configs, ids, q, 1).into_iter().next()
+        };
+        if component.members.len() <= FEW_MEMBERS {
+            return brute();
+        }
+        let index = self.index(space, configs, 1);
+        let index = index.as_ref().expect("made");
+        if component.members.len() <= (self.nodes() - index.len()) as usize {
+            return brute();
+        }
+        let members = Members { configs, components: self, slot: self.slot_of(component.name) };
+        let meant = Meant { members, is_meant };
+        index.k_nearest(space, &meant, self.nodes(), q, 1).into_iter().next()
+    }
+
     /// The at most `count` components whose centres are nearest to `centre`, nearest first, ties by name. The id of
     /// each is the integer in its component's name.
     pub fn nearest(&self, space: &Space, centre: &[f64], count: usize) -> Vec<Neighbor> {
@@ -173,6 +200,26 @@ impl Searched for Members<'_> {
 
     fn label_is_eligible(&self, node: u32) -> Option<bool> {
         Some(self.is_eligible(node))
+    }
+}
+
+/// Those nodes of one component that are meant.
+struct Meant<'a, F> {
+    members: Members<'a>,
+    is_meant: F,
+}
+
+impl<F: Fn(NodeId) -> bool> Searched for Meant<'_, F> {
+    fn config(&self, node: u32) -> &[f64] {
+        self.members.config(node)
+    }
+
+    fn is_eligible(&self, node: u32) -> bool {
+        self.members.is_eligible(node) && (self.is_meant)(NodeId(node))
+    }
+
+    fn label_is_eligible(&self, node: u32) -> Option<bool> {
+        Some(false).filter(|_| !self.members.is_eligible(node))
     }
 }
 

@@ -140,6 +140,17 @@ fn check(space: &Space, roadmap: &Roadmap, queries: &Configs, some: u32, k: usiz
             closest_pairs(space, first, Subset { all: configs, ids: &component.members }, k);
         let found = components.closest_pairs(space, first, configs, component, k);
         assert_eq!(found, expected);
+
+        // Some nodes, few nodes, and none.
+        for every in [2, 50, u32::MAX] {
+            let is_meant = |node: NodeId| (node.0 ^ some).is_multiple_of(every);
+            for q in queries.iter() {
+                let ids = component.members.iter().copied().filter(|id| is_meant(NodeId(*id)));
+                let expected = k_nearest(space, configs, ids, q, 1).into_iter().next();
+                let found = components.nearest_member(space, configs, component, q, is_meant);
+                assert_eq!(found, expected);
+            }
+        }
     }
 }
 

@@ -19,14 +19,18 @@
 
 mod bridge;
 mod energy;
+mod gaps;
 mod gaussian;
 mod grid;
 mod halton;
 mod maprm;
 mod mix;
 mod obprm;
+mod retraction;
+mod segments;
 mod shares;
 mod torsion_noise;
+mod umaprm;
 mod uniform; // 1: the file
 mod uobprm;
 
@@ -44,6 +48,9 @@ methods! {
         Maprm(maprm::Maprm),
         Energy(energy::Energy),
         TorsionNoise(torsion_noise::TorsionNoise),
+        Retraction(retraction::Retraction),
+        Umaprm(umaprm::Umaprm),
+        Gaps(gaps::Gaps),
     }
 }
 
@@ -56,13 +63,16 @@ impl Default for SamplerKind {
 
 pub use bridge::Bridge;
 pub use energy::Energy;
+pub use gaps::Gaps;
 pub use gaussian::Gaussian;
 pub use grid::Grid;
 pub use halton::Halton;
 pub use maprm::Maprm;
 pub use mix::{Mix, Share};
 pub use obprm::{Obprm, Start};
+pub use retraction::Retraction;
 pub use torsion_noise::{About, CALIBRATED, FEASIBLE, TorsionNoise, WIDTHS};
+pub use umaprm::Umaprm;
 pub use uniform::Uniform;
 pub use uobprm::Uobprm;
 

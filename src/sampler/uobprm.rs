@@ -1,12 +1,15 @@
-use super::{GaveUp, Sampler, collect, collides, default_attempts, no_length, obstructed, zero};
+use super::segments::obstacle_surface::{ObstacleSurface, starts_near_obstacles};
+use super::segments::{self, Segments};
+use super::{GaveUp, Sampler, default_attempts, obstructed, zero};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::roadmap::Configs;
 use crate::seed::{Purpose, Seed};
-use bincode::{Decode, Encode};
+use bincode::de::{Decode, Decoder};
+use bincode::enc::{Encode, Encoder};
+use bincode::error::{DecodeError, EncodeError};
 use serde::{Deserialize, Serialize};
-use std::collections::VecDeque;
 
 /// Uniform obstacle-based sampling: milestones spread evenly over the surfaces of C-obstacles (H.-Y. Yeh,
 /// S. Thomas, D. Eppstein, N. M. Amato, *UOBPRM: A uniformly distributed obstacle-based PRM*, 2012;
@@ -17,10 +20,11 @@ use std::collections::VecDeque;
 /// within a step of the surface. A segment may give several milestones; those that a set no longer needs are dropped.
 /// A configuration out of bounds is taken as colliding if `bounds` says so, and else as neither free nor colliding.
 /// Segments start within the bounds widened by their length (§4.1.1), or surfaces near the bounds would be hit less
-/// often.
+/// often. With `adjusted_bounds` they start only from where they may come to an obstacle, which changes nothing of the
+/// distribution and takes fewer segments where the obstacles fill a small part of the bounds.
 ///
 /// Corners and slivers of obstacles thinner than a step may lie between two steps and are hit less often, too.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Uobprm {
     /// Length of a segment in the space's metric.
@@ -33,17 +37,48 @@ pub struct Uobprm {
     /// The most segments laid for one milestone.
     #[serde(default = "default_attempts")]
     pub attempts: u64,
+    /// Whether segments start within the obstacles' box widened by the robot's reach and the length, as far as that lies within the
+    /// bounds widened by the length. It makes no difference where links must not touch one another, nor where the bounds are to
+    /// collide, since then surfaces are not only near obstacles.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub adjusted_bounds: bool,
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 impl Uobprm {
     /// The method with the settings that have no defaults; the others have theirs.
     pub fn new(length: f64, step: f64) -> Uobprm {
-        Uobprm { length, step, bounds: false, attempts: default_attempts() }
+        let attempts = default_attempts();
+        Uobprm { length, step, bounds: false, attempts, adjusted_bounds: false }
     }
 }
 
-/// The most steps of a segment.
-const STEPS_MAX: f64 = 1e6;
+/// Two flags in one byte: 1 for `bounds`, which once was all that stood there, 2 for `adjusted_bounds`.
+impl Encode for Uobprm {
+    fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
+        self.length.encode(encoder)?;
+        self.step.encode(encoder)?;
+        (u8::from(self.bounds) | u8::from(self.adjusted_bounds) << 1).encode(encoder)?;
+        self.attempts.encode(encoder)
+    }
+}
+
+impl<Context> Decode<Context> for Uobprm {
+    fn decode<D: Decoder<Context = Context>>(decoder: &mut D) -> Result<Uobprm, DecodeError> {
+        let (length, step) = (f64::decode(decoder)?, f64::decode(decoder)?);
+        let flags = u8::decode(decoder)?;
+        if flags > 3 {
+            return Err(DecodeError::Other("flags of uobprm above 3"));
+        }
+        let attempts = u64::decode(decoder)?;
+        let (bounds, adjusted_bounds) = (flags & 1 != 0, flags & 2 != 0);
+        Ok(Uobprm { length, step, bounds, attempts, adjusted_bounds })
+    }
+}
+bincode::impl_borrow_decode!(Uobprm);
 
 impl Sampler for Uobprm {
     fn sample(
@@ -54,52 +89,18 @@ impl Sampler for Uobprm {
         scratch: &mut Scratch,
         out: &mut Configs,
     ) -> Result<(), GaveUp> {
-        let mut stream = seed.stream(Purpose::Sampling);
-        let wide = cx.space.widened(self.length);
-        let steps = (self.length / self.step) as u32;
-        let mut start = vec![0.0; cx.space.len()];
-        let mut last = start.clone();
-        let mut found: VecDeque<Vec<f64>> = VecDeque::new();
-        collect(count, self.attempts, out, |q| {
-            if found.is_empty() {
-                wide.sample_uniform(&mut stream, &mut start);
-                let direction = cx.space.direction(&mut stream);
-                let mut before = None;
-                let mut kept = false;
-                for i in 0..=steps {
-                    cx.space.along(&start, &direction, f64::from(i) * self.step, q);
-                    let now = collides(cx.model.validity(q, scratch), self.bounds);
-                    match (before, now) {
-                        // A free configuration between two that collide is a milestone once, not twice.
-                        (Some(false), Some(true)) if !kept => found.push_back(last.clone()),
-                        (Some(true), Some(false)) => found.push_back(q.to_vec()),
-                        _ => {}
-                    }
-                    kept = (before, now) == (Some(true), Some(false));
-                    before = now;
-                    last.copy_from_slice(q);
-                }
-            }
-            found.pop_front().is_some_and(|milestone| {
-                q.copy_from_slice(&milestone);
-                true
-            })
-        })
+        let Uobprm { length, step, bounds, attempts, adjusted_bounds } = *self;
+        let starts = match adjusted_bounds {
+            true => starts_near_obstacles(cx, length, bounds),
+            false => cx.space.widened(length),
+        };
+        let segments = Segments { space: &cx.space, starts, length, step, attempts };
+        let mut target = ObstacleSurface::new(cx, bounds);
+        segments.sample(&mut target, &mut seed.stream(Purpose::Sampling), count, scratch, out)
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        let lengths = no_length("length", self.length).or_else(|| no_length("step", self.step));
-        if lengths.is_some() {
-            return lengths;
-        }
-        if !(self.length / STEPS_MAX..=self.length).contains(&self.step) {
-            return Some(Complaint::new(
-                "step",
-                self.step,
-                "a millionth of the length up to the length",
-            ));
-        }
-        zero("attempts", self.attempts)
+        segments::complaint(self.length, self.step).or_else(|| zero("attempts", self.attempts))
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

@@ -1,6 +1,25 @@
 use super::{Direction, Factor, FactorKind, Space, quaternion};
 use crate::math;
 
+/// The shortest motion of a factor from one configuration to another in the factor's own unit: three numbers of a rotation, of any other factor
+/// one and two zeros.
+fn tangent_of(factor: &Factor, from: &[f64], to: &[f64]) -> [f64; 3] {
+    let at = factor.at;
+    match factor.kind {
+        FactorKind::Real { .. } => [to[at] - from[at], 0.0, 0.0],
+        FactorKind::Angle => [math::wrap_angle(to[at] - from[at]), 0.0, 0.0],
+        FactorKind::Rotation => {
+            let four = |q: &[f64]| [q[at], q[at + 1], q[at + 2], q[at + 3]];
+            quaternion::rotation_vector(four(from), four(to))
+        }
+    }
+}
+
+/// How many numbers of a tangent vector are a factor's.
+fn numbers_of(factor: &Factor) -> usize {
+    if factor.kind == FactorKind::Rotation { 3 } else { 1 }
+}
+
 impl Space {
     /// The displacement from `from` to `to`: the vector tangent to the space at `from` along which the shortest motion
     /// leaves it, whose length is the [distance](Space::distance) of the two.
@@ -25,20 +44,36 @@ impl Space {
     /// ```
     pub fn displacement(&self, from: &[f64], to: &[f64]) -> Direction {
         let components = |factor: &Factor| {
-            let at = factor.at;
-            let tangent = match factor.kind {
-                FactorKind::Real { .. } => [to[at] - from[at], 0.0, 0.0],
-                FactorKind::Angle => [math::wrap_angle(to[at] - from[at]), 0.0, 0.0],
-                FactorKind::Rotation => {
-                    let four = |q: &[f64]| [q[at], q[at + 1], q[at + 2], q[at + 3]];
-                    quaternion::rotation_vector(four(from), four(to))
-                }
-            };
-            tangent.map(|component| component * factor.weight)
+            tangent_of(factor, from, to).map(|component| component * factor.weight)
         };
         let factors: Vec<[f64; 3]> = self.factors.iter().map(components).collect();
         let square = factors.iter().flatten().map(|component| component * component).sum::<f64>();
         Direction { factors, size: square.sqrt() }
+    }
+
+    /// The vector by which [`Space::moved`] takes `from` to `to`: the [displacement](Space::displacement) in the factors' own
+    /// units, per real factor and angle one number, per rotation the three of a rotation vector in the frame of `from`.
+    ///
+    /// ```
+    /// use roadmill::space::{BaseJoint, rigid_space};
+    ///
+    /// let space = rigid_space(BaseJoint::Rigid2d, [0.0; 3], [9.0; 3], 2.0);
+    /// let by = space.tangent(&[1.0, 1.0, 3.0], &[1.0, 4.0, -3.0]);
+    /// assert_eq!(by[..2], [0.0, 3.0]);
+    /// let mut there = [0.0; 3];
+    /// space.moved(&[1.0, 1.0, 3.0], &by, &mut there);
+    /// assert!(space.distance(&there, &[1.0, 4.0, -3.0]) < 1e-12);
+    /// ```
+    pub fn tangent(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
+        let of_factor =
+            |factor: &Factor| tangent_of(factor, from, to).into_iter().take(numbers_of(factor));
+        self.factors.iter().flat_map(of_factor).collect()
+    }
+
+    /// Per number of [`Space::moved`] its weight in the metric: 1 for a length, the length that a radian counts as for a turn.
+    pub fn tangent_weights(&self) -> Vec<f64> {
+        let weights = |factor: &Factor| std::iter::repeat_n(factor.weight, numbers_of(factor));
+        self.factors.iter().flat_map(weights).collect()
     }
 
     /// The configuration that `q` becomes when it moves along a vector tangent to the space there, in the factors' own units:
@@ -75,6 +110,20 @@ impl Direction {
     /// The vector's length; that of a [displacement](Space::displacement) is a length in the scene's unit.
     pub fn length(&self) -> f64 {
         self.size
+    }
+
+    /// The direction that lies between this one and another: the sum of both as unit vectors, the other one times `share`. Without length, either is
+    /// none, and the sum is the other.
+    pub(crate) fn bent(&self, aside: &Direction, share: f64) -> Direction {
+        let unit = |direction: &Direction| match direction.size > 0.0 {
+            true => 1.0 / direction.size,
+            false => 0.0,
+        };
+        let (own, others) = (unit(self), unit(aside) * share);
+        let sum = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|i| a[i] * own + b[i] * others);
+        let factors: Vec<[f64; 3]> = self.factors.iter().zip(&aside.factors).map(sum).collect();
+        let square = factors.iter().flatten().map(|component| component * component).sum::<f64>();
+        Direction { factors, size: square.sqrt() }
     }
 
     /// The angle between two vectors tangent to the space at the same configuration, in radians, in `[0, π]`; `None` where

@@ -201,6 +201,24 @@ impl Space {
         wide
     }
 
+    /// The same space with the intervals of the base's position no longer than those of a box, each longer by `length`, in the metric, at
+    /// either end. An interval that would be empty stays as it is.
+    pub(crate) fn narrowed(&self, [low, high]: [[f64; 3]; 2], length: f64) -> Space {
+        let mut narrow = self.clone();
+        for (axis, factor) in narrow.factors.iter_mut().take(self.translations).enumerate() {
+            if let FactorKind::Real { min, max } = &mut factor.kind
+                && factor.weight > 0.0
+            {
+                let by = length / factor.weight;
+                let (from, to) = (min.max(low[axis] - by), max.min(high[axis] + by));
+                if from <= to {
+                    (*min, *max) = (from, to);
+                }
+            }
+        }
+        narrow
+    }
+
     /// Whether every real value lies in its interval.
     pub fn within_bounds(&self, q: &[f64]) -> bool {
         self.factors.iter().all(|factor| match factor.kind {

@@ -12,7 +12,7 @@ use roadmill::internal::wire;
 use roadmill::roadmap::Digest;
 use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
 use std::convert::Infallible;
-use std::fs::Metadata;
+use std::fs::{File, Metadata};
 use std::io::{self, Write};
 use std::os::unix::fs::MetadataExt;
 use std::path::PathBuf;
@@ -113,10 +113,13 @@ impl SharedData for SharedMemory {
 
 /// Which file the running executable is: see [`build_id_of`].
 ///
+/// The file is opened and then asked, as whoever starts workers does: an emulator of another processor, such as
+/// `qemu-aarch64`, opens the program at this name, but asked about the name it tells of itself.
+///
 /// # Errors
 /// When it cannot be found.
 pub fn build_id() -> io::Result<Digest> {
-    Ok(build_id_of(&std::fs::metadata("/proc/self/exe")?))
+    Ok(build_id_of(&File::open("/proc/self/exe")?.metadata()?))
 }
 
 /// Which file an executable is: digest of the numbers of its device and of the file, its length and when it

@@ -181,6 +181,17 @@ const EXAMPLES: &[(&[&str], &[Example])] = &[
     ),
     (&["fold"], &[("Protein G", "roadmill fold 1PGA.pdb --out runs/g")]),
     (
+        &["relax"],
+        &[
+            (
+                "Take a part out that a build finds no way for",
+                "roadmill relax removal.toml --out runs/removal",
+            ),
+            ("Go on after any crash", "roadmill resume runs/removal"),
+            ("Check the levels and the decisions between them", "roadmill verify runs/removal"),
+        ],
+    ),
+    (
         &["replan"],
         &[("Go on where an obstacle has come", "roadmill replan runs/a --with changed.toml")],
     ),

@@ -57,7 +57,7 @@ impl SearchArguments {
 /// Of `paths`.
 #[derive(Debug, Args)]
 pub struct PathsArguments {
-    /// The run folder
+    /// The run folder; of a relaxation the run of the level that was solved last
     pub run: PathBuf,
     #[command(flatten)]
     pub search: SearchArguments,
@@ -83,7 +83,7 @@ pub struct PathsArguments {
 /// Of `report`.
 #[derive(Debug, Args)]
 pub struct ReportArguments {
-    /// The run folder
+    /// The run folder; of a relaxation the run of the level that was solved last
     pub run: PathBuf,
     /// The page to be written, for any browser; docs/report.md says what it shows
     #[arg(long, value_name = "FILE.html")]

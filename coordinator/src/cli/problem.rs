@@ -42,6 +42,9 @@ pub struct ProblemArguments {
     /// The group of the .srdf file whose joints move; all others are locked [default: all joints move]
     #[arg(long, value_name = "NAME")]
     pub group: Option<String>,
+    /// An approximate path for the strategy `hints`: CSV as `query` writes it, or a Parasol .path (docs/hints.md); several, those trusted most first
+    #[arg(long, value_name = "FILE")]
+    pub hint: Vec<PathBuf>,
 }
 
 /// Whether insides are material.

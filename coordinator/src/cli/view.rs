@@ -6,7 +6,7 @@ use std::path::PathBuf;
 /// Of `view`.
 #[derive(Debug, Args)]
 pub struct ViewArguments {
-    /// The run folder
+    /// The run folder; of a relaxation the run of the level that was solved last
     pub run: PathBuf,
     /// The page to be written [default: NAME-view.html in the current folder, NAME being the run folder's name]
     #[arg(long, value_name = "FILE.html")]

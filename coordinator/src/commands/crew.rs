@@ -73,8 +73,7 @@ pub(super) fn checked(option: &str, workers: Option<usize>) -> Result<usize, Fai
 
 /// Grows a roadmap and says how it goes and what came of it; the exit code.
 pub(super) fn grow(growth: Growth, json: bool) -> Result<Code, Failure> {
-    let telling = Telling { json, reporter: None, is_late: false, is_surveyed: false };
-    let ended = growth.watch(telling).grow()?;
+    let ended = growth.watch(Telling::new(json)).grow()?;
     let Some(summary) = ended.summary() else { return say_finished(&ended, json) };
     if ended.stopped().gave_up() {
         say_survey(ended.problem());
@@ -157,7 +156,7 @@ fn say_finished(ended: &Ended, json: bool) -> Result<Code, Failure> {
 }
 
 /// Tells people, or with `--json` programs, how a build goes.
-struct Telling {
+pub(super) struct Telling {
     json: bool,
     /// From the beginning of the build on.
     reporter: Option<Reporter>,
@@ -165,6 +164,12 @@ struct Telling {
     is_late: bool,
     /// Whether it was said why there are no milestones yet.
     is_surveyed: bool,
+}
+
+impl Telling {
+    pub fn new(json: bool) -> Telling {
+        Telling { json, reporter: None, is_late: false, is_surveyed: false }
+    }
 }
 
 impl Watch for Telling {

@@ -1,4 +1,5 @@
 use super::place::check_place;
+use super::solved::run_in;
 use super::view::SHORTEN_TRIES;
 use crate::cli::ExportArguments;
 use crate::exit::{Code, Failure};
@@ -16,7 +17,7 @@ pub fn export(arguments: &ExportArguments) -> Result<Code, Failure> {
         let message = format!("--view: --format {} found, svg expected", arguments.format);
         return Err(Failure::usage(message));
     }
-    let Ledger { problem, roadmap, mut path, .. } = Ledger::read(&arguments.run)?;
+    let Ledger { problem, roadmap, mut path, .. } = Ledger::read(&run_in(&arguments.run)?)?;
     if arguments.shorten {
         path =
             path.map(|path| shorten(&problem.context(), &path, SHORTEN_TRIES, &mut Scratch::new()));

@@ -46,7 +46,8 @@ pub(super) fn load(arguments: &ProblemArguments) -> Result<Problem, Failure> {
         group: arguments.group.as_deref(),
     };
     let load = || Problem::load_with(&arguments.file, &options, &Ledgers);
-    waiting("reading the problem", load).map_err(Failure::usage)
+    let problem = waiting("reading the problem", load).map_err(Failure::usage)?;
+    problem.with_hints(&arguments.hint).map_err(Failure::usage)
 }
 
 /// Reads a problem file of our own.

@@ -1,10 +1,10 @@
-use super::bounded::bounded;
+use super::solved::run_in;
 use crate::cli::{FormationArguments, OrdersArguments};
 use crate::exit::{Code, Failure};
 use crate::files::{make_empty, write_whole};
 use crate::output::{line, note};
 use crate::signals::Signals;
-use crate::work::{Recorded, Run};
+use crate::work::{Recorded, Run, bounded};
 use roadmill::Cancel;
 use roadmill::evaluate::{EvaluatorKind, FormationOrder};
 use roadmill::folding::{Formation, Native, Settings};
@@ -17,7 +17,7 @@ const PRINTED: usize = 10;
 
 /// Says in which order the parts of a protein's native structure form, over all pathways of a run's roadmap.
 pub fn orders(arguments: &OrdersArguments) -> Result<Code, Failure> {
-    let run = Run::at(&arguments.run).read()?;
+    let run = Run::at(run_in(&arguments.run)?).read()?;
     let (native, settings) = (native(&run)?, settings(&run, &arguments.formation));
     if let Some(folder) = &arguments.out {
         make_empty(folder)?;
@@ -74,7 +74,7 @@ impl OwnFormation {
     ) -> Result<OwnFormation, Failure> {
         let settings = settings(run, &FormationArguments::default());
         let follow = |cancel: &Cancel| formation(run, &native, &settings, cancel);
-        let formation = bounded(signals, max_time, follow)?;
+        let formation = bounded(|| signals.came(), max_time, follow)?;
         Ok(OwnFormation { native, settings, formation })
     }
 

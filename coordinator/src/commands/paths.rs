@@ -1,11 +1,11 @@
-use super::bounded::bounded;
 use super::search::Asked;
+use super::solved::run_in;
 use crate::cli::{FrameFormat, PathsArguments};
 use crate::exit::{Code, Failure};
 use crate::files::{make_empty, write_whole};
 use crate::output::{line, note};
 use crate::signals::Signals;
-use crate::work::Run;
+use crate::work::{Run, bounded};
 use roadmill::Cancel;
 use roadmill::export::{CannotExport, chimerax, dcd, path_csv, pdb, pymol, xtc};
 use roadmill::pathways::{FrameTable, Pair, Pathway, Pathways};
@@ -17,7 +17,7 @@ use std::time::Instant;
 /// Finds several ways through the roadmap of a run, prints what each comes to and how far they are apart, and writes them. A signal or
 /// a limit of time ends the search; what was found by then is printed and written all the same.
 pub fn paths(arguments: &PathsArguments) -> Result<Code, Failure> {
-    let run = Run::at(&arguments.run).read()?;
+    let run = Run::at(run_in(&arguments.run)?).read()?;
     match run.stopped() {
         None => note("the build has not ended; its complete rounds are searched"),
         Some(stopped) => note(format_args!("the build ended: {}", stopped.reason)),
@@ -34,7 +34,7 @@ pub fn paths(arguments: &PathsArguments) -> Result<Code, Failure> {
         true => asked.find_distinct(cancel),
         false => asked.find(arguments.dissimilar, cancel).map(|found| (found, Vec::new())),
     };
-    let (found, classes) = bounded(&signals, arguments.max_time, search)??;
+    let (found, classes) = bounded(|| signals.came(), arguments.max_time, search)??;
     let seconds = begun.elapsed().as_secs_f64();
     if found.dropped_edges > 0 {
         note(format_args!(

@@ -1,6 +1,7 @@
 use super::asker::{Asker, TimedAnswer};
 use super::batch;
 use super::place::{check_page, check_place};
+use super::solved::run_in;
 use crate::cli::QueryArguments;
 use crate::exit::{Code, Failure};
 use crate::files::{expect_folder, write_out, write_whole};
@@ -18,7 +19,7 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
     let folder = arguments.out.as_ref().filter(|_| arguments.queries.is_some());
     folder.map_or(Ok(()), |folder| expect_folder("--out", folder))?;
     arguments.animate.as_ref().map_or(Ok(()), |file| check_page("--animate", file))?;
-    let run = Run::at(&arguments.run).read()?;
+    let run = Run::at(run_in(&arguments.run)?).read()?;
     match run.stopped() {
         None => note("the build has not ended; its complete rounds are searched"),
         Some(stopped) => note(format_args!("the build ended: {}", stopped.reason)),

@@ -1,4 +1,3 @@
-use super::bounded::bounded;
 use super::build::{bounded_problem, grow_in};
 use super::load::load_file;
 use super::search::{TRIES, usual_distance, usual_spacing};
@@ -9,7 +8,7 @@ use crate::output::{note, told};
 use crate::run::ledger::LEDGER;
 use crate::run::{RunFolder, Scan};
 use crate::signals::Signals;
-use crate::work::{Recorded, Run};
+use crate::work::{Recorded, Run, bounded};
 use roadmill::model::{SceneChange, Scratch};
 use roadmill::pathways::{Dissimilar, Pathways, Rank, dissimilar_unshortened};
 use roadmill::problem::{Components, OldRun, Problem, Replanned, Replanning};
@@ -72,7 +71,8 @@ pub fn replan(arguments: &ReplanArguments) -> Result<Code, Failure> {
     };
     // A signal ends it; a limit of time does not, since what is left of the roadmap is the one round that is made in any case.
     let look = |cancel: &Cancel| problem.replanned_until(&old_run, &asked, cancel);
-    let replanned = bounded(&signals, None, look)?.map_err(|error| refuse(error.to_string()))?;
+    let replanned =
+        bounded(|| signals.came(), None, look)?.map_err(|error| refuse(error.to_string()))?;
     let replanned = replanned.ok_or_else(interrupted)?;
     say_survivors(&old, &replanned, revalidated.elapsed().as_secs_f64(), say);
     expect_none_came(&signals)?;
@@ -205,7 +205,7 @@ fn say_paths(
     }
     let (begun, scratch) = (Instant::now(), &mut Scratch::new());
     let look = |cancel: &Cancel| old_paths(old, problem, ends, count, cancel, scratch);
-    let found = bounded(signals, seconds, look)??;
+    let found = bounded(|| signals.came(), seconds, look)??;
     let cx = problem.context();
     let mut revalidation = Revalidation::new(&cx, change);
     let mut valid = Vec::new();

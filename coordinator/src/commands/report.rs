@@ -1,13 +1,13 @@
-use super::bounded::bounded;
 use super::orders::{OwnFormation, native_of};
 use super::place::check_page;
 use super::search::Asked;
+use super::solved::run_in;
 use crate::cli::{ReportArguments, SearchArguments};
 use crate::exit::{Code, Failure};
 use crate::files::write_whole;
 use crate::output::note;
 use crate::signals::Signals;
-use crate::work::{Recorded, Run};
+use crate::work::{Recorded, Run, bounded};
 use roadmill::export::{Folding, Report, report as page};
 use roadmill::folding::examples;
 use roadmill::model::Scratch;
@@ -20,7 +20,7 @@ use std::time::Instant;
 /// A signal ends it without a page. A limit of time ends the search for paths; the page then says so.
 pub fn report(arguments: &ReportArguments) -> Result<Code, Failure> {
     check_page("--out", &arguments.out)?;
-    let run = Run::at(&arguments.run).read()?;
+    let run = Run::at(run_in(&arguments.run)?).read()?;
     // Until here a signal ends the process at once, as nothing is written yet.
     let signals = Signals::listen().map_err(Failure::system)?;
     report_on(&run, arguments, &signals)
@@ -153,8 +153,11 @@ fn shown_between(
 ) -> Result<Shown, Failure> {
     let asked = Asked::of(run, &arguments.search)?;
     let distance = arguments.dissimilar.unwrap_or_else(|| asked.usual_distance());
-    let found =
-        bounded(signals, arguments.max_time, |cancel| asked.find(Some(Some(distance)), cancel))??;
+    let found = bounded(
+        || signals.came(),
+        arguments.max_time,
+        |cancel| asked.find(Some(Some(distance)), cancel),
+    )??;
     let by = match asked.rank {
         Rank::Barrier => "the highest energy on them, then by cost",
         Rank::Cost => "what they cost",
@@ -192,7 +195,7 @@ fn shown_of_folding(
                 let scratch = &mut Scratch::new();
                 examples(cx, run.roadmap(), of, &attachment, asked, cancel, scratch)
             };
-            let found = bounded(signals, max_time, look)?;
+            let found = bounded(|| signals.came(), max_time, look)?;
             found.map_err(|error| Failure::usage(format!("--spacing: {error}")))?
         }
     };

@@ -5,6 +5,7 @@ use crate::exit::{Code, Failure};
 use crate::run::Ledgers;
 use crate::signals::Signals;
 use crate::work::Run;
+use crate::work::relaxing::is_relaxation;
 use roadmill::model::SceneOptions;
 use roadmill::problem::Problem;
 use std::path::Path;
@@ -17,6 +18,9 @@ fn load_changed(file: &Path) -> Result<Problem, Failure> {
 
 /// Goes on with a build.
 pub fn resume(arguments: &ResumeArguments) -> Result<Code, Failure> {
+    if is_relaxation(&arguments.run) {
+        return super::relax::resume(arguments);
+    }
     let cpu = CpuClock::start();
     let growth = &arguments.growth;
     let workers = workers(&growth.crew)?;

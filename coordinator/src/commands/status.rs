@@ -4,6 +4,7 @@ use crate::exit::{Code, Failure};
 use crate::files::open_in_run;
 use crate::output::{self, Plain};
 use crate::run::{EvaluatorValue, Holder, MACHINES_JSON, Scan};
+use crate::work::relaxing::is_relaxation;
 use roadmill::problem::Problem;
 use rustix::fs::OFlags;
 use serde::Serialize;
@@ -48,6 +49,9 @@ struct Status {
 
 /// Says how far a build is.
 pub fn status(arguments: &StatusArguments) -> Result<Code, Failure> {
+    if is_relaxation(&arguments.run) {
+        return super::standing::status(arguments);
+    }
     let mut scan = Scan::read(&arguments.run)?;
     let mut chapter = (scan.chapters.len(), scan.problem()?);
     let mut last = None;

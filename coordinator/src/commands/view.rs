@@ -1,5 +1,6 @@
 use super::live;
 use super::place::check_page;
+use super::solved::run_in;
 use crate::cli::ViewArguments;
 use crate::exit::{Code, Failure};
 use crate::files::write_whole;
@@ -25,7 +26,7 @@ pub fn view(arguments: &ViewArguments) -> Result<Code, Failure> {
         None => usual_place(arguments)?,
     };
     check_page("--out", &out)?;
-    let run = Run::at(&arguments.run).read()?;
+    let run = Run::at(run_in(&arguments.run)?).read()?;
     let page = seen(&run, None, |viewer| viewer.page());
     let page = page.ok_or_else(|| cannot_be_drawn(&arguments.run, &run))?;
     write_whole(&out, &page)?;

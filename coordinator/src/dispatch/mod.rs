@@ -17,5 +17,6 @@ mod staff;
 pub use agents::{AgentOptions, Agents};
 pub use dispatcher::Dispatcher;
 pub use foreman::Foreman;
+pub use roster::Roster;
 pub use sets_from_files::SetsFromFiles;
 pub use staff::{Audited, Board, Machine, Machines, Made, Report, Staff};

@@ -19,8 +19,10 @@ mod summary;
 pub use folder::{
     MACHINES_JSON, PATH_CSV, RunFolder, SUMMARY_JSON, is_of_run, outside_of_runs, tidy,
 };
-pub use ledger::{Ledger, LedgerWriter, Ledgers, Replay, Scan, Stopped, Told};
+pub use ledger::{
+    LEVEL, Ledger, LedgerWriter, Ledgers, RELAXATION_JSON, Replay, Scan, Stopped, Told, levels_in,
+};
 pub(crate) use lock::started;
-pub use lock::{Holder, RunLock};
+pub use lock::{Holder, LOCK, RunLock};
 pub use sets::{SetFiles, SetsWriter};
 pub use summary::{CoordinatorCpu, EvaluatorValue, Summary, Times, run_cpu_seconds_in, summary_in};

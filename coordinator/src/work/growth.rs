@@ -8,9 +8,11 @@ use crate::cpu::CpuClock;
 use crate::crew::CrewError;
 use crate::dispatch::SetsFromFiles;
 use crate::exit::Failure;
+use crate::files::remove_unfinished;
 use crate::run::ledger::LEDGER;
 use crate::run::{
-    LedgerWriter, MACHINES_JSON, RunFolder, RunLock, Scan, SetFiles, run_cpu_seconds_in, tidy,
+    LedgerWriter, MACHINES_JSON, PATH_CSV, RunFolder, RunLock, SUMMARY_JSON, Scan, SetFiles,
+    run_cpu_seconds_in, tidy,
 };
 use crate::signals::Signals;
 use roadmill::img::{Executor, Setup, Threads};
@@ -198,6 +200,11 @@ impl<'a> Growth<'a> {
     /// The validity function of a problem that came out of a ledger, which only names it.
     pub fn validity_function(self, function: &ValidityFunction) -> Growth<'a> {
         Growth { function: Some(function.clone()), ..self }
+    }
+
+    /// Ends the build when what ends the work as a whole comes.
+    pub(super) fn interrupt(self, interrupt: &Interrupt) -> Growth<'a> {
+        Growth { interrupt: interrupt.clone(), ..self }
     }
 
     /// Counts CPU seconds from a clock that was started before.
@@ -444,6 +451,7 @@ fn go_on(
             summary: None,
         })));
     }
+    remove_unfinished(run, &[SUMMARY_JSON, PATH_CSV, MACHINES_JSON]);
     let (mut ledger, torn) = LedgerWriter::resume(&scan, &present, lock)?;
     if is_chapter {
         ledger.chapter(scan.next_round(), &problem)?;

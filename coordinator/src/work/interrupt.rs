@@ -36,7 +36,12 @@ impl Interrupt {
         if let Some(failed) = self.function.as_ref().and_then(ValidityFunction::failure) {
             return Err(Failure::usage(failed));
         }
-        if self.came() { Err(Failure::new(Code::Interrupted, self.reason())) } else { Ok(()) }
+        if self.came() { Err(self.failure()) } else { Ok(()) }
+    }
+
+    /// The failure of work that it has ended.
+    pub fn failure(&self) -> Failure {
+        Failure::new(Code::Interrupted, self.reason())
     }
 
     fn function_failed(&self) -> bool {

@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod bounded;
 mod change;
 pub(crate) mod difference;
 mod ended;
@@ -29,6 +30,7 @@ mod growth;
 mod interrupt;
 mod limits;
 mod recorded;
+pub mod relaxing;
 mod replanned;
 mod selection;
 mod stops;
@@ -36,10 +38,12 @@ mod verification;
 mod watch;
 mod workers;
 
+pub(crate) use bounded::bounded;
 pub use ended::Ended;
 pub use growth::Growth;
 pub(crate) use limits::limit;
 pub use recorded::Recorded;
+pub use relaxing::Relaxing;
 pub use selection::Selection;
 pub use verification::{Verification, Verified};
 pub use watch::{Begun, Status, Torn, Watch};

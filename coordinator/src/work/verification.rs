@@ -89,6 +89,11 @@ impl Verification {
         self
     }
 
+    /// Ends when what ends the work as a whole comes.
+    pub(super) fn interrupt(self, interrupt: &Interrupt) -> Verification {
+        Verification { interrupt: interrupt.clone(), ..self }
+    }
+
     /// Recomputes and compares.
     ///
     /// # Errors

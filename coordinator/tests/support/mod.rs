@@ -244,12 +244,18 @@ impl Scratch {
 
     /// Waits until the ledger has been begun and has then grown a number of times.
     pub fn wait_for_rounds(&self, run: &str, rounds: usize) {
+        self.wait_for_rounds_or(run, rounds, || false);
+    }
+
+    /// Waits likewise, or until something else has come to pass: a run with a limit may end before
+    /// its ledger was seen growing so often, for a busy machine writes several rounds between two looks.
+    pub fn wait_for_rounds_or(&self, run: &str, rounds: usize, mut over: impl FnMut() -> bool) {
         let path = self.path(run).join("ledger");
         let length = || fs::metadata(&path).map_or(0, |metadata| metadata.len());
-        wait_until("the ledger", || length() > 0);
+        wait_until("the ledger", || length() > 0 || over());
         for _ in 0..rounds {
             let before = length();
-            wait_until("the next round", || length() > before);
+            wait_until("the next round", || length() > before || over());
         }
     }
 

@@ -97,6 +97,39 @@ addEventListener("load", () => {
     for (let i = 0; i < 10; i++) later();
     told.idle = frames - before;
     told.time = element("time").textContent;
+    // A hint is drawn where the robot has a base that moves: dragged in the plane of the screen, turned, moved in depth.
+    told.hint = "";
+    if (!element("draw").hidden) {
+      element("draw").click();
+      later();
+      const shown = view.toDataURL();
+      const stroke = (more) => {
+        point("pointerdown", 300, 300, { button: 0, buttons: 1, ...more });
+        for (let by = 10; by <= 60; by += 10) point("pointermove", 300 + by, 300 - by / 2, { buttons: 1, ...more });
+        point("pointerup", 360, 270, { button: 0, ...more });
+      };
+      stroke({});
+      stroke({ shiftKey: true });
+      view.dispatchEvent(new WheelEvent("wheel", { deltaY: 300, cancelable: true }));
+      later();
+      told.drawn = view.toDataURL() === shown ? 0 : told.drawn;
+      const kept = element("drawn").textContent;
+      stroke({});
+      element("undo").click();
+      told.undone = element("drawn").textContent === kept;
+      // A click, and a drag that moves the view, keep nothing.
+      point("pointerdown", 300, 300, { button: 0, buttons: 1 });
+      point("pointerup", 300, 300, { button: 0 });
+      stroke({ ctrlKey: true });
+      told.kept = element("drawn").textContent === kept ? kept : "not " + kept;
+      told.hint = hintText();
+      told.poses = hint.kept[hint.kept.length - 1].poses.join(" ");
+      told.widehint = document.documentElement.scrollWidth > innerWidth;
+      element("save").click();
+      element("clear").click();
+      told.cleared = element("drawn").textContent;
+      element("draw").click();
+    }
     told.wide = document.documentElement.scrollWidth > innerWidth;
   } catch (error) { note(error.stack); }
   told.done = "yes";

@@ -40,7 +40,7 @@ function paint() {
   gl.enable(gl.BLEND);
   gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
 
-  const played = path() && ways[state.path], node = pointed();
+  const played = !hint.on && path() && ways[state.path], node = pointed();
   gl.depthMask(false);
   drawEnergy(camera);
   usePlain(camera, from, light);
@@ -55,6 +55,8 @@ function paint() {
   drawCrowd(camera, from, light);
   usePlain(camera, from, light);
   if (node >= 0) drawRobot(posesOf(node), TEAL, 1);
+  drawHint(camera);
+  usePlain(camera, from, light);
   if (played) {
     drawRobotAt(state.place, node >= 0 ? 0.35 : 1);
     if (!planar) drawWide(played.way, gl.LINE_STRIP, [...WAY, 1]);

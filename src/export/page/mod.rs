@@ -32,6 +32,7 @@ const SCRIPT: &[&str] = &[
     include_str!("colours.js"),
     include_str!("roadmap.js"),
     include_str!("milestone.js"),
+    include_str!("hint.js"),
     include_str!("frame.js"),
     include_str!("panel.js"),
     include_str!("player.js"),
@@ -163,6 +164,7 @@ fn data(
         ("links", list(links)),
         ("energy", relief(figure, roadmap).map_or_else(null, |relief| relief_data(&relief))),
         ("paths", list(paths.iter().map(|named| played(problem, figure, *named)))),
+        ("hand", scene::hand(problem, figure).unwrap_or_else(null)),
         ("roadmap", roadmap.map_or_else(null, |it| roadmap::roadmap_data(problem, figure, it))),
     ]))
 }

@@ -32,7 +32,7 @@ function tellRoadmap() {
 
 function tellValues() {
   const node = pointed(), box = element("values");
-  box.hidden = node < 0 && !path();
+  box.hidden = node < 0 && !path() && !hint.on;
   if (box.hidden) return;
   const rows = [];
   if (node >= 0) {
@@ -43,8 +43,8 @@ function tellValues() {
     rows.push(["component", String(graph.whole ? ids[componentsAtStop()[node]] : components[node]), ""],
       ["edges", String(degrees[node]), ""], ["round", String(measures().find(({ name }) => name === "round").of(node)), ""]);
   } else {
-    const config = path().configs[Math.round(state.place)];
-    box.querySelector("h1").textContent = graph ? path().name : data.name;
+    const config = hint.on ? hint.now.config : path().configs[Math.round(state.place)];
+    box.querySelector("h1").textContent = hint.on ? "hint" : graph ? path().name : data.name;
     data.dofs.forEach(([name, unit], dof) => rows.push([name, config[dof].toFixed(3), unitOf(name, unit)]));
   }
   const table = box.querySelector("table");
@@ -57,8 +57,8 @@ function tellValues() {
 
 function tellPath() {
   element("play").textContent = state.playing ? "Pause" : "Play";
-  for (const id of ["play", "slider", "place", "speed"]) element(id).hidden = !path();
-  element("path").hidden = data.paths.length < 2;
+  for (const id of ["play", "slider", "place", "speed"]) element(id).hidden = !path() || hint.on;
+  element("path").hidden = data.paths.length < 2 || hint.on;
   if (!path()) return;
   element("slider").max = last();
   element("slider").value = state.place;
@@ -70,6 +70,7 @@ function tellAll() {
   tellRoadmap();
   tellValues();
   tellPath();
+  tellHint();
   repaint();
 }
 // Fills a list of choices.

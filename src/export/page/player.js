@@ -12,7 +12,7 @@ function advance(now) {
   setTimeout(() => { if (state.playing) repaint(true); });
 }
 function toggle() {
-  if (!path()) return;
+  if (!path() || hint.on) return;
   if (!state.playing && state.place >= last()) state.place = 0;
   state.playing = !state.playing;
   tellAll();

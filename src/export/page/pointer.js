@@ -1,11 +1,16 @@
 // The pointer, fingers and keys. In 3D dragging turns, in a plane it moves; shift or the right button does the other.
 const fingers = new Map();
 let isDragged = false;
+// Whether the robot is dragged, while a hint is drawn; ctrl leaves the pointer to the view.
+let isByHand = false;
 canvas.addEventListener("contextmenu", (event) => event.preventDefault());
 canvas.addEventListener("pointerdown", (event) => {
   canvas.setPointerCapture(event.pointerId);
   fingers.set(event.pointerId, [event.clientX, event.clientY]);
   isDragged = fingers.size > 1;
+  if (isByHand) endStroke();
+  isByHand = hint.on && !isDragged && !event.ctrlKey;
+  if (isByHand) beginStroke();
 });
 const spread = () => {
   const [a, b] = [...fingers.values()];
@@ -23,12 +28,19 @@ canvas.addEventListener("pointermove", (event) => {
     const { apart, at } = spread();
     zoomBy(old.apart / apart);
     moveBy(at[0] - old.at[0], at[1] - old.at[1]);
+  } else if (isByHand) {
+    dragHand(x, y, event.shiftKey || (event.buttons & 6) !== 0);
+    tellHint();
+    tellValues();
   } else if (planar !== (event.shiftKey || (event.buttons & 6) !== 0)) moveBy(x, y);
   else turnBy(x, y);
   repaint(true);
 });
 for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, (event) => {
-  if (kind === "pointerup" && !isDragged && event.button === 0) {
+  if (isByHand) {
+    isByHand = false;
+    endStroke();
+  } else if (kind === "pointerup" && !isDragged && event.button === 0) {
     const node = nodeAt(event.clientX, event.clientY);
     state.chosen = node === state.chosen ? -1 : node;
     tellAll();
@@ -44,13 +56,14 @@ function hover(node) {
 }
 canvas.addEventListener("wheel", (event) => {
   event.preventDefault();
-  zoomBy(Math.exp(event.deltaY * 0.001));
+  if (hint.on && !event.ctrlKey) wheelHand(event.deltaY, event.shiftKey);
+  else zoomBy(Math.exp(event.deltaY * 0.001));
   repaint(true);
 }, { passive: false });
 const STEPS = { ArrowLeft: [-20, 0], ArrowRight: [20, 0], ArrowUp: [0, -20], ArrowDown: [0, 20] };
 window.addEventListener("keydown", (event) => {
   const on = event.target.tagName;
-  if (event.code === "Space" && on !== "BUTTON" && on !== "SUMMARY" && on !== "INPUT") {
+  if (event.code === "Space" && !hint.on && on !== "BUTTON" && on !== "SUMMARY" && on !== "INPUT") {
     event.preventDefault();
     toggle();
   }

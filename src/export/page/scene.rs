@@ -1,11 +1,12 @@
 //! Scenes and paths as the data of a page.
 
-use super::json::{list, number, numbers};
+use super::json::{list, number, numbers, object};
 use crate::export::markup::quoted;
 use crate::model::Figure;
 use crate::problem::Problem;
 use crate::query::Path;
 use crate::scene::{Body, Pose, tessellate};
+use crate::space::BaseJoint;
 
 /// Poses along a path, both ends included.
 const FRAMES: usize = 301;
@@ -37,11 +38,32 @@ pub(super) fn poses(figure: &dyn Figure, q: &[f64]) -> impl Iterator<Item = f64>
     placed.into_iter().flat_map(|pose| pose.translation.into_iter().chain(pose.rotation))
 }
 
+/// What the page needs to move the robot by hand: by how many translations its base moves, whether it turns, and the start of the problem's query with the
+/// poses of the links and the marker there. `None` of a robot whose base stands still.
+pub(super) fn hand(problem: &Problem, figure: &dyn Figure) -> Option<String> {
+    let base = figure.base();
+    let start = problem.query.as_ref().map(|ends| &ends.start[..]);
+    let start = start.map(|q| {
+        object(&[
+            ("config", list(q.iter().map(f64::to_string))),
+            ("poses", numbers(poses(figure, q))),
+            ("marker", numbers(figure.marker(q))),
+        ])
+    });
+    (base != BaseJoint::Fixed).then(|| {
+        object(&[
+            ("translations", base.translations().to_string()),
+            ("turns", base.rotates().to_string()),
+            ("start", start.unwrap_or_else(|| "null".to_owned())),
+        ])
+    })
+}
+
 /// A path by 301 configurations evenly along it by its length in the metric.
 pub(super) fn played(problem: &Problem, figure: &dyn Figure, named: NamedPath) -> String {
     let NamedPath { name, path } = named;
     let sampled = path.sampled(&problem.space(), FRAMES);
-    super::json::object(&[
+    object(&[
         ("name", quoted(name)),
         ("length", number(path.length)),
         ("frames", list(sampled.iter().map(|q| numbers(poses(figure, q))))),

@@ -1,4 +1,4 @@
-// The controls, and what the address asks for: #frame=100 on a path, #node=7, #stop=3, #colours=energy, #robots, #path=1,
+// The controls, and what the address asks for: #frame=100 on a path, #node=7, #stop=3, #colours=energy, #robots, #path=1, #draw,
 // #view=TURN,TILT,AWAY; several are joined by &.
 function fillControls() {
   document.querySelector("#panel summary").textContent = data.name;
@@ -34,6 +34,7 @@ function obey(address) {
     if (colours >= 0) state.colours = String(colours);
     element("show-robots").checked = asked.has("robots");
   }
+  if (asked.has("draw") && canDraw()) toggleHint();
   const [turn, tilt, away] = (asked.get("view") || "").split(",").map(Number);
   if ([turn, tilt, away].every(Number.isFinite) && asked.has("view"))
     Object.assign(eye, { turn, tilt: within(tilt, LIMITS.tilt), away: within(away, LIMITS.away) });

@@ -70,8 +70,11 @@ pub(in crate::generator) fn explore(
             return Err(GaveUp { attempts: 0 });
         };
         for direction in 1..=exploration.directions {
+            let first = set.next_number();
             match set.extend(near, &toward).milestone() {
                 Some(new) => {
+                    // Those at which the way turns.
+                    (first..new).for_each(|number| tree.add(set, number));
                     exploration.take_in(set, tree, adjacency.as_ref(), near.number, new);
                     aim = aim.filter(|aim| set.config(new) != aim.goal);
                     if let Some(adjacency) = &mut adjacency {

@@ -1,5 +1,6 @@
 use super::set::{Extension, GrowingSet};
 use super::tree::Near;
+use crate::push::{Search, retract};
 use crate::space::Space;
 
 /// The length of the first random step, as a share of the straight extension's length.
@@ -12,6 +13,8 @@ const SHORTER: f64 = 0.75;
 const DRAWS: u32 = 8;
 /// By how much a bent extension must come nearer, as a share of the straight one's length.
 const LEAST: f64 = 0.05;
+/// The step of a retraction, as a share of the step of extensions.
+const RETRACTING: f64 = 0.2;
 /// How long a bent extension may be, as a share of the straight one's length.
 const LONGEST: f64 = 1.5;
 
@@ -28,12 +31,45 @@ impl GrowingSet<'_> {
     /// trials it is the straight extension.
     pub fn extend(&mut self, from: Near, toward: &[f64]) -> Extension {
         let straight = self.extend_straight(from, toward);
-        if straight != Extension::Trapped || self.trials == 0 {
+        if straight != Extension::Trapped {
             return straight;
+        }
+        let retracted = if self.retracts { self.retracted(from, toward) } else { None };
+        if let Some(number) = retracted.and_then(|q| self.add_reached_from(from, &q)) {
+            return Extension::Advanced(number);
+        }
+        if self.trials == 0 {
+            return straight;
+        }
+        if self.slides() {
+            return self.slide(from, toward);
         }
         let bent = self.bend(from, toward);
         bent.and_then(|q| self.add_reached_from(from, &q))
             .map_or(Extension::Trapped, Extension::Advanced)
+    }
+
+    /// The end of the straight extension retracted to contact, if it comes nearer by enough.
+    fn retracted(&mut self, from: Near, toward: &[f64]) -> Option<Vec<f64>> {
+        let space: &Space = &self.cx.space;
+        let reach = self.step.min(from.distance);
+        let mut end = toward.to_vec();
+        if from.distance > self.step {
+            space.interpolate(
+                self.config(from.number),
+                toward,
+                self.step / from.distance,
+                &mut end,
+            );
+            space.canonicalize(&mut end).ok()?;
+        }
+        // Retraction draws nothing.
+        let stream = self.proposing.clone();
+        let (cx, scratch) = (self.cx, &mut *self.scratch);
+        let mut search =
+            Search { cx, scratch, stream, step: RETRACTING * self.step, reach, effort: 0 };
+        let q = retract(&end, &mut search)?;
+        (space.distance(&q, toward) <= from.distance - LEAST * reach).then_some(q)
     }
 
     /// The end of the extension bent aside, if it comes nearer by enough.

@@ -22,9 +22,15 @@ pub(in crate::generator) struct GrowingSet<'a> {
     /// How many milestones the set is to have.
     count: usize,
     /// The most by which an extension moves, in the space's metric.
-    pub(super) step: f64,
+    pub(in crate::generator) step: f64,
     /// How many motions are tried to bend one blocked extension aside.
     pub(super) trials: u32,
+    /// Whether the end of a blocked extension is first retracted along the normals of its contacts.
+    pub(super) retracts: bool,
+    /// Whether blocked extensions slide along what blocks them, in the place of being bent aside.
+    slides: bool,
+    /// Whether trees are made of the ends and of what grew alone, and not of all that is connected with it.
+    pub(super) grown_only: bool,
     /// Which share of what extensions lead toward is drawn from the box around the tree.
     pub(super) nearby: f64,
     /// Where trees begin that begin at no node.
@@ -89,6 +95,9 @@ impl<'a> GrowingSet<'a> {
             count,
             step,
             trials: 0,
+            retracts: false,
+            slides: false,
+            grown_only: false,
             nearby: 0.0,
             roots: Vec::new(),
             proposing: seed.stream(Purpose::Sampling),
@@ -103,6 +112,32 @@ impl<'a> GrowingSet<'a> {
     /// lead toward from the box around the tree.
     pub fn with_bending(self, trials: u32, nearby: f64) -> GrowingSet<'a> {
         GrowingSet { trials, nearby, ..self }
+    }
+
+    /// The same set, which first retracts the end of a blocked extension along the normals of its contacts.
+    pub fn with_retraction(self) -> GrowingSet<'a> {
+        GrowingSet { retracts: true, ..self }
+    }
+
+    /// The same set, whose blocked extensions slide.
+    pub fn with_sliding(self) -> GrowingSet<'a> {
+        GrowingSet { slides: true, ..self }
+    }
+
+    /// The same set, whose trees are made of the ends that they grow from and of nodes that grew. What else is connected with these,
+    /// sampled nodes say, is no part of them.
+    pub fn of_grown_only(self) -> GrowingSet<'a> {
+        GrowingSet { grown_only: true, ..self }
+    }
+
+    /// Whether blocked extensions slide.
+    pub fn slides(&self) -> bool {
+        self.slides
+    }
+
+    /// The number that the next milestone will have.
+    pub fn next_number(&self) -> u32 {
+        self.number(NodeId(self.made.configs.len() as u32))
     }
 
     /// How many milestones it is to have, at least one.
@@ -153,6 +188,11 @@ impl<'a> GrowingSet<'a> {
     /// Number of nodes of the roadmap at the start of the round.
     fn old(&self) -> u32 {
         self.frozen.map_or(0, |frozen| frozen.configs().len() as u32)
+    }
+
+    /// Whether a node of the roadmap at the start of the round, connected with an end, is a part of its tree.
+    pub(super) fn may_extend(&self, node: NodeId) -> bool {
+        !self.grown_only || self.frozen.is_some_and(|frozen| frozen.grown().contains(node))
     }
 
     /// What a number stands for.

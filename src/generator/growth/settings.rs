@@ -8,6 +8,9 @@ use crate::space::Space;
 /// (I. A. Şucan, M. Moll, L. E. Kavraki, *The Open Motion Planning Library*, 2012; `range` in its documentation).
 const STEP_SHARE: f64 = 0.2;
 
+/// The most motions tried to get one blocked extension on.
+const TRIALS_MAX: u32 = 1000;
+
 pub(in crate::generator) fn default_goal_bias() -> f64 {
     0.05
 }
@@ -57,6 +60,16 @@ pub(in crate::generator) struct Complaints;
 impl Complaints {
     pub fn of_step(step: Option<f64>) -> Option<Complaint> {
         step.and_then(|step| Complaint::of_length("step", step, LENGTH_MAX))
+    }
+
+    /// Of methods that get on along obstacles by trial.
+    pub fn of_bending(trials: u32, nearby: f64) -> Option<Complaint> {
+        let of_trials =
+            (trials > TRIALS_MAX).then(|| Complaint::new("trials", trials, "0 to 1000"));
+        let is_share = (0.0..1.0).contains(&nearby);
+        of_trials.or_else(|| {
+            (!is_share).then(|| Complaint::new("nearby", nearby, "at least 0, less than 1"))
+        })
     }
 
     pub fn of_goal_bias(goal_bias: f64) -> Option<Complaint> {

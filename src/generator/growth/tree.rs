@@ -1,5 +1,5 @@
 use super::extent::Extent;
-use super::set::GrowingSet;
+use super::set::{Extension, GrowingSet};
 use crate::finder::{Finder, Milestones};
 use crate::neighbor::{Best, Neighbor, Ranked, Subset};
 use crate::numbers::NodeId;
@@ -50,6 +50,8 @@ impl<'a> GrowingTree<'a> {
             match (set.frozen, node) {
                 (Some(frozen), Some(node)) => {
                     tree.components.push(frozen.components().of_node(NodeId(node as u32)));
+                    // An end need not have grown.
+                    tree.own.extend(set.grown_only.then_some(node as u32));
                 }
                 _ if seed.ordinal().0 == (index / set.count()) as u64 => milestones.push(index),
                 _ => tree.own.push(set.add_root(q)),
@@ -62,10 +64,20 @@ impl<'a> GrowingTree<'a> {
         trees
     }
 
+    /// The component of a node of the roadmap at the start of the round.
+    pub fn of_node(set: &GrowingSet<'a>, node: NodeId) -> GrowingTree<'a> {
+        let component = set.frozen.map(|frozen| frozen.components().of_node(node));
+        let components = component.into_iter().collect();
+        let mut tree = GrowingTree { components, ..GrowingTree::empty() };
+        tree.cover_all(set);
+        tree
+    }
+
     /// Finds what its places cover, if that is going to be asked for.
     fn cover_all(&mut self, set: &GrowingSet) {
         if set.nearby > 0.0 {
             let old = self.components.iter().flat_map(|component| component.members.iter());
+            let old = old.filter(|node| set.may_extend(NodeId(**node)));
             for number in old.chain(&self.own) {
                 self.extent.cover(&set.cx.space, set.config(*number));
             }
@@ -78,6 +90,14 @@ impl<'a> GrowingTree<'a> {
         if set.nearby > 0.0 {
             self.extent.cover(&set.cx.space, set.config(number));
         }
+    }
+
+    /// Extends the tree from one of its places toward a configuration, and takes in all milestones that come of it.
+    pub fn extend(&mut self, set: &mut GrowingSet, from: Near, toward: &[f64]) -> Extension {
+        let first = set.next_number();
+        let extension = set.extend(from, toward);
+        (first..set.next_number()).for_each(|number| self.add(set, number));
+        extension
     }
 
     /// A configuration, valid or not, toward which it is to be extended.
@@ -120,7 +140,14 @@ impl<'a> GrowingTree<'a> {
     pub fn nearest(&self, set: &GrowingSet, q: &[f64]) -> Option<Near> {
         let space = &set.cx.space;
         let mut best: Best<Neighbor> = Best::new(1);
-        if let Some(frozen) = set.frozen {
+        if let Some(frozen) = set.frozen.filter(|_| set.grown_only) {
+            let (configs, components) = (frozen.configs(), frozen.components());
+            let is_meant = |node| set.may_extend(node);
+            for component in &self.components {
+                let near = components.nearest_member(space, configs, component, q, is_meant);
+                near.into_iter().for_each(|near| best.offer(near));
+            }
+        } else if let Some(frozen) = set.frozen {
             let mut one = Configs::new(space.len());
             one.push(q);
             let (query, configs) = (Subset { all: &one, ids: &[0] }, frozen.configs());

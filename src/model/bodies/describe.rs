@@ -120,6 +120,9 @@ pub(super) fn describe(bodies: &Bodies, out: &mut String) -> std::fmt::Result {
     let promise = match bodies.edges {
         MotionChecking::Swept => format!("motions are free at all times, to a {TOLERANCE}th of it"),
         MotionChecking::Sampled => "no robot point moves farther between two checks".to_owned(),
+        MotionChecking::Penetrating { depth } => format!(
+            "no robot point moves farther between two checks, and what a motion of length {depth} frees is valid"
+        ),
     };
     writeln!(out, "resolution       {}: {promise}", bodies.resolution)?;
     if bodies.robot.motion.rotates() {

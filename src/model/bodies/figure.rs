@@ -25,6 +25,10 @@ impl Figure for Bodies {
         self.robot.marker(q)
     }
 
+    fn base(&self) -> BaseJoint {
+        self.robot.motion
+    }
+
     fn obstacles(&self) -> &[Body] {
         &self.obstacles
     }

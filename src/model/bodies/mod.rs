@@ -13,6 +13,7 @@ mod inverse_kinematics;
 mod linkage;
 mod locks;
 mod padding;
+mod relaxed;
 mod resolve;
 pub mod robot;
 mod robot_files;
@@ -34,14 +35,15 @@ pub use spec::{
 pub use validity::BodyValidity;
 
 use super::{
-    Description, Documents, Figure, Model, ModelKind, PoseFound, PoseGoal, Resolve, SceneChange,
-    ValidityFunction,
+    CannotRelax, Description, Documents, Figure, Model, ModelKind, PoseFound, PoseGoal, Relaxation,
+    RelaxedModel, Resolve, ScaleRobot, SceneChange, ValidityFunction,
 };
 use crate::scene::Body;
 use crate::seed::Seed;
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
 use bincode::{Decode, Encode};
+use relaxed::BodiesWithPenetration;
 use robot::Robot;
 use validity::{Bounds, MotionChecking};
 use with_function::BodiesWithFunction;
@@ -141,13 +143,19 @@ impl Description for Bodies {
     }
 
     fn prepare(&self) -> Box<dyn Model> {
-        Box::new(self.validity())
+        match self.edges {
+            MotionChecking::Penetrating { depth } => {
+                Box::new(BodiesWithPenetration::new(self.validity(), depth))
+            }
+            MotionChecking::Swept | MotionChecking::Sampled => Box::new(self.validity()),
+        }
     }
 
     fn takes_function(&self) -> Result<(), &'static str> {
         match self.edges {
             MotionChecking::Sampled => Ok(()),
             MotionChecking::Swept => Err("space.edges: \"swept\" found"),
+            MotionChecking::Penetrating { .. } => Err("space.edges: penetrating found"),
         }
     }
 
@@ -185,6 +193,14 @@ impl Description for Bodies {
 
     fn figure(&self) -> Option<&dyn Figure> {
         Some(self)
+    }
+
+    fn usual_relaxation(&self) -> Option<Relaxation> {
+        Some(Relaxation::ScaleRobot(ScaleRobot::default()))
+    }
+
+    fn relaxed(&self, relaxation: &Relaxation, level: f64) -> Result<RelaxedModel, CannotRelax> {
+        relaxed::relaxed(self, relaxation, level)
     }
 
     fn configurations_at(

@@ -4,6 +4,7 @@ use super::Bodies;
 use super::linkage::robot_of;
 use super::robot::Robot;
 use super::shapes::{bodies, check_bodies};
+use super::sound::depth_complaint;
 use super::spec::{BodiesSpec, SpaceSpec};
 use super::validity::{Bounds, BoundsMeaning};
 use crate::scene::{Body, LENGTH_MAX};
@@ -29,6 +30,9 @@ pub(super) fn resolve(
     let resolution = resolution_of(source, &spec.space, &bounds, &robot, notes)?;
     let rotation_length = rotation_length_of(source, &spec.space, &robot, notes)?;
     let edges = spec.space.edges;
+    if let Some(message) = depth_complaint(edges) {
+        return Err(source.error(&[Key("space"), Key("edges")], message));
+    }
     Ok(Bodies { bounds, resolution, edges, rotation_length, robot, obstacles })
 }
 

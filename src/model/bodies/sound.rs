@@ -5,7 +5,7 @@ use super::Bodies;
 use super::resolve::{FINEST, diagonal_of, too_far};
 use super::robot::{JointKind, LINKS_MAX, Limits, Link, Robot, TURN_MAX, mimic_complaint};
 use super::shapes::bodies_complaint;
-use super::validity::Bounds;
+use super::validity::{Bounds, MotionChecking};
 use crate::scene::{Body, LENGTH_MAX, Mesh, Pose, Shape};
 use crate::source::place_of;
 
@@ -18,7 +18,7 @@ const UNIT: f64 = 1e-6;
 
 /// The first thing that is wrong with a description: where, what was found and what is expected.
 pub(super) fn sound(bodies: &Bodies) -> Result<(), String> {
-    let Bodies { bounds, resolution, edges: _, rotation_length, robot, obstacles } = bodies;
+    let Bodies { bounds, resolution, edges, rotation_length, robot, obstacles } = bodies;
     bounds_sound(bounds, robot)?;
     robot_sound(robot)?;
     for (index, body) in obstacles.iter().enumerate() {
@@ -36,11 +36,24 @@ pub(super) fn sound(bodies: &Bodies) -> Result<(), String> {
         let expected = format!("a length of at least {finest:e} expected");
         return Err(format!("space.resolution: {resolution} found; {expected}"));
     }
+    if let Some(message) = depth_complaint(*edges) {
+        return Err(format!("space.edges: {message}"));
+    }
     if !(rotation_length.is_finite() && *rotation_length >= 0.0) {
         let expected = "a length of at least 0 expected";
         return Err(format!("space.rotation_length: {rotation_length} found; {expected}"));
     }
     Ok(())
+}
+
+/// What is wrong with the depth by which bodies may overlap, if anything is.
+pub(super) fn depth_complaint(edges: MotionChecking) -> Option<String> {
+    let MotionChecking::Penetrating { depth } = edges else { return None };
+    // Written so that NaN fails it.
+    let fits = depth > 0.0 && depth <= LENGTH_MAX;
+    (!fits).then(|| {
+        format!("depth = {depth} found; a length above 0, at most {LENGTH_MAX:e}, expected")
+    })
 }
 
 /// Written so that NaN fails it.

@@ -12,12 +12,13 @@ mod spec;
 pub use energy::{Energy, Term};
 pub use spec::LandscapeSpec;
 
+use super::relaxation::relaxed_energy;
 use super::{
-    Cost, Description, Directed, Documents, Figure, Model, ModelKind, ModelScratch, NodeValue,
-    Reason, Resolve, Scratch, Validity, out_of_range,
+    CannotRelax, Cost, Description, Directed, Documents, Figure, Model, ModelKind, ModelScratch,
+    NodeValue, Reason, Relaxation, RelaxedModel, Resolve, Scratch, Validity, out_of_range,
 };
 use crate::source::{ProblemError, Source, value};
-use crate::space::{Dof, Factor, FactorKind, Space};
+use crate::space::{BaseJoint, Dof, Factor, FactorKind, Space};
 use bincode::{Decode, Encode};
 use std::fmt::Write;
 
@@ -161,6 +162,12 @@ impl Description for Landscape {
         *out += &format!("tolerance = {tolerance:?}\n");
     }
 
+    fn relaxed(&self, relaxation: &Relaxation, level: f64) -> Result<RelaxedModel, CannotRelax> {
+        let highest = relaxed_energy(relaxation, self.highest, level, "a landscape")?;
+        let made = Landscape { highest: Some(highest), ..self.clone() };
+        Ok(RelaxedModel::new(ModelKind::Landscape(made)))
+    }
+
     fn figure(&self) -> Option<&dyn Figure> {
         Some(self)
     }
@@ -181,6 +188,10 @@ impl Figure for Landscape {
 
     fn marker(&self, q: &[f64]) -> [f64; 3] {
         [q[0], q[1], 0.0]
+    }
+
+    fn base(&self) -> BaseJoint {
+        BaseJoint::Translation2d
     }
 
     fn energy_at(&self, x: f64, y: f64) -> Option<f64> {

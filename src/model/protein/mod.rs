@@ -28,7 +28,11 @@ pub mod validity;
 
 pub use spec::{ChainSpec, FileSpec, Gaps, ObstacleSpec, ProteinSpec};
 
-use super::{Description, Documents, Model, ModelKind, Molecule, NodeValue, Resolve};
+use super::relaxation::relaxed_energy;
+use super::{
+    CannotRelax, Description, Documents, Model, ModelKind, Molecule, NodeValue, Relaxation,
+    RelaxedModel, Resolve,
+};
 use crate::source::{ProblemError, Source};
 use crate::space::{Dof, Factor, FactorKind, Space};
 use crate::structure::Residue;
@@ -217,6 +221,12 @@ impl Description for Protein {
 
     fn molecule(&self) -> Option<&dyn Molecule> {
         Some(self)
+    }
+
+    fn relaxed(&self, relaxation: &Relaxation, level: f64) -> Result<RelaxedModel, CannotRelax> {
+        let highest = relaxed_energy(relaxation, self.highest, level, "a protein")?;
+        let made = Protein { highest: Some(highest), ..self.clone() };
+        Ok(RelaxedModel::new(ModelKind::Protein(made)))
     }
 }
 

@@ -63,10 +63,15 @@ fn samplers() -> Vec<SamplerKind> {
         "obprm = { step = 0.1, start = \"free\", bounds = true, steps = 50 }",
         "uobprm = { length = 0.5, step = 0.1 }",
         "uobprm = { length = 0.5, step = 0.1, bounds = true }",
+        "uobprm = { length = 0.5, step = 0.1, adjusted_bounds = true }",
+        "umaprm = { length = 1.0, step = 0.5, tolerance = 0.05 }",
+        "umaprm = { length = 0.5, step = 0.25, tolerance = 0.1, bounds = true }",
         "grid = { cells = 3, block = 7 }",
         "halton = {}",
         "maprm = { step = 0.1, tolerance = 0.01 }",
         "maprm = { step = 0.2, tolerance = 0.02, directions = 4, bounds = true, steps = 50 }",
+        "retraction = {}",
+        "retraction = { step = 0.05, reach = 2.0, free = false }",
         "mix = [{ weight = 2, sampler = { bridge = { deviation = 0.5 } } }, { sampler = { halton = {} } }]",
     ];
     samplers.map(sampler).to_vec()
@@ -134,6 +139,7 @@ fn a_sampler_that_can_find_nothing_gives_up() {
             &full,
             "maprm = { step = 0.1, tolerance = 0.01, directions = 4, steps = 3, attempts = 50 }",
         ),
+        (&full, "umaprm = { length = 0.2, step = 0.1, tolerance = 0.01, attempts = 50 }"),
         (&full, "mix = [{ sampler = { uniform = { attempts = 50 } } }]"),
         (&empty, "bridge = { deviation = 0.1, attempts = 50 }"),
         (&empty, "obprm = { step = 0.01, start = \"colliding\", attempts = 50 }"),
@@ -165,6 +171,11 @@ fn samplers_say_what_they_cannot_work_with() {
         (nothing, "maprm = { step = 1, tolerance = 0.1 }", "nothing to collide with"),
         (
             nothing,
+            "umaprm = { length = 1, step = 1, tolerance = 0.1 }",
+            "obstacles, or `bounds = true`, expected",
+        ),
+        (
+            nothing,
             "mix = [{ sampler = { bridge = { deviation = 1 } } }]",
             "nothing to collide with",
         ),
@@ -189,6 +200,17 @@ fn samplers_say_what_they_cannot_work_with() {
             "directions = 3 found; an even number",
         ),
         (SCENE, "maprm = { step = 1, tolerance = 1, steps = 0 }", "steps = 0 found; at least 1"),
+        (SCENE, "umaprm = { length = 1, step = 2, tolerance = 1 }", "step = 2 found; a millionth"),
+        (
+            SCENE,
+            "umaprm = { length = 1, step = 0.1, tolerance = 0.2 }",
+            "tolerance = 0.2 found; a billionth",
+        ),
+        (
+            SCENE,
+            "umaprm = { length = 1, step = 0.1, tolerance = 0.01, attempts = 0 }",
+            "attempts = 0 found; at least 1",
+        ),
         (SCENE, "grid = { cells = 0 }", "cells = 0 found; at least 1"),
         (SCENE, "grid = { cells = 2, block = 0 }", "block = 0 found; at least 1"),
         (SCENE, "halton = { attempts = 0 }", "attempts = 0 found; at least 1"),

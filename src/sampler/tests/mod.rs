@@ -1,15 +1,18 @@
 //! What samplers promise: laws that all of them keep, and per method the distribution that its paper says.
 
 mod energy;
+mod gaps;
 mod laws;
 mod maprm;
 mod mix;
 mod obprm;
 mod pairs;
+mod segments;
 mod sequences;
 pub(crate) mod statistics;
 mod steps;
 mod torsion_noise;
+mod umaprm;
 
 use super::SamplerKind;
 use crate::context::Context;

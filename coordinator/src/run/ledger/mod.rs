@@ -3,6 +3,7 @@
 
 mod durable;
 pub(in crate::run) mod frame;
+mod levels;
 mod parents;
 mod reader;
 mod record;
@@ -14,6 +15,7 @@ mod writer;
 
 pub use durable::{DURABLE, DurableFile};
 pub use frame::{HEADING, Mark, is_ledger};
+pub use levels::{LEVEL, RELAXATION_JSON, levels_in};
 pub use parents::Ledgers;
 pub use reader::LedgerReader;
 pub use record::{Chapter, FullSet, Judged, Record, RoundEnd, SecondChapter, Set, ThirdChapter};

@@ -1,6 +1,7 @@
 use super::LEDGER;
 use super::durable;
 use super::frame::{Fault, Frames, HEADING, Mark};
+use super::levels::levels_in;
 use super::record::Record;
 use crate::exit::{Code, Failure};
 use crate::files::open_in_run;
@@ -25,6 +26,23 @@ pub struct LedgerReader {
     length: u64,
 }
 
+/// What is said where there is no ledger: of the folder of a relaxation which folders in it have one.
+fn no_run(folder: &Path, path: &Path, error: &std::io::Error) -> Failure {
+    let of_levels = levels_in(folder).map(|levels| levels.last().cloned());
+    Failure::usage(match of_levels {
+        None => format!("{}: no run here: {error}", path.display()),
+        Some(None) => format!(
+            "{}: a relaxation found, of which no level has begun; a run expected",
+            folder.display()
+        ),
+        Some(Some(last)) => format!(
+            "{}: a relaxation found; the run of one of its levels expected, as {}",
+            folder.display(),
+            folder.join(last).display()
+        ),
+    })
+}
+
 impl LedgerReader {
     /// Opens the ledger of a run folder.
     ///
@@ -34,7 +52,7 @@ impl LedgerReader {
         let path = folder.join(LEDGER);
         // Before the ledger, which may be growing.
         let durable = durable::read(folder);
-        let no_run = |error| Failure::usage(format!("{}: no run here: {error}", path.display()));
+        let no_run = |error| no_run(folder, &path, &error);
         let file = open_in_run(&path, OFlags::RDONLY).map_err(no_run)?;
         let length = file.metadata().map_err(no_run)?.len();
         let mut source = BufReader::with_capacity(BUFFER_BYTES, file);

@@ -16,8 +16,10 @@ use std::f64::consts::E;
 use std::path::Path;
 use std::sync::Arc;
 
+mod local;
 mod retraction;
 mod settings;
+mod sliding;
 
 /// A bar in the plane that turns on its way through two passages.
 const PLANE: &str = r#"

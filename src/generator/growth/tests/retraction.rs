@@ -18,8 +18,9 @@ fn without_trials_the_trees_are_those_of_end_trees() {
 
 #[test]
 fn every_edge_is_a_valid_motion_of_at_most_one_and_a_half_steps() {
-    for scene in [PLANE, SPACE] {
-        let (problem, roadmap) = grown(scene, "{ retraction-trees = { step = 0.5 } }", 30, 8);
+    let methods = ["retraction-trees = { step = 0.5 }", "contact-trees = { step = 0.5 }"];
+    for (scene, method) in [PLANE, SPACE].into_iter().flat_map(|s| methods.map(|m| (s, m))) {
+        let (problem, roadmap) = grown(scene, &format!("{{ {method} }}"), 30, 8);
         let (cx, scratch) = (problem.context(), &mut Scratch::new());
         for edge in roadmap.edges().iter() {
             let [a, b] = [edge.low, edge.high].map(|node| roadmap.configs().get(node.index()));
@@ -56,6 +57,28 @@ fn a_blocked_extension_goes_on_along_the_obstacle() {
         assert!(q[1] > at[1], "{q:?} is further up");
         assert_eq!((made.configs.len(), made.edges.len()), (2, 1));
     }
+}
+
+/// The same bar, by the normal of the one contact: the extension ends at the wall, moved back by no more than it has to.
+#[test]
+fn a_blocked_extension_is_retracted_to_contact() {
+    let problem =
+        parse(&format!("{PLANE}[[strategies]]\nlabel = \"it\"\nsampler = {{ uniform = {{}} }}\n"));
+    let cx = problem.context();
+    let (at, toward) = ([2.3, 1.0, 0.0], [4.0, 2.2, 0.0]);
+    let distance = cx.space.distance(&at, &toward);
+    let (seed, scratch) = (Seed::of_set(1, "it", Ordinal(0)), &mut Scratch::new());
+    let set = GrowingSet::new(&cx, &seed, scratch, None, 10, (0.5, 100));
+    let mut set = set.with_retraction();
+    let number = set.add(&at);
+    let extension = set.extend(Near { number, distance }, &toward);
+    let new = extension.milestone().expect("the bar gets on along the wall");
+    let q = set.config(new).to_vec();
+    assert!(q[1] > 1.1 && cx.space.distance(&q, &toward) < distance - 0.05 * 0.5, "{q:?}");
+    // A little nearer to where the extension was to lead it collides.
+    let mut nearer = q.clone();
+    cx.space.interpolate(&q, &toward, 0.05, &mut nearer);
+    assert!(!cx.model.is_valid(&nearer, &mut Scratch::new()), "{q:?}");
 }
 
 /// Of a draw from the whole space the part in the box is the same as of the box in the space, and the angle is left alone.

@@ -18,7 +18,17 @@ fn settings_are_refused_with_what_is_expected() {
         assert!(error.contains(message), "{error}");
         assert!(error.starts_with("growth.toml:"), "{error}");
     };
-    for method in ["rrt", "rrg", "mrrg", "tree", "rrt-connect", "end-trees", "retraction-trees"] {
+    for method in [
+        "rrt",
+        "rrg",
+        "mrrg",
+        "tree",
+        "rrt-connect",
+        "end-trees",
+        "retraction-trees",
+        "contact-trees",
+        "sliding-trees",
+    ] {
         let with = |settings: &str| format!("{{ {method} = {{ {settings} }} }}");
         refused(
             PLANE,
@@ -73,6 +83,8 @@ fn settings_are_refused_with_what_is_expected() {
     refused(PLANE, "{ mrrg = { trials = 1001 } }", "trials = 1001 found; 1 to 1000 expected");
     let trials = "trials = 1001 found; 0 to 1000 expected";
     refused(PLANE, "{ retraction-trees = { trials = 1001 } }", trials);
+    refused(PLANE, "{ contact-trees = { trials = 1001 } }", trials);
+    refused(PLANE, "{ sliding-trees = { trials = 1001 } }", trials);
     for nearby in ["1.0", "-0.1", "nan"] {
         let generator = format!("{{ retraction-trees = {{ nearby = {nearby} }} }}");
         refused(PLANE, &generator, "found; at least 0, less than 1 expected");
@@ -117,7 +129,7 @@ fn where_no_tree_can_grow_the_rest_of_a_set_is_drawn() {
             "{scene}[[strategies]]\nlabel = \"it\"\ngenerator = {{ {generator} = {{}} }}\n"
         ))
     };
-    for generator in ["end-trees", "retraction-trees"] {
+    for generator in ["end-trees", "retraction-trees", "contact-trees", "sliding-trees"] {
         let problem = strategy(generator);
         let (cx, trees) = (problem.context(), problem.strategies[0].generator.method());
         let set = make(&cx, trees, 0, None);

@@ -18,6 +18,7 @@ pub use ompl::read_ompl;
 pub(crate) use options::SceneKind;
 pub use options::{DhOrder, SceneOptions, Solidity, Unit};
 pub use parasol::read_parasol;
+pub(crate) use parasol::{is_parasol_path, read_parasol_path};
 pub use srdf::{
     EndEffector, Group, GroupState, Member, Srdf, VirtualJoint, VirtualKind, read_srdf,
 };

@@ -4,6 +4,7 @@
 //! of an earlier one. A rigid body is a robot of one link. A configuration holds the base's values, then
 //! those of the joints in the order of their links; joints that are fixed, locked or follow another have none.
 
+mod drives;
 mod joint;
 mod layout;
 mod locked;
@@ -12,13 +13,12 @@ mod pairs;
 mod rates;
 mod space;
 
+pub(crate) use drives::Drive;
 pub use joint::{Joint, JointKind, Limits, Mimic, TURN_MAX};
 pub(super) use locked::lock;
 pub(super) use mimics::mimic_complaint;
 pub(super) use mimics::{Follower, couple};
-#[cfg(test)]
-pub(crate) use rates::Steady;
-pub(crate) use rates::{Hops, Rates};
+pub(crate) use rates::{Hops, Rates, Steady};
 pub use space::Speeds;
 
 use crate::math;

@@ -44,25 +44,31 @@ pub(crate) struct Steady {
 /// between any two links follow by walking along the tree.
 #[derive(Clone, Debug)]
 pub(crate) struct Hops {
-    motion: BaseJoint,
+    pub(super) motion: BaseJoint,
     /// The joint of link `i` stands at `i - 1`, since the base has none.
     of_links: Vec<Hop>,
 }
 
 /// One joint.
 #[derive(Clone, Debug)]
-struct Hop {
+pub(super) struct Hop {
     /// The parent link, whose index is less than that of the link that the joint moves.
-    parent: u32,
+    pub(super) parent: u32,
     /// Distance of the joint's origin from the parent link's.
     before: f64,
     /// Distance of the link's origin from the joint's as moved.
     after: f64,
-    kind: Kind,
+    pub(super) kind: Kind,
+    /// The joint's origin in the parent link's frame.
+    pub(super) origin: Vector,
+    /// The turn of the joint's frame as seen from the parent link's.
+    pub(super) turn: Rotation,
+    /// The axis about which the joint turns or along which it slides, in the parent link's frame; zero where there is none.
+    pub(super) axis: Vector,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Kind {
+pub(super) enum Kind {
     Fixed,
     /// Turns with the value of this index; whether the value wraps.
     Turn(usize, bool),
@@ -101,12 +107,21 @@ impl Hops {
             };
             value += joint.kind.values();
             let (before, after) = (length(&joint.before), length(&joint.after));
-            Hop { parent: joint.parent, before, after, kind }
+            let at = joint.before.to_parry();
+            let axis = match joint.kind {
+                JointKind::Revolute { axis, .. }
+                | JointKind::RevoluteMimic { axis, .. }
+                | JointKind::Prismatic { axis, .. }
+                | JointKind::PrismaticMimic { axis, .. } => at.rotation * Vector::from_array(axis),
+                JointKind::Fixed | JointKind::Locked | JointKind::Spherical => Vector::ZERO,
+            };
+            let (origin, turn) = (at.translation, at.rotation);
+            Hop { parent: joint.parent, before, after, kind, origin, turn, axis }
         });
         Hops { of_links: joints.collect(), motion: robot.motion }
     }
 
-    fn of_link(&self, link: usize) -> &Hop {
+    pub(super) fn of_link(&self, link: usize) -> &Hop {
         &self.of_links[link - 1]
     }
 

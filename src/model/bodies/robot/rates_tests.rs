@@ -40,7 +40,7 @@ pub(crate) fn drawn_robot(stream: &mut Stream, motion: BaseJoint, links: u32, ne
     robot
 }
 
-pub(super) const MOTIONS: [BaseJoint; 5] = [
+pub(crate) const MOTIONS: [BaseJoint; 5] = [
     BaseJoint::Fixed,
     BaseJoint::Translation2d,
     BaseJoint::Rigid2d,

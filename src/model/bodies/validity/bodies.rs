@@ -2,12 +2,13 @@
 
 use super::BodyScratch;
 use super::frame::Stance;
+use super::gaps::GapPairs;
 use super::meet::{Group, Meeting};
 use super::piece::Piece;
 use super::swept::Walls;
 use crate::lanes::Lanes;
 use crate::model::bodies::robot::{Hops, Rates, Robot, Speeds};
-use crate::model::{Clearance, Clearances, Cost, Model, Reason, Scratch, Validity};
+use crate::model::{Clearances, Contacts, Cost, Gaps, Model, Reason, Scratch, Validity};
 use crate::scene::Body;
 use crate::space::{BaseJoint, Space};
 use bincode::{Decode, Encode};
@@ -15,6 +16,7 @@ use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::{Pose as ParryPose, Vector};
 use serde::{Deserialize, Serialize};
 use std::any::Any;
+use std::sync::OnceLock;
 
 /// Which points of the robot must stay within the bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
@@ -38,14 +40,21 @@ pub struct Bounds {
 }
 
 /// What is promised of a motion that is found valid.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum MotionChecking {
     /// It is free at every time, with a small share of the resolution as tolerance.
     #[default]
     Swept,
     /// It is free at discrete steps no farther apart than the resolution.
     Sampled,
+    /// At discrete steps no farther apart than the resolution it is free, or one of some fixed short motions leads from it to where
+    /// the robot is free. Configurations are judged in the same way. It is a relaxation of the two others: the relaxation
+    /// [`Penetration`](crate::model::Penetration) makes it.
+    Penetrating {
+        /// How far those motions lead at most, in the metric of the space.
+        depth: f64,
+    }, // new ones at the end, since ledgers know them by number
 }
 
 /// Validity of a robot among obstacles that stand still.
@@ -57,7 +66,7 @@ pub enum MotionChecking {
 pub struct BodyValidity {
     pub(super) space: Space,
     pub(super) robot: Robot,
-    speeds: Speeds,
+    pub(super) speeds: Speeds,
     /// The joints, for how fast links move.
     pub(super) hops: Hops,
     pub(super) bounds: Bounds,
@@ -79,6 +88,8 @@ pub struct BodyValidity {
     pub(super) slack: f64,
     /// The instructions by which boxes are tested.
     pub(super) lanes: Lanes,
+    /// Gaps of the robot and of the obstacles, found when they are first asked for.
+    gap_pairs: OnceLock<GapPairs>,
 }
 
 /// A link that has bodies.
@@ -176,7 +187,13 @@ impl BodyValidity {
             solid,
             slack: 1e-12 * scale,
             lanes: Lanes::widest(),
+            gap_pairs: OnceLock::new(),
         }
+    }
+
+    /// Gaps of the robot and of the obstacles.
+    pub(super) fn gap_pairs(&self) -> &GapPairs {
+        self.gap_pairs.get_or_init(|| GapPairs::of(self))
     }
 
     /// Everything that could collide: every link with the obstacles, then the pairs of links that must not touch.
@@ -326,20 +343,29 @@ impl Model for BodyValidity {
         self.obstacles.is_some() || !self.self_pairs.is_empty()
     }
 
+    fn touching_box(&self) -> Option<[[f64; 3]; 2]> {
+        if !self.self_pairs.is_empty() || self.robot.motion.translations() == 0 {
+            return None;
+        }
+        let nothing = [Vector::INFINITY, Vector::NEG_INFINITY];
+        let [low, high] = self
+            .boxes
+            .iter()
+            .fold(nothing, |[low, high], one| [low.min(one.mins), high.max(one.maxs)]);
+        let reach = Vector::splat(self.padded_reach + self.slack);
+        (!self.boxes.is_empty()).then(|| [(low - reach).to_array(), (high + reach).to_array()])
+    }
+
     fn clearances(&self) -> Option<&dyn Clearances> {
         Some(self)
     }
-}
 
-impl Clearances for BodyValidity {
-    fn clearance(&self, q: &[f64], scratch: &mut Scratch) -> Option<Clearance> {
-        let scratch: &mut BodyScratch = scratch.of_model();
-        self.robot.link_poses(q, &mut scratch.stance.poses);
-        scratch.stance.update_frames();
-        let BodyScratch { stance, stacks, .. } = scratch;
-        let among = self.meetings().take_while(|meeting| meeting.still_link.is_none());
-        let best =
-            among.fold(None, |best, meeting| meeting.nearer(stance, &mut stacks.pairs, best));
-        best.map(|best| best.clearance)
+    fn contacts(&self) -> Option<&dyn Contacts> {
+        Some(self)
+    }
+
+    fn gaps(&self) -> Option<&dyn Gaps> {
+        let gaps: &dyn Gaps = self;
+        (!self.gap_pairs().is_empty()).then_some(gaps)
     }
 }

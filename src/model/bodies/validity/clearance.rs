@@ -1,27 +1,81 @@
 //! How far the robot is from the nearest obstacle, and where.
 
+use super::BodyScratch;
+use super::bodies::BodyValidity;
+use super::contacts::{Moved, carried};
 use super::frame::{Frame, Stance};
 use super::meet::Meeting;
 use super::obb::Obb;
-use crate::model::Clearance;
+use crate::model::{Approach, Clearance, Clearances, Scratch, Witnesses};
 use parry3d_f64::math::Vector;
 
 /// Which two elements a clearance lies between. The lesser order wins where clearances are equal.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Order {
+pub(super) struct Order {
     /// Index of the obstacle's element.
-    still: u32,
+    pub still: u32,
     /// The robot's link.
-    link: usize,
+    pub link: usize,
     /// Index of the link's element.
-    mover: u32,
+    pub mover: u32,
 }
 
 /// A clearance together with what breaks ties.
 #[derive(Clone, Copy)]
 pub(super) struct Best {
     pub clearance: Clearance,
-    order: Order,
+    pub order: Order,
+}
+
+impl Clearances for BodyValidity {
+    fn clearance(&self, q: &[f64], scratch: &mut Scratch) -> Option<Clearance> {
+        let scratch: &mut BodyScratch = scratch.of_model();
+        self.nearest_obstacle(q, scratch).map(|best| best.clearance)
+    }
+
+    fn approach(&self, q: &[f64], scratch: &mut Scratch) -> Option<Approach> {
+        let scratch: &mut BodyScratch = scratch.of_model();
+        let Best { clearance, order } = self.nearest_obstacle(q, scratch)?;
+        let [point, toward] = [clearance.on_robot, clearance.on_obstacle].map(Vector::from_array);
+        // Where surfaces meet there is no direction, and zeros are the rates.
+        let direction = (toward - point).try_normalize().unwrap_or(Vector::ZERO);
+        let (link, stance) = (order.link, &scratch.stance);
+        let moved = self.moved_stances(q);
+        let rate = |moved: &Moved| {
+            let apart = carried(stance, link, point, &moved.more)
+                - carried(stance, link, point, &moved.less);
+            direction.dot(apart) / (2.0 * moved.by)
+        };
+        Some(Approach { clearance, rates: moved.iter().map(rate).collect() })
+    }
+
+    fn witnesses(&self, q: &[f64], scratch: &mut Scratch) -> Option<Witnesses> {
+        let scratch: &mut BodyScratch = scratch.of_model();
+        let best = self.nearest_obstacle(q, scratch)?;
+        self.parts(&best, &scratch.stance.frames)
+    }
+
+    fn room(&self, q: &[f64], scratch: &mut Scratch) -> [[f64; 2]; 3] {
+        let scratch: &mut BodyScratch = scratch.of_model();
+        self.robot.link_poses(q, &mut scratch.stance.poses);
+        scratch.stance.update_frames();
+        self.room_at(q, &scratch.stance.frames)
+    }
+
+    fn farthest(&self, a: &[f64], b: &[f64]) -> f64 {
+        self.speeds.farthest(&self.robot, a, b)
+    }
+}
+
+impl BodyValidity {
+    /// The clearance at a configuration; the scratch holds afterwards how the links stand there.
+    fn nearest_obstacle(&self, q: &[f64], scratch: &mut BodyScratch) -> Option<Best> {
+        self.robot.link_poses(q, &mut scratch.stance.poses);
+        scratch.stance.update_frames();
+        let BodyScratch { stance, stacks, .. } = scratch;
+        let among = self.meetings().take_while(|meeting| meeting.still_link.is_none());
+        among.fold(None, |best, meeting| meeting.nearer(stance, &mut stacks.pairs, best))
+    }
 }
 
 impl Meeting<'_> {
@@ -91,7 +145,7 @@ impl Meeting<'_> {
 
 /// A lower bound on the distance of two boxes: the largest of the distance of their bounding spheres and the gaps along
 /// the axes of both.
-fn apart(mover: &Obb, still: &Obb, frame: &Frame) -> f64 {
+pub(super) fn apart(mover: &Obb, still: &Obb, frame: &Frame) -> f64 {
     let way = still.centre - frame.point(mover.centre);
     let axes = mover.axes.map(|axis| frame.direction(axis));
     let mut gap = way.length() - mover.radius - still.radius;

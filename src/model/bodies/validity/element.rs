@@ -52,8 +52,8 @@ impl Element {
 
     /// A bound on the distance of the element's points from the axis or the point about which a motion turns it.
     pub fn reach(&self, rates: &Rates) -> f64 {
-        let far = |most: f64, corner: &Vector| most.max(rates.distance(*corner));
-        self.corners.iter().fold(0.0, far) + self.radius
+        let [a, b, c] = self.corners;
+        rates.distance(a).max(rates.distance(b)).max(rates.distance(c)).max(0.0) + self.radius
     }
 }
 

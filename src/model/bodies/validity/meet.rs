@@ -4,13 +4,13 @@ use super::convex::{Convex, meet, nearest};
 use super::directions::triangles_meet;
 use super::element::{Element, elements};
 use super::frame::{Frame, Stance};
-use super::light::{Four, Frames, Stands, above, grain};
+use super::light::{Eight, Frames, Stands, above, grain};
 use super::origin;
 use super::piece::Piece;
 use super::tree::{Node, Tree};
-use crate::lanes::{Lanes, with_lanes};
+use crate::lanes::{Lanes, with_widest_lanes};
 use crate::scene::Body;
-use fearless_simd::{Simd, f32x4};
+use fearless_simd::{Simd, f32x8};
 use parry3d_f64::math::{Pose, Vector};
 
 /// Bodies that move as one rigid body (those of a link, or all obstacles), in the frame of that link or of the world.
@@ -47,8 +47,8 @@ impl Meeting<'_> {
     /// A length greater than what rounding in single precision can add up to where the moving tree's origin is one of
     /// these points as seen from the standing tree's, see [`light`](super::light).
     #[inline]
-    pub fn grain(&self, origins: [Vector; 2]) -> f32 {
-        let [first, last] = origins.map(|origin| origin.abs().max_element());
+    pub fn grain(&self, [first, last]: [Vector; 2]) -> f32 {
+        let (first, last) = (first.abs().max_element(), last.abs().max_element());
         grain(self.mover.tree.reach + first.max(last))
     }
 
@@ -61,7 +61,7 @@ impl Meeting<'_> {
     /// The same for the parts of the two groups below a pair of nodes.
     pub fn any_meet(&self, pair: (u32, u32), stance: &Stance, stack: &mut Vec<(u32, u32)>) -> bool {
         let frame = stance.seen(self.mover_link, self.still_link);
-        with_lanes!(self.lanes, simd => simd.vectorize(
+        with_widest_lanes!(self.lanes, simd => simd.vectorize(
             #[inline(always)]
             || self.any_meet_at(simd, pair, &frame, stance, stack),
         ))
@@ -78,29 +78,30 @@ impl Meeting<'_> {
     ) -> bool {
         let (own, other) = (&self.mover.tree, &self.still.tree);
         let local = &self.between_origins(frame);
-        let frames: Frames<f32x4<S>> = Frames::new(simd, [local, local]);
+        let frames: Frames<f32x8<S>> = Frames::new(simd, [local, local]);
         let room = above(self.slack) + self.grain([local.shift; 2]);
-        let place = |four: &Four<S>| Stands::new(&frames, four);
-        let same = |tree: &'_ Tree, node: u32| Four::same(simd, &tree.boxes[node as usize]);
-        let gathered = |tree: &'_ Tree, nodes: &[u32]| Four::new(simd, tree.gathered(nodes));
-        let mut held = (pair.0, place(&same(own, pair.0)));
+        let mut held = (pair.0, Stands::new(&frames, &same(simd, own, pair.0)));
         stack.clear();
-        if held.1.may_meet(simd, &same(other, pair.1), room) != 0 {
+        if held.1.may_meet(simd, &same(simd, other, pair.1), room) != 0 {
             stack.push(pair);
         }
         while let Some((i, j)) = stack.pop() {
             let (mover, still) = (&own.nodes[i as usize], &other.nodes[j as usize]);
             if !mover.ends && (still.ends || mover.space.radius > still.space.radius) {
-                let nodes = own.children(i);
-                let met = place(&gathered(own, nodes)).may_meet(simd, &same(other, j), room);
+                let (nodes, boxes) = own.children(i);
+                let met = Stands::new(&frames, &Eight::load(simd, boxes)).may_meet(
+                    simd,
+                    &same(simd, other, j),
+                    room,
+                );
                 let met = nodes.iter().enumerate().rev().filter(|(lane, _)| met >> lane & 1 == 1);
                 stack.extend(met.map(|(_, i)| (*i, j)));
             } else if !still.ends {
                 if held.0 != i {
-                    held = (i, place(&same(own, i)));
+                    held = (i, Stands::new(&frames, &same(simd, own, i)));
                 }
-                let nodes = other.children(j);
-                let met = held.1.may_meet(simd, &gathered(other, nodes), room);
+                let (nodes, boxes) = other.children(j);
+                let met = held.1.may_meet(simd, &Eight::load(simd, boxes), room);
                 let met = nodes.iter().enumerate().rev().filter(|(lane, _)| met >> lane & 1 == 1);
                 stack.extend(met.map(|(_, j)| (i, *j)));
             } else if self.ends_meet(mover, still, frame, stance) {
@@ -117,14 +118,10 @@ impl Meeting<'_> {
         if !first.primitive && !second.primitive {
             // Triangles with a padding are rounded.
             if first.radius > 0.0 {
-                let corners = first.corners.map(|p| frame.point(p));
+                let corners = frame.points(&first.corners);
                 return self.nearest(first, &corners, second, stance).distance <= 0.0;
             }
-            return triangles_meet(
-                self.lanes,
-                &first.corners.map(|p| frame.point(p)),
-                &second.corners,
-            );
+            return triangles_meet(self.lanes, &frame.points(&first.corners), &second.corners);
         }
         let (one, other) = (self.mover.piece(first), self.still.piece(second));
         let at = stance.pose(Some(self.mover_link));
@@ -145,6 +142,12 @@ impl Meeting<'_> {
             }
         }
     }
+}
+
+/// The box of one node in every lane.
+#[inline(always)]
+fn same<S: Simd>(simd: S, tree: &Tree, node: u32) -> Eight<S> {
+    Eight::same(simd, &tree.boxes[node as usize])
 }
 
 /// An element as a convex shape.

@@ -2,11 +2,13 @@
 
 mod bodies;
 mod clearance;
+mod contacts;
 mod convex;
 mod directions;
 mod element;
 mod frame;
 mod freedom;
+mod gaps;
 mod inside;
 mod light;
 mod meet;
@@ -23,6 +25,7 @@ mod swept_box;
 mod touching;
 mod tree;
 mod triangles;
+mod witness;
 mod work;
 
 pub use bodies::{BodyValidity, Bounds, BoundsMeaning, MotionChecking};
@@ -32,6 +35,8 @@ pub use touching::PairTouches;
 pub use work::Work;
 
 #[cfg(test)]
+mod gaps_tests;
+#[cfg(test)]
 mod invariance_tests;
 #[cfg(test)]
 mod padding_tests;
@@ -39,3 +44,5 @@ mod padding_tests;
 mod tests;
 #[cfg(test)]
 mod tree_tests;
+#[cfg(test)]
+mod witness_tests;

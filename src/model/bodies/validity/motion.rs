@@ -46,7 +46,8 @@ impl BodyValidity {
             // Where no body has an inside, it is enough that no surfaces meet at the steps. Else a body could be
             // enclosed at a step, which is excluded if the surfaces meet at no time at all; where that cannot be
             // proved, the steps are checked one by one.
-            MotionChecking::Sampled => {
+            // Of what may overlap this is the part that may not, see `BodiesWithPenetration`.
+            MotionChecking::Sampled | MotionChecking::Penetrating { .. } => {
                 let asks = if self.solid { Asks::AllTimes } else { Asks::SampleRange };
                 let exact = within && steps <= SAMPLES_MAX;
                 match exact.then(|| self.sweep((a, b), steps, bounded, asks, scratch)).flatten() {
@@ -106,6 +107,9 @@ impl BodyValidity {
         let mut found = self.meetings().map(|meeting| {
             let Meeting { mover_link, still_link, .. } = meeting;
             let rates = self.hops.rates(still_link, mover_link, (a, b), &mut stacks.descent);
+            if rates.steady.is_none() {
+                self.hops.drives(still_link, mover_link, (a, b), &mut stacks.drives);
+            }
             find(meeting, rates, asks, clock, stacks)
         });
         Some(found.find(|finds| *finds != Finds::Free).unwrap_or(Finds::Free))

@@ -84,6 +84,15 @@ impl Piece {
         self.primitive.as_ref().is_some_and(|shape| shape.holds(&self.pose_at(link), point))
     }
 
+    /// Whether the body is solid and holds a point that is given in the frame of its link, or in the world's; its padding does not count.
+    pub fn holds_in_own_group(&self, point: Vector) -> bool {
+        match (&self.inside, &self.primitive) {
+            (Some(inside), _) => inside.contains(self.body.inverse_transform_point(point)),
+            (None, Some(shape)) => shape.holds(&self.pose, point),
+            (None, None) => false,
+        }
+    }
+
     /// Whether the body is a solid mesh: its inside is material, but only its surface is in the tree.
     pub fn is_hollow(&self) -> bool {
         self.inside.is_some()

@@ -84,7 +84,7 @@ impl BodyValidity {
     }
 
     /// The pairs of bodies whose boxes meet.
-    fn near_pairs(&self, meeting: &Meeting, stance: &Stance) -> Vec<(usize, usize)> {
+    pub(super) fn near_pairs(&self, meeting: &Meeting, stance: &Stance) -> Vec<(usize, usize)> {
         let at = stance.pose(Some(meeting.mover_link));
         let other_at = stance.pose(meeting.still_link);
         let own: Vec<_> = meeting.mover.pieces.iter().map(|piece| piece.box_at(&at)).collect();

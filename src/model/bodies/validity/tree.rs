@@ -1,7 +1,7 @@
 //! Bounding-volume hierarchies: binary trees of oriented bounding boxes over the elements of the bodies of a group.
 
 use super::element::Element;
-use super::light::LightBox;
+use super::light::{LightBox, PackedBoxes};
 use super::obb::{Obb, UPRIGHT};
 use parry3d_f64::math::Vector;
 use std::sync::OnceLock;
@@ -38,13 +38,28 @@ pub(super) struct Tree {
     pub origin: Vector,
     /// How far the boxes reach from the origin.
     pub reach: f64,
-    /// For each node, up to four nodes below it that together hold all of its elements, and how many they are: the
-    /// tree as one of four children to a node, since boxes are tested four at once.
-    below: Vec<([u32; 4], u32)>,
+    /// For each node, up to eight nodes below it that together hold all of its elements: the tree as one of eight children
+    /// to a node, since boxes are tested eight at once.
+    below: Vec<Below>,
+    /// The boxes of such nodes, for each node to which that tree comes.
+    packed: Vec<PackedBoxes>,
     pub elements: Vec<Element>,
     /// See [`Tree::body_nodes`]; found when it is first asked for.
     bodies: OnceLock<Vec<u32>>,
 }
+
+/// Nodes below a node that together hold all of its elements.
+#[derive(Clone, Debug, Default)]
+struct Below {
+    nodes: [u32; WIDTH],
+    /// How many they are; none for a leaf.
+    count: u32,
+    /// Index of their boxes in [`Tree::packed`], if the node is one of the tree of eight children to a node.
+    packed: u32,
+}
+
+/// How many boxes are tested at once.
+const WIDTH: usize = 8;
 
 /// What building never splits at present: all elements of a body, or a single one.
 #[derive(Clone, Copy)]
@@ -83,6 +98,7 @@ impl Tree {
             origin: Vector::ZERO,
             reach: 0.0,
             below: Vec::new(),
+            packed: Vec::new(),
             elements,
             bodies: OnceLock::new(),
         };
@@ -97,13 +113,14 @@ impl Tree {
         let reach = |node: &Node| (node.space.centre - origin).length() + node.space.radius;
         tree.reach = tree.nodes.iter().map(reach).fold(0.0, f64::max);
         tree.origin = origin;
-        tree.below = (0..tree.nodes.len() as u32).map(|at| tree.four_below(at)).collect();
+        tree.below = (0..tree.nodes.len() as u32).map(|at| tree.nodes_below(at)).collect();
+        tree.pack();
         Some(tree)
     }
 
     #[inline(always)]
     pub fn is_leaf(&self, node: u32) -> bool {
-        self.below[node as usize].1 == 0
+        self.below[node as usize].count == 0
     }
 
     /// For each body the node that holds all of its elements and no others.
@@ -132,31 +149,40 @@ impl Tree {
         piece
     }
 
-    /// Up to four nodes below a node that together hold all of its elements; none for a leaf.
+    /// Up to eight nodes below a node that together hold all of its elements, with their boxes, the last of which is
+    /// repeated where there are fewer than eight. The node is the root, or one of those below another; of a leaf there are
+    /// none, and the boxes are any.
     #[inline(always)]
-    pub fn children(&self, node: u32) -> &[u32] {
-        let (nodes, count) = &self.below[node as usize];
-        &nodes[..*count as usize]
+    pub fn children(&self, node: u32) -> (&[u32], &PackedBoxes) {
+        let Below { nodes, count, packed } = &self.below[node as usize];
+        (&nodes[..*count as usize], &self.packed[*packed as usize])
     }
 
-    /// The boxes of one to four nodes; where there are fewer than four the last one is repeated.
+    /// The boxes of nodes.
     #[inline(always)]
-    pub fn gathered(&self, nodes: &[u32]) -> [&LightBox; 4] {
-        let last = nodes.len() - 1;
-        let [a, b, c, d] = [nodes[0], nodes[last.min(1)], nodes[last.min(2)], nodes[last]];
+    pub fn gathered(&self, [a, b, c, d, e, f, g, h]: &[u32; WIDTH]) -> [&LightBox; WIDTH] {
         let boxes = &self.boxes;
-        [&boxes[a as usize], &boxes[b as usize], &boxes[c as usize], &boxes[d as usize]]
+        [
+            &boxes[*a as usize],
+            &boxes[*b as usize],
+            &boxes[*c as usize],
+            &boxes[*d as usize],
+            &boxes[*e as usize],
+            &boxes[*f as usize],
+            &boxes[*g as usize],
+            &boxes[*h as usize],
+        ]
     }
 
     /// See [`Tree::children`]: starts from the two children in the binary tree, and replaces the largest node by its
-    /// own two children until there are four. Nodes at which tests of a single configuration end are kept whole.
-    fn four_below(&self, at: u32) -> ([u32; 4], u32) {
+    /// own two children until there are eight. Nodes at which tests of a single configuration end are kept whole.
+    fn nodes_below(&self, at: u32) -> Below {
         let node = |at: u32| &self.nodes[at as usize];
         if node(at).is_leaf() {
-            return ([at; 4], 0);
+            return Below::default();
         }
         let mut list = vec![node(at).left, node(at).left + 1];
-        while list.len() < 4 {
+        while list.len() < WIDTH {
             let inner = list.iter().enumerate().filter(|(_, at)| !node(**at).ends);
             let size = |at: u32| node(at).space.radius;
             let Some((place, _)) = inner.max_by(|(_, a), (_, b)| size(**a).total_cmp(&size(**b)))
@@ -166,9 +192,22 @@ impl Tree {
             let left = node(list[place]).left;
             list.splice(place..=place, [left, left + 1]);
         }
-        let mut nodes = [list[0]; 4];
+        let mut nodes = [list[list.len() - 1]; WIDTH];
         nodes[..list.len()].copy_from_slice(&list);
-        (nodes, list.len() as u32)
+        Below { nodes, count: list.len() as u32, packed: 0 }
+    }
+
+    /// Packs the boxes below the nodes to which the tree of eight children to a node comes.
+    fn pack(&mut self) {
+        let mut todo = vec![0];
+        while let Some(at) = todo.pop() {
+            let Below { nodes, count, .. } = self.below[at as usize].clone();
+            if count > 0 || self.packed.is_empty() {
+                self.below[at as usize].packed = self.packed.len() as u32;
+                self.packed.push(PackedBoxes::new(self.gathered(&nodes)));
+                todo.extend(&nodes[..count as usize]);
+            }
+        }
     }
 
     fn of(&self, units: &[Unit]) -> impl Iterator<Item = &Element> {

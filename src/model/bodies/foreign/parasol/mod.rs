@@ -1,11 +1,12 @@
 //! Parasol's scene files: `.env` (bounds and obstacles, in the older dialect the robot too), `.robot`
-//! and `.query`.
+//! and `.query`; and its `.path`.
 //!
 //! Conventions, as in Parasol's library: poses are x y z and degrees about X, Y, Z, rotations
 //! Rz·Ry·Rx; configurations give angles as fractions of π; every mesh's origin is the mean of its
 //! vertices; the bounds hold every point of the robot.
 
 mod env;
+mod path;
 mod query;
 mod robot;
 mod words;
@@ -17,6 +18,8 @@ use crate::model::bodies::validity::{Bounds, BoundsMeaning};
 use crate::scene::{Centre, MeshOptions, Pose};
 use std::path::{Path, PathBuf};
 use words::Words;
+
+pub(crate) use path::{is_parasol_path, read_parasol_path};
 
 /// Reads a Parasol scene. Where the options name no robot (needed where the `.env` has no active body)
 /// or no query, the file beside the `.env` that has its stem is taken, or else the only one with the

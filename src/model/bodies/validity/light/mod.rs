@@ -1,4 +1,4 @@
-//! Oriented bounding boxes in single precision, tested four at once. The tests only say what double precision has to
+//! Oriented bounding boxes in single precision, tested eight at once. The tests only say what double precision has to
 //! look at closer.
 //!
 //! Coordinates are taken from an origin of each tree's own (`origin.rs`), the differences being formed in double
@@ -28,7 +28,7 @@ mod stand;
 use super::frame::Frame;
 use super::obb::Obb;
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x4, f32x8};
+use fearless_simd::{f32x4, f32x8, f32x16};
 use parry3d_f64::math::Vector;
 
 pub(super) use stand::{Gaps, Stands};
@@ -105,24 +105,37 @@ fn within(at: Vector) -> Vector {
     at.clamp(-far, far)
 }
 
-/// Numbers of four boxes, a box to a lane: at one time (four lanes), or at both ends of a chord of the motion (eight
+/// Numbers of eight boxes, a box to a lane: at one time (eight lanes), or at both ends of a chord of the motion (sixteen
 /// lanes, those of the beginning first).
-pub(super) trait Many<S: Simd>: SimdFloat<S, Element = f32, Block = f32x4<S>> {
-    /// From the numbers at the beginning and at the end; with four lanes the latter are ignored.
-    fn times(first: f32x4<S>, last: f32x4<S>) -> Self;
-}
+pub(super) trait Many<S: Simd>: SimdFloat<S, Element = f32> {
+    /// From the numbers at the beginning and at the end; with eight lanes the latter are ignored.
+    fn times(first: f32x8<S>, last: f32x8<S>) -> Self;
 
-impl<S: Simd> Many<S> for f32x4<S> {
-    #[inline(always)]
-    fn times(first: f32x4<S>, _: f32x4<S>) -> f32x4<S> {
-        first
-    }
+    /// From numbers that do not depend on time.
+    fn always(of: f32x8<S>) -> Self;
 }
 
 impl<S: Simd> Many<S> for f32x8<S> {
     #[inline(always)]
-    fn times(first: f32x4<S>, last: f32x4<S>) -> f32x8<S> {
+    fn times(first: f32x8<S>, _: f32x8<S>) -> f32x8<S> {
+        first
+    }
+
+    #[inline(always)]
+    fn always(of: f32x8<S>) -> f32x8<S> {
+        of
+    }
+}
+
+impl<S: Simd> Many<S> for f32x16<S> {
+    #[inline(always)]
+    fn times(first: f32x8<S>, last: f32x8<S>) -> f32x16<S> {
         first.combine(last)
+    }
+
+    #[inline(always)]
+    fn always(of: f32x8<S>) -> f32x16<S> {
+        of.combine(of)
     }
 }
 
@@ -142,8 +155,8 @@ pub(super) fn dot<S: Simd, V: Many<S>>(a: &Three<V>, b: &Three<V>) -> V {
 
 /// Vectors that do not depend on time, at each of the times.
 #[inline(always)]
-pub(super) fn all_times<S: Simd, V: Many<S>>([x, y, z]: &Three<f32x4<S>>) -> Three<V> {
-    [V::block_splat(*x), V::block_splat(*y), V::block_splat(*z)]
+pub(super) fn all_times<S: Simd, V: Many<S>>([x, y, z]: &Three<f32x8<S>>) -> Three<V> {
+    [V::always(*x), V::always(*y), V::always(*z)]
 }
 
 /// A point in every lane, with its positions at the one time or at both.
@@ -155,7 +168,7 @@ pub(super) fn points<S: Simd, V: Many<S>>(simd: S, [first, last]: [Vector; 2]) -
 
 #[inline(always)]
 fn number<S: Simd, V: Many<S>>(simd: S, first: f64, last: f64) -> V {
-    V::times(f32x4::splat(simd, first as f32), f32x4::splat(simd, last as f32))
+    V::times(f32x8::splat(simd, first as f32), f32x8::splat(simd, last as f32))
 }
 
 /// A frame in every lane, at the one time or at both.
@@ -182,44 +195,100 @@ impl<V> Frames<V> {
     }
 }
 
-/// Four boxes, a box to a lane.
-#[derive(Clone, Copy)]
-pub(super) struct Four<S: Simd> {
-    pub centre: Three<f32x4<S>>,
-    pub axes: [Three<f32x4<S>>; 3],
-    /// Half their sides.
-    pub half: Three<f32x4<S>>,
-    /// Half their diagonals.
-    pub radius: f32x4<S>,
+/// The numbers of eight boxes, those of one kind side by side, as [`Eight`] has them.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub(super) struct PackedBoxes([[f32; 8]; 16]);
+
+impl PackedBoxes {
+    pub fn new(boxes: [&LightBox; 8]) -> PackedBoxes {
+        let number = |one: &LightBox, at: usize| match at / 4 {
+            3 => one.centre[at % 4],
+            axis => one.axes[axis][at % 4],
+        };
+        PackedBoxes(std::array::from_fn(|at| boxes.map(|one| number(one, at))))
+    }
 }
 
-impl<S: Simd> Four<S> {
+/// Eight boxes, a box to a lane.
+#[derive(Clone, Copy)]
+pub(super) struct Eight<S: Simd> {
+    pub centre: Three<f32x8<S>>,
+    pub axes: [Three<f32x8<S>>; 3],
+    /// Half their sides.
+    pub half: Three<f32x8<S>>,
+    /// Half their diagonals.
+    pub radius: f32x8<S>,
+}
+
+impl<S: Simd> Eight<S> {
     #[inline(always)]
-    pub fn new(simd: S, [a, b, c, d]: [&LightBox; 4]) -> Four<S> {
-        let first = columns(simd, [&a.axes[0], &b.axes[0], &c.axes[0], &d.axes[0]]);
-        let second = columns(simd, [&a.axes[1], &b.axes[1], &c.axes[1], &d.axes[1]]);
-        let third = columns(simd, [&a.axes[2], &b.axes[2], &c.axes[2], &d.axes[2]]);
-        let centre = columns(simd, [&a.centre, &b.centre, &c.centre, &d.centre]);
-        Four::of([first, second, third], centre)
+    pub fn new(simd: S, [a, b, c, d, e, f, g, h]: [&LightBox; 8]) -> Eight<S> {
+        let first = [&a.axes[0], &b.axes[0], &c.axes[0], &d.axes[0]];
+        let first = both(
+            columns(simd, first),
+            columns(simd, [&e.axes[0], &f.axes[0], &g.axes[0], &h.axes[0]]),
+        );
+        let second = [&a.axes[1], &b.axes[1], &c.axes[1], &d.axes[1]];
+        let second = both(
+            columns(simd, second),
+            columns(simd, [&e.axes[1], &f.axes[1], &g.axes[1], &h.axes[1]]),
+        );
+        let third = [&a.axes[2], &b.axes[2], &c.axes[2], &d.axes[2]];
+        let third = both(
+            columns(simd, third),
+            columns(simd, [&e.axes[2], &f.axes[2], &g.axes[2], &h.axes[2]]),
+        );
+        let centre = [&a.centre, &b.centre, &c.centre, &d.centre];
+        let centre = both(
+            columns(simd, centre),
+            columns(simd, [&e.centre, &f.centre, &g.centre, &h.centre]),
+        );
+        Eight::of([first, second, third], centre)
+    }
+
+    /// Boxes that were packed before.
+    #[inline(always)]
+    pub fn load(simd: S, PackedBoxes(packed): &PackedBoxes) -> Eight<S> {
+        let of = four_rows;
+        Eight::of(
+            [of(simd, packed, 0), of(simd, packed, 4), of(simd, packed, 8)],
+            of(simd, packed, 12),
+        )
     }
 
     /// One box in all lanes.
     #[inline(always)]
-    pub fn same(simd: S, LightBox { axes, centre }: &LightBox) -> Four<S> {
+    pub fn same(simd: S, LightBox { axes, centre }: &LightBox) -> Eight<S> {
         let axes = [splat(simd, &axes[0]), splat(simd, &axes[1]), splat(simd, &axes[2])];
-        Four::of(axes, splat(simd, centre))
+        Eight::of(axes, splat(simd, centre))
     }
 
     #[inline(always)]
-    fn of([a, b, c]: [[f32x4<S>; 4]; 3], [x, y, z, radius]: [f32x4<S>; 4]) -> Four<S> {
+    fn of([a, b, c]: [[f32x8<S>; 4]; 3], [x, y, z, radius]: [f32x8<S>; 4]) -> Eight<S> {
         let axes = [[a[0], a[1], a[2]], [b[0], b[1], b[2]], [c[0], c[1], c[2]]];
-        Four { centre: [x, y, z], axes, half: [a[3], b[3], c[3]], radius }
+        Eight { centre: [x, y, z], axes, half: [a[3], b[3], c[3]], radius }
     }
 }
 
 #[inline(always)]
-fn splat<S: Simd>(simd: S, [x, y, z, w]: &[f32; 4]) -> [f32x4<S>; 4] {
-    [f32x4::splat(simd, *x), f32x4::splat(simd, *y), f32x4::splat(simd, *z), f32x4::splat(simd, *w)]
+fn four_rows<S: Simd>(simd: S, rows: &[[f32; 8]; 16], at: usize) -> [f32x8<S>; 4] {
+    [
+        f32x8::load_array_ref(simd, &rows[at]),
+        f32x8::load_array_ref(simd, &rows[at + 1]),
+        f32x8::load_array_ref(simd, &rows[at + 2]),
+        f32x8::load_array_ref(simd, &rows[at + 3]),
+    ]
+}
+
+#[inline(always)]
+fn splat<S: Simd>(simd: S, [x, y, z, w]: &[f32; 4]) -> [f32x8<S>; 4] {
+    [f32x8::splat(simd, *x), f32x8::splat(simd, *y), f32x8::splat(simd, *z), f32x8::splat(simd, *w)]
+}
+
+#[inline(always)]
+fn both<S: Simd>([a, b, c, d]: [f32x4<S>; 4], [e, f, g, h]: [f32x4<S>; 4]) -> [f32x8<S>; 4] {
+    [a.combine(e), b.combine(f), c.combine(g), d.combine(h)]
 }
 
 /// The transposed matrix.

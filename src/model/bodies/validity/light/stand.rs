@@ -1,19 +1,19 @@
-//! Four moving boxes, placed in the standing frame, and their gaps to standing boxes along separating axes.
+//! Eight moving boxes, placed in the standing frame, and their gaps to standing boxes along separating axes.
 
-use super::{Four, Frames, Many, Three, WIDE, all_times, dot, three};
+use super::{Eight, Frames, Many, Three, WIDE, all_times, dot, three};
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x4, f32x8};
+use fearless_simd::{f32x8, f32x16};
 
-/// The centres and axes of four moving boxes in the standing frame.
+/// The centres and axes of eight moving boxes in the standing frame.
 #[derive(Clone, Copy)]
 pub(in crate::model::bodies::validity) struct Stands<S: Simd, V: Many<S>> {
     centre: Three<V>,
     pub axes: [Three<V>; 3],
     /// Half their sides.
-    pub half: Three<f32x4<S>>,
+    pub half: Three<f32x8<S>>,
 }
 
-/// The position of each of four moving boxes relative to the standing box of the same lane.
+/// The position of each of eight moving boxes relative to the standing box of the same lane.
 pub(in crate::model::bodies::validity) struct Across<V> {
     pub between: Three<V>,
     /// Absolute values of the scalar products of the moving box's axes with the standing box's axes.
@@ -26,7 +26,7 @@ pub(in crate::model::bodies::validity) struct Gaps<V>(pub V, pub V);
 
 impl<S: Simd, V: Many<S>> Stands<S, V> {
     #[inline(always)]
-    pub fn new(Frames { turn, shift }: &Frames<V>, own: &Four<S>) -> Stands<S, V> {
+    pub fn new(Frames { turn, shift }: &Frames<V>, own: &Eight<S>) -> Stands<S, V> {
         let axes =
             [turned(turn, &own.axes[0]), turned(turn, &own.axes[1]), turned(turn, &own.axes[2])];
         let [x, y, z] = turned(turn, &own.centre);
@@ -35,7 +35,7 @@ impl<S: Simd, V: Many<S>> Stands<S, V> {
     }
 
     #[inline(always)]
-    pub fn across(&self, still: &Four<S>) -> Across<V> {
+    pub fn across(&self, still: &Eight<S>) -> Across<V> {
         let [x, y, z] = all_times::<S, V>(&still.centre);
         let between = [x - self.centre[0], y - self.centre[1], z - self.centre[2]];
         let axes =
@@ -48,9 +48,9 @@ impl<S: Simd, V: Many<S>> Stands<S, V> {
     #[inline(always)]
     pub fn along_still(
         &self,
-        still: &Four<S>,
+        still: &Eight<S>,
         across: &Across<V>,
-        room: f32x4<S>,
+        room: f32x8<S>,
     ) -> Three<Gaps<V>> {
         let sides = all_times(&self.half);
         let [a, b, c] = &across.turns;
@@ -65,7 +65,12 @@ impl<S: Simd, V: Many<S>> Stands<S, V> {
 
     /// The overlaps along the moving boxes' own axes.
     #[inline(always)]
-    pub fn along_own(&self, still: &Four<S>, across: &Across<V>, room: f32x4<S>) -> Three<Gaps<V>> {
+    pub fn along_own(
+        &self,
+        still: &Eight<S>,
+        across: &Across<V>,
+        room: f32x8<S>,
+    ) -> Three<Gaps<V>> {
         let sides = all_times(&still.half);
         let room = still.widened(room);
         three(
@@ -78,14 +83,14 @@ impl<S: Simd, V: Many<S>> Stands<S, V> {
     }
 
     /// The overlaps along any axis, of any length; overlaps are multiplied by that length, and so is `room` already, which
-    /// is to be that of [`Four::widened`].
+    /// is to be that of [`Eight::widened`].
     #[inline(always)]
     pub fn along(
         &self,
-        axis: &Three<f32x4<S>>,
-        still: &Four<S>,
+        axis: &Three<f32x8<S>>,
+        still: &Eight<S>,
         across: &Across<V>,
-        room: f32x4<S>,
+        room: f32x8<S>,
     ) -> Gaps<V> {
         let [a, b, c] = &still.axes;
         let room =
@@ -97,16 +102,16 @@ impl<S: Simd, V: Many<S>> Stands<S, V> {
     }
 }
 
-impl<S: Simd> Four<S> {
+impl<S: Simd> Eight<S> {
     /// The length by which boxes are enlarged along axes that are not those of the standing boxes, given that along these.
     #[inline(always)]
-    pub fn widened(&self, room: f32x4<S>) -> f32x4<S> {
+    pub fn widened(&self, room: f32x8<S>) -> f32x8<S> {
         self.radius * WIDE + room
     }
 }
 
 #[inline(always)]
-fn turned<S: Simd, V: Many<S>>(turn: &[Three<V>; 3], v: &Three<f32x4<S>>) -> Three<V> {
+fn turned<S: Simd, V: Many<S>>(turn: &[Three<V>; 3], v: &Three<f32x8<S>>) -> Three<V> {
     let v = all_times(v);
     [dot(&turn[0], &v), dot(&turn[1], &v), dot(&turn[2], &v)]
 }
@@ -119,52 +124,52 @@ fn turns<S: Simd, V: Many<S>>(own: &Three<V>, [a, b, c]: &[Three<V>; 3]) -> Thre
 /// How far boxes extend along an axis, given half their sides, the absolute cosines between these and the axis, and an
 /// addition.
 #[inline(always)]
-fn reach<S: Simd, V: Many<S>>(turns: &Three<V>, sides: &Three<V>, room: f32x4<S>) -> V {
+fn reach<S: Simd, V: Many<S>>(turns: &Three<V>, sides: &Three<V>, room: f32x8<S>) -> V {
     let [x, y, z] = turns;
-    z.mul_add(sides[2], y.mul_add(sides[1], x.mul_add(sides[0], V::block_splat(room))))
+    z.mul_add(sides[2], y.mul_add(sides[1], x.mul_add(sides[0], V::always(room))))
 }
 
-impl<S: Simd> Stands<S, f32x8<S>> {
+impl<S: Simd> Stands<S, f32x16<S>> {
     /// The box of one lane, in every lane.
     #[inline(always)]
-    pub fn only(&self, simd: S, lane: usize) -> Stands<S, f32x8<S>> {
+    pub fn only(&self, simd: S, lane: usize) -> Stands<S, f32x16<S>> {
         let [a, b, c] = &self.axes;
         Stands {
             centre: only_pairs(simd, &self.centre, lane),
             axes: [only_pairs(simd, a, lane), only_pairs(simd, b, lane), only_pairs(simd, c, lane)],
             half: [
-                f32x4::splat(simd, self.half[0][lane]),
-                f32x4::splat(simd, self.half[1][lane]),
-                f32x4::splat(simd, self.half[2][lane]),
+                f32x8::splat(simd, self.half[0][lane]),
+                f32x8::splat(simd, self.half[1][lane]),
+                f32x8::splat(simd, self.half[2][lane]),
             ],
         }
     }
 }
 
 #[inline(always)]
-fn only_pairs<S: Simd>(simd: S, [x, y, z]: &Three<f32x8<S>>, lane: usize) -> Three<f32x8<S>> {
+fn only_pairs<S: Simd>(simd: S, [x, y, z]: &Three<f32x16<S>>, lane: usize) -> Three<f32x16<S>> {
     [only_pair(simd, x, lane), only_pair(simd, y, lane), only_pair(simd, z, lane)]
 }
 
 #[inline(always)]
-fn only_pair<S: Simd>(simd: S, v: &f32x8<S>, lane: usize) -> f32x8<S> {
-    let lane = lane & 3;
-    f32x4::splat(simd, v[lane]).combine(f32x4::splat(simd, v[lane + 4]))
+fn only_pair<S: Simd>(simd: S, v: &f32x16<S>, lane: usize) -> f32x16<S> {
+    let lane = lane & 7;
+    f32x8::splat(simd, v[lane]).combine(f32x8::splat(simd, v[lane + 8]))
 }
 
-impl<S: Simd> Stands<S, f32x4<S>> {
+impl<S: Simd> Stands<S, f32x8<S>> {
     /// A bit for each box that may be within `room` of the standing box of its lane: no face normal separates the two.
     #[inline(always)]
-    pub fn may_meet(&self, simd: S, still: &Four<S>, room: f32) -> u32 {
-        let (across, room) = (self.across(still), f32x4::splat(simd, room));
-        let met = !apart(self.along_still(still, &across, room)) & 15;
+    pub fn may_meet(&self, simd: S, still: &Eight<S>, room: f32) -> u32 {
+        let (across, room) = (self.across(still), f32x8::splat(simd, room));
+        let met = !apart(self.along_still(still, &across, room)) & 255;
         if met == 0 { 0 } else { met & !apart(self.along_own(still, &across, room)) }
     }
 }
 
 /// A bit for each lane with a gap along one of three axes.
 #[inline(always)]
-fn apart<S: Simd>([a, b, c]: Three<Gaps<f32x4<S>>>) -> u32 {
+fn apart<S: Simd>([a, b, c]: Three<Gaps<f32x8<S>>>) -> u32 {
     let overlap = a.0.min(a.1).min(b.0.min(b.1)).min(c.0.min(c.1));
     overlap.simd_lt(0.0).to_bitmask() as u32
 }

@@ -1,12 +1,12 @@
 use super::*;
-use crate::lanes::{Lanes, with_lanes};
+use crate::lanes::{Lanes, with_widest_lanes};
 use crate::math;
 use crate::model::bodies::robot::rates_tests::drawn_pose;
 use crate::model::bodies::validity::frame::Frame;
 use crate::numbers::Ordinal;
 use crate::scene::Pose;
 use crate::seed::{Purpose, Seed, Stream};
-use fearless_simd::f32x4;
+use fearless_simd::f32x8;
 use proptest::prelude::*;
 
 fn drawn(stream: &mut Stream, size: f64) -> (Obb, Frame) {
@@ -75,15 +75,15 @@ proptest! {
         let room = touching.grain();
         let Touching { mover, still, frame, size: length, .. } = touching;
         let met = |frame: &Frame, lanes: Lanes| {
-            with_lanes!(lanes, simd => {
-                let frames: Frames<f32x4<_>> = Frames::new(simd, [frame, frame]);
-                let stands = Stands::new(&frames, &Four::same(simd, &mover));
-                stands.may_meet(simd, &Four::new(simd, [&still; 4]), room)
+            with_widest_lanes!(lanes, simd => {
+                let frames: Frames<f32x8<_>> = Frames::new(simd, [frame, frame]);
+                let stands = Stands::new(&frames, &Eight::same(simd, &mover));
+                stands.may_meet(simd, &Eight::new(simd, [&still; 8]), room)
             })
         };
         let apart = Frame { shift: frame.shift + Vector::X * (20.0 * length), ..frame };
         for lanes in Lanes::all() {
-            prop_assert_eq!(met(&frame, lanes), 15);
+            prop_assert_eq!(met(&frame, lanes), 255);
             // Where single precision ends nothing is told apart.
             let told = met(&apart, lanes) == 0;
             prop_assert!(told || larger > 1.0 || !(1e-30..1e27).contains(&length));
@@ -103,13 +103,13 @@ fn a_huge_plate_is_told_apart_from_a_small_box() {
     let [mover, still] = [mover, still].map(|space| LightBox::new(&space, Vector::ZERO));
     let turn =
         Frame::of(&Pose { translation: [0.0; 3], rotation: [0.8, 0.0, 0.0, 0.6] }.to_parry()).turn;
-    for (height, expected) in [(0.99, 15), (1.001, 15), (1.1, 0)] {
+    for (height, expected) in [(0.99, 255), (1.001, 255), (1.1, 0)] {
         let frame = Frame { turn, shift: Vector::new(2.0, 3.0, height) };
         for lanes in Lanes::all() {
-            let met = with_lanes!(lanes, simd => {
-                let frames: Frames<f32x4<_>> = Frames::new(simd, [&frame, &frame]);
-                let stands = Stands::new(&frames, &Four::same(simd, &mover));
-                stands.may_meet(simd, &Four::new(simd, [&still; 4]), grain(4.0))
+            let met = with_widest_lanes!(lanes, simd => {
+                let frames: Frames<f32x8<_>> = Frames::new(simd, [&frame, &frame]);
+                let stands = Stands::new(&frames, &Eight::same(simd, &mover));
+                stands.may_meet(simd, &Eight::new(simd, [&still; 8]), grain(4.0))
             });
             // A thousandth is told apart in double precision alone, a tenth here already.
             assert!(met == expected || height == 1.001, "{height} {met}");

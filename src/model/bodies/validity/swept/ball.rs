@@ -1,52 +1,52 @@
 //! The bounding sphere of the moving tree: a cheap first test that yields the nodes from which the recursion starts.
 
 use super::Stacks;
-use super::clip::{Clip, Met, Turned, apart, least};
+use super::clip::{Clip, Met, Spans, Turned, apart, least};
 use super::search::Sweep;
 use super::span::Span;
 use crate::model::bodies::validity::frame::Frame;
 use crate::model::bodies::validity::light::{
-    Four, Gaps, Three, above, all_times, dot, points, three,
+    Eight, Gaps, Many, Three, above, all_times, dot, points, three,
 };
 use crate::model::bodies::validity::meet::Meeting;
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x4, f32x8};
+use fearless_simd::{f32x8, f32x16};
 use parry3d_f64::math::Vector;
 
 /// The bounding sphere of a box during a whole motion, its centre going straight.
 struct SweptBall<S: Simd> {
     /// Its centre at the beginning and at the end, as seen from the standing tree's origin.
-    ends: Three<f32x8<S>>,
+    ends: Three<f32x16<S>>,
     /// Its radius, with the margin, and with what its centre may leave the straight line by.
-    room: f32x4<S>,
+    room: f32x8<S>,
 }
 
 impl<S: Simd> SweptBall<S> {
     #[inline(always)]
     fn new(simd: S, ends: [Vector; 2], room: f64, grain: f32) -> SweptBall<S> {
-        let room = f32x4::splat(simd, above(room) + grain);
+        let room = f32x8::splat(simd, above(room) + grain);
         SweptBall { ends: points(simd, ends), room }
     }
 
     /// When the sphere may meet standing boxes.
     #[inline(always)]
-    fn meets(&self, simd: S, still: &Four<S>, asked: Span) -> Met {
-        let [x, y, z] = all_times::<S, f32x8<S>>(&still.centre);
+    fn meets(&self, simd: S, still: &Eight<S>, asked: Span) -> Met {
+        let [x, y, z] = all_times::<S, f32x16<S>>(&still.centre);
         let between = [x - self.ends[0], y - self.ends[1], z - self.ends[2]];
         let gaps = three(
             #[inline(always)]
             |i| {
-                let reach = f32x8::block_splat(self.room + still.half[i]);
+                let reach = f32x16::always(self.room + still.half[i]);
                 Turned::new(Gaps::new(reach, dot(&between, &all_times(&still.axes[i]))))
             },
         );
         let apart = apart(least(&gaps));
-        if apart == 15 {
+        if apart == 255 {
             return Met::NOTHING;
         }
         let mut clip = Clip::whole(simd);
         clip.cut_all(&gaps);
-        clip.met(simd, !apart, Span::ALL, &[asked; 4])
+        clip.met(simd, !apart, Span::ALL, &Spans::same(simd, asked))
     }
 }
 
@@ -70,7 +70,9 @@ impl<S: Simd> Sweep<'_, '_, S> {
         let from_origin = course.rates.distance(space.centre);
         let margin = course.spare * course.rates.speed_at(space.radius + from_origin);
         let room = space.radius + course.rates.bend_at(from_origin) / 8.0 + margin + slack;
-        let ends = frames.map(|frame| frame.point(space.centre) - still.tree.origin);
+        let [first, last] = frames;
+        let ends = [first.point(space.centre), last.point(space.centre)];
+        let ends = [ends[0] - still.tree.origin, ends[1] - still.tree.origin];
         let grain = self.meeting.grain(ends);
         let ball = SweptBall::new(simd, ends, room, grain);
         let radius = mover.tree.boxes[0].radius();
@@ -79,7 +81,7 @@ impl<S: Simd> Sweep<'_, '_, S> {
         let Stacks { open, near: todo, work, .. } = &mut *self.stacks;
         open.clear();
         work.count(|work| work.balls += 1);
-        let met = ball.meets(simd, &Four::same(simd, &tree.boxes[0]), Span::ALL);
+        let met = ball.meets(simd, &Eight::same(simd, &tree.boxes[0]), Span::ALL);
         todo.extend(met.spans(1).map(|(_, span)| (0, span)));
         let mut whole: Option<Span> = None;
         while let Some((at, span)) = todo.pop() {
@@ -88,11 +90,14 @@ impl<S: Simd> Sweep<'_, '_, S> {
                 whole = Some(whole.map_or(span, |whole| whole.with(span)));
                 continue;
             }
-            let children = tree.children(at);
+            let (children, boxes) = tree.children(at);
             work.count(|work| work.balls += children.len() as u64);
-            let met = ball.meets(simd, &Four::new(simd, tree.gathered(children)), span);
-            let met = met.spans(children.len()).filter(|(_, span)| asks.about(*span, last));
-            todo.extend(met.map(|(lane, span)| (children[lane], span)));
+            let met = ball.meets(simd, &Eight::load(simd, boxes), span);
+            for (lane, span) in met.spans(children.len()) {
+                if asks.about(span, last) {
+                    todo.push((children[lane], span));
+                }
+            }
         }
         whole
     }

@@ -1,13 +1,13 @@
-//! Moving boxes over a chord of the motion, up to four at once.
+//! Moving boxes over a chord of the motion, up to eight at once.
 
-use super::clip::{Clip, Met, Turned, apart, least, turned};
+use super::clip::{Clip, Met, Spans, Turned, apart, least, turned};
 use super::span::{SampleRange, Span};
 use crate::model::bodies::robot::Rates;
 use crate::model::bodies::validity::frame::Frame;
-use crate::model::bodies::validity::light::{Four, Frames, Stands, Three, above, dot, grain};
+use crate::model::bodies::validity::light::{Eight, Frames, Stands, Three, above, dot, grain};
 use crate::model::bodies::validity::meet::Meeting;
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x4, f32x8};
+use fearless_simd::{f32x8, f32x16};
 use parry3d_f64::math::Vector;
 
 /// A bound `c + s · d` on how far something moves, `d` being the distance of its farthest point from the axis or the
@@ -21,8 +21,8 @@ impl Linear {
     }
 
     #[inline(always)]
-    fn at<S: Simd>(self, simd: S, reach: f32x4<S>) -> f32x4<S> {
-        reach.mul_add(f32x4::splat(simd, self.1), f32x4::splat(simd, self.0))
+    fn at<S: Simd>(self, simd: S, reach: f32x8<S>) -> f32x8<S> {
+        reach.mul_add(f32x8::splat(simd, self.1), f32x8::splat(simd, self.0))
     }
 }
 
@@ -70,7 +70,7 @@ pub(super) struct Chord<S: Simd> {
     pub samples: SampleRange,
     /// The same stretch in time, from 0 at the beginning of the motion to 1 at its end.
     pub span: Span,
-    frames: Frames<f32x8<S>>,
+    frames: Frames<f32x16<S>>,
     /// How far points of the moving body may leave their straight lines.
     bend: Linear,
     /// By how much a moving box is enlarged along standing axes.
@@ -121,20 +121,20 @@ impl<S: Simd> Chord<S> {
     }
 }
 
-/// Four boxes of the moving tree over a chord: their positions at both ends, and by how much they must be enlarged
+/// Eight boxes of the moving tree over a chord: their positions at both ends, and by how much they must be enlarged
 /// for linear interpolation between the two to hold everything in them, with the tolerance, at every sample.
 #[derive(Clone, Copy)]
 pub(super) struct SweptBoxes<S: Simd> {
-    stands: Stands<S, f32x8<S>>,
+    stands: Stands<S, f32x16<S>>,
     /// How far their points may leave their straight lines.
-    bend: f32x4<S>,
-    still_room: f32x4<S>,
-    own_room: f32x4<S>,
+    bend: f32x8<S>,
+    still_room: f32x8<S>,
+    own_room: f32x8<S>,
 }
 
 impl<S: Simd> SweptBoxes<S> {
     #[inline(always)]
-    pub fn new(simd: S, course: &Course, chord: &Chord<S>, own: &Four<S>) -> SweptBoxes<S> {
+    pub fn new(simd: S, course: &Course, chord: &Chord<S>, own: &Eight<S>) -> SweptBoxes<S> {
         let reach = reach(simd, course, own);
         SweptBoxes {
             stands: Stands::new(&chord.frames, own),
@@ -149,9 +149,9 @@ impl<S: Simd> SweptBoxes<S> {
     pub fn only(&self, simd: S, lane: usize) -> SweptBoxes<S> {
         SweptBoxes {
             stands: self.stands.only(simd, lane),
-            bend: f32x4::splat(simd, self.bend[lane]),
-            still_room: f32x4::splat(simd, self.still_room[lane]),
-            own_room: f32x4::splat(simd, self.own_room[lane]),
+            bend: f32x8::splat(simd, self.bend[lane]),
+            still_room: f32x8::splat(simd, self.still_room[lane]),
+            own_room: f32x8::splat(simd, self.own_room[lane]),
         }
     }
 
@@ -163,16 +163,16 @@ impl<S: Simd> SweptBoxes<S> {
 
     /// When each of the boxes may come within the tolerance of the standing box of the same lane.
     #[inline(always)]
-    pub fn meets(&self, simd: S, still: &Four<S>, chord: Span, spans: &[Span; 4]) -> Met {
+    pub fn meets(&self, simd: S, still: &Eight<S>, chord: Span, spans: &Spans<S>) -> Met {
         let across = self.stands.across(still);
         let first = turned(self.stands.along_still(still, &across, self.still_room));
         let overlap = least(&first);
-        if apart(overlap) == 15 {
+        if apart(overlap) == 255 {
             return Met::NOTHING;
         }
         let own = turned(self.stands.along_own(still, &across, self.own_room));
         let overlap = overlap.min(least(&own));
-        if apart(overlap) == 15 {
+        if apart(overlap) == 255 {
             return Met::NOTHING;
         }
         let axis = self.crossing(still);
@@ -180,7 +180,7 @@ impl<S: Simd> SweptBoxes<S> {
         let room = still.widened(self.still_room) * square.sqrt();
         let crossing = Turned::new(self.stands.along(&axis, still, &across, room));
         let apart = apart(overlap.min(crossing.both()));
-        if apart == 15 {
+        if apart == 255 {
             return Met::NOTHING;
         }
         let mut clip = Clip::whole(simd);
@@ -193,7 +193,7 @@ impl<S: Simd> SweptBoxes<S> {
     /// The cross product of the longest axes, those of the moving boxes being the mean over the chord: a separating
     /// axis of long boxes that cross each other.
     #[inline(always)]
-    fn crossing(&self, still: &Four<S>) -> Three<f32x4<S>> {
+    fn crossing(&self, still: &Eight<S>) -> Three<f32x8<S>> {
         let [a, b, c] = still.axes[2];
         let [x, y, z] = &self.stands.axes[2];
         let (x, y, z) = (halves_sum(x), halves_sum(y), halves_sum(z));
@@ -203,14 +203,14 @@ impl<S: Simd> SweptBoxes<S> {
 
 /// The sum of the values at both ends of a chord.
 #[inline(always)]
-fn halves_sum<S: Simd>(both: &f32x8<S>) -> f32x4<S> {
+fn halves_sum<S: Simd>(both: &f32x16<S>) -> f32x8<S> {
     let (first, last) = both.split();
     first + last
 }
 
 /// A bound on the distance of the points of boxes from the axis or the point about which the motion turns them.
 #[inline(always)]
-fn reach<S: Simd>(simd: S, course: &Course, own: &Four<S>) -> f32x4<S> {
+fn reach<S: Simd>(simd: S, course: &Course, own: &Eight<S>) -> f32x8<S> {
     let unit = course.unit;
     let [x, y, z] = own.centre;
     let (x, y, z) = (x * unit.recip(), y * unit.recip(), z * unit.recip());
@@ -226,13 +226,13 @@ fn reach<S: Simd>(simd: S, course: &Course, own: &Four<S>) -> f32x4<S> {
     let distance = dot(&away, &away).sqrt() * unit;
     let reach = (own.radius + distance) * (1.0 + 2e-6) + course.grain;
     // No scene is that large; the limit keeps later products finite.
-    reach.min(f32x4::splat(simd, 1e35))
+    reach.min(f32x8::splat(simd, 1e35))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{Lanes, with_lanes};
+    use crate::lanes::{Lanes, with_widest_lanes};
     use crate::model::bodies::robot::Steady;
     use crate::model::bodies::validity::light::tests::{Touching, touching};
     use proptest::prelude::*;
@@ -251,19 +251,19 @@ mod tests {
             let moves = Rates { speed: speed * size, bend: spin * size, spin, twist: spin, steady: None };
             let met = |rates: Rates, frame: &Frame, lanes: Lanes| {
                 let course = Course::of(rates, 1e-7, 1e-12 * size, (Vector::ZERO, reach));
-                with_lanes!(lanes, simd => {
+                with_widest_lanes!(lanes, simd => {
                     let samples = SampleRange { from: 0, to: 1 << 20 };
                     let step = 1.0 / f64::from(1 << 20);
                     let chord = Chord::new(simd, &course, samples, step, [frame, frame], grain);
-                    let swept = SweptBoxes::new(simd, &course, &chord, &Four::same(simd, &mover));
-                    let met = swept.meets(simd, &Four::new(simd, [&still; 4]), Span::ALL, &[Span::ALL; 4]);
-                    met.spans(4).filter(|(_, span)| span.from <= 0.0 && span.to >= 1.0).count()
+                    let swept = SweptBoxes::new(simd, &course, &chord, &Eight::same(simd, &mover));
+                    let met = swept.meets(simd, &Eight::new(simd, [&still; 8]), Span::ALL, &Spans::same(simd, Span::ALL));
+                    met.spans(8).filter(|(_, span)| span.from <= 0.0 && span.to >= 1.0).count()
                 })
             };
             let apart = Frame { shift: frame.shift + Vector::X * (20.0 * size), ..frame };
             for lanes in Lanes::all() {
-                prop_assert_eq!(met(stands, &frame, lanes), 4);
-                prop_assert_eq!(met(moves, &frame, lanes), 4);
+                prop_assert_eq!(met(stands, &frame, lanes), 8);
+                prop_assert_eq!(met(moves, &frame, lanes), 8);
                 // Where single precision ends nothing is told apart.
                 let told = met(stands, &apart, lanes) == 0;
                 prop_assert!(told || larger > 1.0 || !(-30..27).contains(&power));
@@ -286,8 +286,8 @@ mod tests {
                 let (centre, radius) = mover.ball();
                 let expected = rates.distance(centre + origin) + radius;
                 for lanes in Lanes::all() {
-                    let found = with_lanes!(lanes, simd => {
-                        f64::from(super::reach(simd, &course, &Four::same(simd, &mover))[0])
+                    let found = with_widest_lanes!(lanes, simd => {
+                        f64::from(super::reach(simd, &course, &Eight::same(simd, &mover))[0])
                     });
                     prop_assert!(found >= expected * (1.0 - 1e-7) - 1e-6 * local, "{} {}", found, expected);
                     prop_assert!(found <= 1.00001 * expected + 1e-4 * local, "{} {}", found, expected);

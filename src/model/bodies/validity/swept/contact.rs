@@ -3,8 +3,10 @@
 use super::Asks;
 use super::search::Sweep;
 use super::span::{SampleRange, Span};
+use crate::model::bodies::robot::Steady;
 use crate::model::bodies::validity::directions::separating_axis;
 use crate::model::bodies::validity::element::Element;
+use crate::model::bodies::validity::frame::{Frame, Velocities};
 use fearless_simd::Simd;
 use parry3d_f64::math::Vector;
 
@@ -46,7 +48,7 @@ impl<S: Simd> Sweep<'_, '_, S> {
             let middle = from + (to - from) / 2;
             self.stacks.work.count(|work| work.advances += 1);
             let frame = self.frame(middle);
-            let corners = element.corners.map(|corner| frame.point(corner));
+            let corners = frame.points(&element.corners);
             let apart = self.apart(element, &corners, other, middle, margin);
             if apart.is_none() {
                 self.meets = meeting.ends_meet(moving, node, &frame, self.clock.at(middle))
@@ -64,17 +66,20 @@ impl<S: Simd> Sweep<'_, '_, S> {
                     let time = (distance - margin) / speed;
                     (time, time)
                 }
-                Some(Apart::Along(axis, gap)) => match &self.course.rates.steady {
-                    Some(steady) => {
-                        let drift = steady.velocity - steady.turning.cross(frame.shift);
-                        let rates = corners.map(|p| axis.dot(drift + steady.turning.cross(p)));
-                        hold(&corners.map(|p| axis.dot(p)), &rates, gap - margin, bend)
-                    }
-                    None => {
-                        let time = (gap - margin) / speed;
-                        (time, time)
-                    }
-                },
+                Some(Apart::Along(axis, gap)) => {
+                    let velocities = self.velocities(middle, &frame);
+                    let [a, b, c] = corners;
+                    let rates = [velocities.at(a), velocities.at(b), velocities.at(c)];
+                    let rates = [axis.dot(rates[0]), axis.dot(rates[1]), axis.dot(rates[2])];
+                    let heights = [axis.dot(a), axis.dot(b), axis.dot(c)];
+                    let (before, after) = hold(&heights, &rates, gap - margin, bend);
+                    // Of a rigid body the bounds on velocities are velocities that points have, so that they hold for no longer.
+                    let time = match self.course.rates.steady {
+                        Some(_) => 0.0,
+                        None => (gap - margin) / speed,
+                    };
+                    (before.max(time), after.max(time))
+                }
             };
             // The later part is pushed last and examined first. Both parts are shorter than half of the range, so
             // that the stack of 64 ranges suffices.
@@ -94,6 +99,17 @@ impl<S: Simd> Sweep<'_, '_, S> {
             }
         }
         false
+    }
+
+    /// How fast the points of the moving group move at a sample, as seen from the standing one; `frame` is where the moving
+    /// group stands then.
+    fn velocities(&mut self, sample: u64, frame: &Frame) -> Velocities {
+        match &self.course.rates.steady {
+            Some(Steady { velocity, turning, .. }) => {
+                Velocities { at_origin: *velocity - turning.cross(frame.shift), turning: *turning }
+            }
+            None => self.clock.at(sample).velocities(&self.stacks.drives, self.meeting.still_link),
+        }
     }
 
     /// What proves that two elements are apart by more than `margin` at a sample, the moving one having its
@@ -129,11 +145,12 @@ fn hold(heights: &[f64; 3], rates: &[f64; 3], gap: f64, bend: f64) -> (f64, f64)
     let bend = bend.max(1e-300);
     let lowest = heights[0].min(heights[1]).min(heights[2]);
     let (mut before, mut after) = (f64::INFINITY, f64::INFINITY);
-    for (height, rate) in heights.iter().zip(rates) {
+    let corners = [(heights[0], rates[0]), (heights[1], rates[1]), (heights[2], rates[2])];
+    for (height, rate) in corners {
         // Where height − lowest + gap ± rate · t − bend · t² / 2 comes to zero.
         let room = height - lowest + gap;
         let root = (rate * rate + 2.0 * bend * room).sqrt();
-        let (towards, away) = if *rate > 0.0 {
+        let (towards, away) = if rate > 0.0 {
             (2.0 * room / (rate + root), (rate + root) / bend)
         } else {
             ((root - rate) / bend, 2.0 * room / (root - rate))

@@ -22,8 +22,9 @@ pub(super) use room::{Walls, stays_inside};
 
 use super::meet::Meeting;
 use super::work::Work;
-use crate::lanes::with_lanes;
-use crate::model::bodies::robot::Rates;
+use crate::lanes::with_widest_lanes;
+use crate::model::bodies::robot::{Drive, Rates};
+use parry3d_f64::math::Vector;
 use search::Sweep;
 use span::{SampleRange, Span};
 
@@ -64,6 +65,8 @@ pub(super) struct Stacks {
     pub pairs: Vec<(u32, u32)>,
     /// Of the bounds on the motion of a link: the links on the way down to it.
     pub descent: Vec<usize>,
+    /// What the joints between the two links of a pair add to velocities; of links whose velocities are not constant.
+    pub drives: Vec<Drive>,
     /// For the test of the bounds: nodes of the moving tree, and the samples between which they are to be tested.
     inside: Vec<(u32, SampleRange)>,
     /// A bit for each of the last 32 searches, set where the motion was blocked.
@@ -83,6 +86,9 @@ impl Stacks {
         self.found = vec![NearChild { child: 7, still: u32::MAX, span }; rubbish as usize % 4];
         self.pairs = vec![(u32::MAX, 7); rubbish as usize % 3];
         self.descent = vec![usize::MAX; rubbish as usize % 4];
+        let drive =
+            Drive { parent: Some(7), origin: Vector::ONE, turn: Vector::ONE, slide: Vector::ONE };
+        self.drives = vec![drive; rubbish as usize % 3];
         self.inside = vec![(u32::MAX, SampleRange { from: 7, to: rubbish }); rubbish as usize % 6];
         self.blocked = rubbish as u32;
     }
@@ -125,5 +131,5 @@ pub(super) fn find<'a>(
     clock: &mut Clock<'a>,
     stacks: &mut Stacks,
 ) -> Finds {
-    with_lanes!(meeting.lanes, simd => Sweep::new(simd, meeting, rates, asks, clock, stacks).finds())
+    with_widest_lanes!(meeting.lanes, simd => Sweep::new(simd, meeting, rates, asks, clock, stacks).finds())
 }

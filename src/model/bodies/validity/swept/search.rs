@@ -2,13 +2,13 @@
 //! over the time of a motion.
 
 use super::chord::{Chord, Course, SweptBoxes};
-use super::clip::MOMENT;
+use super::clip::{MOMENT, Spans};
 use super::clock::Clock;
 use super::span::{SampleRange, Span};
 use super::{Asks, BEND, Finds, NearChild, Stacks};
 use crate::model::bodies::robot::Rates;
 use crate::model::bodies::validity::frame::Frame;
-use crate::model::bodies::validity::light::Four;
+use crate::model::bodies::validity::light::Eight;
 use crate::model::bodies::validity::meet::Meeting;
 use fearless_simd::Simd;
 
@@ -114,7 +114,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
     fn blocked(&mut self, node: u32, samples: SampleRange) -> bool {
         let simd = self.simd;
         let frames = [self.between_origins(samples.from), self.between_origins(samples.to)];
-        let grain = self.meeting.grain(frames.map(|frame| frame.shift));
+        let grain = self.meeting.grain([frames[0].shift, frames[1].shift]);
         let step = self.step();
         simd.vectorize(
             #[inline(always)]
@@ -122,7 +122,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
                 let frames = [&frames[0], &frames[1]];
                 let chord = Chord::new(simd, &self.course, samples, step, frames, grain);
                 self.stacks.work.count(|work| work.placed += 1);
-                let own = Four::same(simd, &self.meeting.mover.tree.boxes[node as usize]);
+                let own = Eight::same(simd, &self.meeting.mover.tree.boxes[node as usize]);
                 let swept = SweptBoxes::new(simd, &self.course, &chord, &own);
                 let base = self.stacks.near.len();
                 self.find_near(node, &chord, &swept)
@@ -131,7 +131,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         )
     }
 
-    /// Tests one moving box, which stands in every lane, against the open nodes, four at a time; those that it
+    /// Tests one moving box, which stands in every lane, against the open nodes, eight at a time; those that it
     /// may meet go to the list `near`. Returns whether a check of a sample on the way found that surfaces meet.
     #[inline(always)]
     fn find_near(&mut self, node: u32, chord: &Chord<S>, swept: &SweptBoxes<S>) -> bool {
@@ -140,14 +140,21 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let tree = &self.meeting.still.tree;
         let Stacks { open, near, work, .. } = &mut *self.stacks;
         let tests = open.len();
-        for batch in open.chunks(4) {
+        for batch in open.chunks(8) {
             let end = batch.len() - 1;
-            let [a, b, c, d] = [batch[0], batch[end.min(1)], batch[end.min(2)], batch[end]];
-            let four = Four::new(simd, tree.gathered(&[a.0, b.0, c.0, d.0]));
-            let met = swept.meets(simd, &four, chord.span, &[a.1, b.1, c.1, d.1]);
+            let [a, b, c, d] = [batch[0], batch[1.min(end)], batch[2.min(end)], batch[3.min(end)]];
+            let [e, f, g, h] =
+                [batch[4.min(end)], batch[5.min(end)], batch[6.min(end)], batch[7.min(end)]];
+            let nodes = [a.0, b.0, c.0, d.0, e.0, f.0, g.0, h.0];
+            let spans = Spans::new(simd, [a.1, b.1, c.1, d.1, e.1, f.1, g.1, h.1]);
+            let met =
+                swept.meets(simd, &Eight::new(simd, tree.gathered(&nodes)), chord.span, &spans);
             work.count(|work| work.tested(batch.len()));
-            let met = met.spans(batch.len()).filter(|(_, span)| asks.about(*span, last));
-            near.extend(met.map(|(lane, span)| (batch[lane].0, span)));
+            for (lane, span) in met.spans(batch.len()) {
+                if asks.about(span, last) {
+                    near.push((batch[lane].0, span));
+                }
+            }
         }
         let (still, span) = open.first().map_or((0, Span::ALL), |first| *first);
         open.clear();
@@ -155,7 +162,7 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
     }
 
     /// [`Sweep::blocked`] for the nodes of the list `near` from `base` on: nodes that the box of `node` may meet.
-    /// `lane` says which of the four boxes of `swept` it is, or that it stands in every lane.
+    /// `lane` says which of the eight boxes of `swept` it is, or that it stands in every lane.
     #[inline(always)]
     fn comes_near(
         &mut self,
@@ -185,18 +192,21 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             } else if !leaf && (end || radius > size) {
                 self.stacks.children.push((still, span));
             } else {
-                let nodes = other.children(still);
-                let four = Four::new(simd, other.gathered(nodes));
+                let (nodes, boxes) = other.children(still);
+                let boxes = Eight::load(simd, boxes);
                 let swept = match (lane, &alone) {
                     (None, _) => swept,
                     (_, Some(alone)) => alone,
                     (Some(lane), None) => alone.insert(swept.only(simd, lane)),
                 };
-                let met = swept.meets(simd, &four, chord.span, &[span; 4]);
+                let met = swept.meets(simd, &boxes, chord.span, &Spans::same(simd, span));
                 let Stacks { near, work, .. } = &mut *self.stacks;
                 work.count(|work| work.tested(nodes.len()));
-                let met = met.spans(nodes.len()).filter(|(_, span)| asks.about(*span, last));
-                near.extend(met.map(|(lane, span)| (nodes[lane], span)));
+                for (lane, span) in met.spans(nodes.len()) {
+                    if asks.about(span, last) {
+                        near.push((nodes[lane], span));
+                    }
+                }
                 if self.tires(nodes.len(), NearPair { node, still, span }) {
                     return true;
                 }
@@ -253,22 +263,23 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
         let (asks, last) = (self.asks, self.clock.samples);
         let Meeting { mover, still: other, .. } = self.meeting;
         let tree = &mover.tree;
-        let nodes = tree.children(node);
-        let own = Four::new(simd, tree.gathered(nodes));
+        let (nodes, boxes) = tree.children(node);
+        let own = Eight::load(simd, boxes);
         let swept = SweptBoxes::new(simd, &self.course, chord, &own);
         self.stacks.work.count(|work| work.placed += nodes.len() as u64);
         let Stacks { children, found, work, .. } = &mut *self.stacks;
         let first = found.len();
+        let mut met_by = 0;
         for (still, span) in &children[list..] {
-            let four = Four::same(simd, &other.tree.boxes[*still as usize]);
-            let met = swept.meets(simd, &four, chord.span, &[*span; 4]);
+            let boxes = Eight::same(simd, &other.tree.boxes[*still as usize]);
+            let met = swept.meets(simd, &boxes, chord.span, &Spans::same(simd, *span));
             work.count(|work| work.tested(nodes.len()));
-            let met = met.spans(nodes.len()).filter(|(_, span)| asks.about(*span, last));
-            found.extend(met.map(|(lane, span)| NearChild {
-                child: lane as u32,
-                still: *still,
-                span,
-            }));
+            for (lane, span) in met.spans(nodes.len()) {
+                if asks.about(span, last) {
+                    met_by |= 1 << lane;
+                    found.push(NearChild { child: lane as u32, still: *still, span });
+                }
+            }
         }
         let tests = nodes.len() * (children.len() - list);
         let (still, span) = children[list];
@@ -277,11 +288,17 @@ impl<'a, 'c, S: Simd> Sweep<'a, 'c, S> {
             return true;
         }
         for (lane, child) in nodes.iter().enumerate() {
+            if met_by >> lane & 1 == 0 {
+                continue;
+            }
             let Stacks { near, found, .. } = &mut *self.stacks;
             let base = near.len();
-            let of_child = found[first..].iter().filter(|near| near.child == lane as u32);
-            near.extend(of_child.map(|near| (near.still, near.span)));
-            if near.len() > base && self.child_blocked(*child, chord, &swept, lane, base) {
+            for NearChild { child, still, span } in &found[first..] {
+                if *child == lane as u32 {
+                    near.push((*still, *span));
+                }
+            }
+            if self.child_blocked(*child, chord, &swept, lane, base) {
                 return true;
             }
         }

@@ -1,7 +1,6 @@
 //! A search that a signal or a clock can end.
 
 use crate::exit::Failure;
-use crate::signals::Signals;
 use roadmill::Cancel;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
@@ -10,12 +9,13 @@ use std::time::{Duration, Instant};
 /// Between two looks at the signals and the clock.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Does some work with a switch that is put once a signal has come or, with a limit of time, so many seconds are over.
+/// Does some work with a switch that is put once `came` says that something has come which ends it, such as a signal, or, with a limit of time, so
+/// many seconds are over.
 ///
 /// # Errors
 /// Exit code 1: the system refuses the thread that looks.
-pub(super) fn bounded<T>(
-    signals: &Signals,
+pub(crate) fn bounded<T>(
+    came: impl Fn() -> bool + Sync,
     seconds: Option<f64>,
     work: impl FnOnce(&Cancel) -> T,
 ) -> Result<T, Failure> {
@@ -24,7 +24,7 @@ pub(super) fn bounded<T>(
     thread::scope(|scope| {
         let look = || {
             let is_over = |seconds| begun.elapsed().as_secs_f64() >= seconds;
-            if signals.came() || seconds.is_some_and(is_over) {
+            if came() || seconds.is_some_and(is_over) {
                 cancel.cancel();
             }
         };
@@ -42,4 +42,28 @@ pub(super) fn bounded<T>(
         drop(working);
         Ok(done)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicU32, Ordering};
+
+    fn until(cancel: &Cancel) {
+        while !cancel.is_cancelled() {
+            thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[test]
+    fn work_ends_once_something_has_come_or_time_is_over() {
+        let looks = AtomicU32::new(0);
+        // Not before the work has begun.
+        bounded(|| looks.fetch_add(1, Ordering::SeqCst) >= 2, None, until).unwrap();
+        assert!(looks.into_inner() >= 3);
+        bounded(|| false, Some(0.03), until).unwrap();
+        // No time at all is none.
+        assert!(bounded(|| false, Some(0.0), Cancel::is_cancelled).unwrap());
+        assert!(!bounded(|| false, None, Cancel::is_cancelled).unwrap());
+    }
 }
