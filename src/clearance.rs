@@ -115,13 +115,17 @@ pub fn of_edges(cx: &Context, roadmap: &Roadmap, tolerance: f64) -> Option<Vec<A
 
 /// The clearance at every node of a roadmap, in their order. `None` as in [`of_motion`].
 pub fn of_nodes(cx: &Context, roadmap: &Roadmap) -> Option<Vec<f64>> {
+    let configs: Vec<&[f64]> = roadmap.configs().iter().collect();
+    of_configs(cx, &configs)
+}
+
+/// The clearance at each of several configurations in stored form, in their order, found in several threads. `None` as in [`of_motion`].
+pub fn of_configs(cx: &Context, configs: &[&[f64]]) -> Option<Vec<f64>> {
     cx.model.clearances()?;
-    let nodes: Vec<usize> = (0..roadmap.configs().len()).collect();
-    let of_one = |scratch: &mut Scratch, node: &usize| {
-        let found = cx.model.clearances()?.clearance(roadmap.configs().get(*node), scratch)?;
-        Some(found.distance)
+    let of_one = |scratch: &mut Scratch, q: &&[f64]| {
+        Some(cx.model.clearances()?.clearance(q, scratch)?.distance)
     };
-    nodes.par_iter().map_init(Scratch::new, of_one).collect()
+    configs.par_iter().map_init(Scratch::new, of_one).collect()
 }
 
 /// A motion along which clearances are looked at.

@@ -28,6 +28,7 @@ pub struct Study {
     pub name: &'static str,
     /// What it shows, in a line.
     pub about: &'static str,
+    /// Runs it and prints what came of it.
     pub run: fn(&mut Bench),
 }
 

@@ -299,12 +299,24 @@ pub struct QueryArguments {
     /// How often a shortcut is tried
     #[arg(long, value_name = "N", default_value_t = 200, requires = "shorten")]
     pub shorten_tries: u32,
+    /// Not the shortest path but the one that keeps away from obstacles best; what it keeps is printed
+    #[arg(long, value_enum, value_name = "BY", conflicts_with_all = ["shorten", "queries"])]
+    pub clearest: Option<ClearestBy>,
     /// Many queries: a CSV file with the values of a start and of a goal per line
     #[arg(long, value_name = "FILE", requires = "out", conflicts_with_all = ["start", "goal"])]
     pub queries: Option<PathBuf>,
     /// Also write a page that plays the path, for any browser
     #[arg(long, value_name = "FILE.html", conflicts_with = "queries")]
     pub animate: Option<PathBuf>,
+}
+
+/// By what a path keeps away from obstacles best.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum ClearestBy {
+    /// The highest least clearance; of several such paths the shortest
+    Widest,
+    /// The least sum of the edges' lengths, each divided by its mean clearance
+    Weighted,
 }
 
 /// A format of paths.

@@ -219,6 +219,42 @@ fn length(stderr: &str) -> f64 {
     rest.split(',').next().and_then(|word| word.parse().ok()).expect("a number")
 }
 
+/// A number that the program prints after some words.
+fn number_after(stderr: &str, words: &str) -> f64 {
+    let (_, rest) = stderr.split_once(words).expect("the words");
+    rest.split_whitespace().next().and_then(|word| word.parse().ok()).expect("a number")
+}
+
+#[test]
+fn the_clearest_path_keeps_farther_away_than_the_shortest_and_costs_length() {
+    let scratch = Scratch::new();
+    scratch.build("run", &[&repository("problems/maze.toml"), "--threads", "2"], 0);
+    let shortest = scratch.run(&["query", "run"]);
+    let [widest, weighted] = ["widest", "weighted"].map(|by| {
+        let found = scratch.run(&["query", "run", "--clearest", by, "--out", &format!("{by}.csv")]);
+        found.assert_code(0);
+        let [least, mean] = ["clearance ", "at least and "].map(|it| number_after(&found.stderr, it));
+        (least, mean, length(&found.stderr))
+    });
+    assert!(widest.0 > 0.0 && widest.0 >= weighted.0 - 0.05, "{widest:?}, {weighted:?}");
+    assert!(widest.2 >= length(&shortest.stderr) && weighted.2 >= length(&shortest.stderr));
+    assert!(weighted.1 >= weighted.0 && widest.1 >= widest.0);
+    // The edges of the widest path are those of the roadmap or attach the ends, and the path is one of the run.
+    let lines = read(&scratch, "widest.csv");
+    assert_eq!(lines.lines().next(), shortest.stdout.lines().next());
+    assert_eq!(lines.lines().nth(1), shortest.stdout.lines().nth(1));
+    assert_eq!(lines.lines().last(), shortest.stdout.lines().last());
+
+    let page = ["view", "run", "--clearance", "--no-open", "--out", "view.html"];
+    scratch.run(&page).assert_code(0);
+    assert!(read(&scratch, "view.html").contains("\"name\":\"clearance\""));
+
+    scratch.build("energy", &[&repository("problems/muller-brown.toml"), "--threads", "2"], 0);
+    let refused = scratch.run(&["query", "energy", "--clearest", "widest"]);
+    refused.assert_code(2);
+    assert!(refused.stderr.contains("clearances: a problem of bodies among obstacles expected"));
+}
+
 #[test]
 fn paths_are_shortened_and_played() {
     let scratch = Scratch::new();

@@ -23,7 +23,7 @@ class Path:
     """What its motions cost together: their lengths in the space's metric, or of a model with energies the sum of climbs."""
     measures: dict[str, float | None] = field(default_factory=dict)
     """Of a path of `Roadmap.paths` what is measured of it, by the columns of `paths.csv` (docs/formats.md); None where the
-    model has no such number."""
+    model has no such number. Of a path of `Roadmap.clearest` its least and its mean clearance."""
     passes: str | None = None
     """Of a path of `Roadmap.paths(distinct=True)` the class of paths that it belongs to."""
 

@@ -10,8 +10,9 @@ import os
 import pathlib
 import tempfile
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -193,6 +194,60 @@ class Roadmap:
             raise failure(*failed.args) from None
         path = None if found is None else of_bytes(found, len(self._loaded.dofs))
         return Answer(path, reason, dropped)
+
+    def clearest(
+        self,
+        start: Sequence[float] | Floats | None = None,
+        goal: Sequence[float] | Floats | None = None,
+        *,
+        by: Literal["widest", "weighted"] = "widest",
+    ) -> Path | None:
+        """The path between two configurations that keeps away from obstacles best; None where there is none.
+
+        It is the path of `roadmill query --clearest`, to the bit. Its `measures` hold `least_clearance` and `mean_clearance`, certain
+        to within the problem's resolution. The first call finds the clearances of all edges.
+
+        Args:
+            start, goal: Configurations, one value per degree of freedom; the problem's own if they are not given.
+            by: `widest` for the highest least clearance, and of several such paths the shortest; `weighted` for the least sum of
+                the edges' lengths, each divided by its mean clearance.
+
+        Raises:
+            UsageError: A configuration is not valid, the run's validity function is missing, or the problem has no clearances,
+                being about no bodies or without obstacles.
+        """
+        if by not in ("widest", "weighted"):
+            raise ValueError(f"by: {by!r} found, 'widest' or 'weighted' expected")
+        start, goal = self._ends(start, goal)
+        try:
+            found = self._loaded.clearest(start, goal, by == "widest")
+        except _core.Failure as failed:
+            raise failure(*failed.args) from None
+        if found is None:
+            return None
+        path, least, mean = found
+        measures: dict[str, float | None] = {"least_clearance": least, "mean_clearance": mean}
+        return replace(of_bytes(path, len(self._loaded.dofs)), measures=measures)
+
+    @property
+    def node_clearances(self) -> Floats:
+        """How far the nearest obstacle is from the robot at each node, n, in the problem's unit of length. It is found when it or
+        `edge_clearances` is first asked for; a `UsageError` of a problem that is about no bodies or has no obstacles."""
+        return self._clearances[0]
+
+    @property
+    def edge_clearances(self) -> Floats:
+        """How far the nearest obstacle is along each edge, m × 2: the least distance and the mean one, certain to within the problem's
+        resolution."""
+        return self._clearances[1]
+
+    @cached_property
+    def _clearances(self) -> tuple[Floats, Floats]:
+        try:
+            of_nodes, of_edges = self._loaded.clearances()
+        except _core.Failure as failed:
+            raise failure(*failed.args) from None
+        return np.frombuffer(of_nodes, dtype="<f8"), np.frombuffer(of_edges, dtype="<f8").reshape(-1, 2)
 
     def _ends(
         self, start: Sequence[float] | Floats | None, goal: Sequence[float] | Floats | None

@@ -94,6 +94,30 @@ def test_no_path_is_none_with_a_reason(problems: pathlib.Path, tmp_path: pathlib
     assert answer.path is None and answer.reason is not None and "component" in answer.reason
 
 
+def test_clearances_are_the_programs_and_the_widest_path_is_the_clearest(
+    walls: roadmill.Roadmap, tmp_path: pathlib.Path
+) -> None:
+    call("export", walls.run, "--format", "clearance", "--out", tmp_path / "walls.csv")
+    nodes = np.loadtxt(tmp_path / "walls.csv", delimiter=",", skiprows=1)
+    edges = np.loadtxt(tmp_path / "walls.edges.csv", delimiter=",", skiprows=1)
+    np.testing.assert_array_equal(walls.node_clearances, nodes[:, 1])
+    np.testing.assert_array_equal(walls.edge_clearances, edges[:, 3:5])
+    widest, weighted, shortest = walls.clearest(), walls.clearest(by="weighted"), walls.query()
+    assert widest is not None and weighted is not None and shortest is not None
+    expected = by_program(walls.run, (widest.configurations[0], widest.configurations[-1]), "--clearest", "widest")
+    assert expected is not None and widest.configurations.tobytes() == expected.tobytes()
+    least = [path.measures["least_clearance"] for path in (widest, weighted)]
+    assert least[0] is not None and least[1] is not None and least[0] >= least[1] - 0.1
+    assert widest.length > shortest.length
+
+
+def test_a_run_without_obstacles_has_no_clearances(problems: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    roadmap = roadmill.build(problems / "muller-brown.toml", out=tmp_path / "energy", threads=1)
+    for ask in (lambda: roadmap.node_clearances, roadmap.clearest):
+        with pytest.raises(roadmill.UsageError, match="clearances"):
+            ask()
+
+
 def test_an_invalid_end_is_an_error(walls: roadmill.Roadmap) -> None:
     with pytest.raises(roadmill.UsageError, match="start: 2 values found, 7 expected"):
         walls.query([1.0, 2.0], ENDS[1])

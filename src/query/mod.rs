@@ -186,8 +186,11 @@ pub fn ask(
     Ok(solve(cx, roadmap, (&start, &goal), attachment, scratch))
 }
 
-/// The ends of a query that come from outside, in stored form.
-fn accepted(cx: &Context, (start, goal): (&[f64], &[f64])) -> Result<[Vec<f64>; 2], EndError> {
+/// The ends of a query that come from outside, brought into stored form and checked.
+///
+/// # Errors
+/// When one of them is no valid configuration.
+pub fn accepted(cx: &Context, (start, goal): (&[f64], &[f64])) -> Result<[Vec<f64>; 2], EndError> {
     let accept = |end, q: &[f64]| {
         let mut q = q.to_vec();
         cx.accept(&mut q).map_err(|reason| EndError { end, reason })?;

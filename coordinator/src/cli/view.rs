@@ -14,6 +14,9 @@ pub struct ViewArguments {
     /// Follow the build: serve the page on this machine until Ctrl-C, and show new rounds as they come
     #[arg(long, conflicts_with = "out")]
     pub live: bool,
+    /// Let nodes be coloured by their clearance, the distance of the nearest obstacle, which is found first
+    #[arg(long, conflicts_with = "live")]
+    pub clearance: bool,
     /// Do not open the page in a browser, which is done where there is a display
     #[arg(long)]
     pub no_open: bool,

@@ -213,7 +213,7 @@ impl Shown {
         let ledger = ledger_of(folder);
         let run = Run::at(folder).read()?;
         let live = Live { version, has_ended: run.stopped().is_some() };
-        let both = seen(&run, Some(live), |viewer| Some((viewer.page()?, viewer.data()?)));
+        let both = seen(&run, false, Some(live), |viewer| Some((viewer.page()?, viewer.data()?)));
         let (page, data) = both.ok_or_else(|| cannot_be_drawn(folder, &run))?;
         let rested = Instant::now() + REST.max(begun.elapsed() * REST_FACTOR);
         Ok(Shown { live, page: page.into(), data: data.into(), ledger, rested })

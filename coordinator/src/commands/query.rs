@@ -2,15 +2,17 @@ use super::asker::{Asker, TimedAnswer};
 use super::batch;
 use super::place::{check_page, check_place};
 use super::solved::run_in;
-use crate::cli::QueryArguments;
+use crate::cli::{ClearestBy, QueryArguments};
 use crate::exit::{Code, Failure};
 use crate::files::{expect_folder, write_out, write_whole};
 use crate::output::{self, note};
 use crate::work::{Recorded, Run};
 use roadmill::Ends;
+use roadmill::clearance::AlongMotion;
 use roadmill::export::animation;
 use roadmill::problem::configuration;
-use roadmill::query::PATH_REFINEMENT;
+use roadmill::query::{ClearPath, Clearest, PATH_REFINEMENT, Path};
+use std::time::Instant;
 
 /// Answers one query from the roadmap of a run, or, with `--queries`, all queries of a file.
 pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
@@ -29,6 +31,9 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
         return batch::batch(&asker, file, folder);
     }
     let ends = ends(&run, &arguments.start, &arguments.goal)?;
+    if let Some(by) = arguments.clearest {
+        return clearest(&asker, arguments, &ends, by);
+    }
 
     let TimedAnswer { answer, seconds } = asker.ask_any(&ends);
     let dropped = answer.dropped_edges;
@@ -41,19 +46,7 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
         let why = answer.why_no_path();
         return Err(Failure::new(Code::NoSuccess, format!("no path: {why} ({seconds:.3} s)")));
     };
-    let text = asker.text(path);
-    match &arguments.out {
-        Some(file) => write_out(file, &text)?,
-        None => {
-            output::data(&text);
-        }
-    }
-    if let Some(file) = &arguments.animate {
-        match animation(run.problem(), path) {
-            Some(page) => write_whole(file, page)?,
-            None => return Err(Failure::usage("--animate: this model cannot be drawn")),
-        }
-    }
+    give(&asker, arguments, path)?;
     let (configs, length) = (path.configs.len(), path.length);
     let plural = if configs == 1 { "" } else { "s" };
     let to = match ends.goal_number(path.configs.iter()) {
@@ -64,6 +57,57 @@ pub fn query(arguments: &QueryArguments) -> Result<Code, Failure> {
         "path of {configs} configuration{plural}{to}, length {length:.6}, in {seconds:.3} s"
     ));
     Ok(Code::Done)
+}
+
+/// Finds the path that keeps away from obstacles best.
+///
+/// # Errors
+/// Exit code 2: the problem has several goals and the command line gives none, or it has no clearances. Exit code 3: there is no path.
+fn clearest(
+    asker: &Asker,
+    arguments: &QueryArguments,
+    ends: &Ends,
+    by: ClearestBy,
+) -> Result<Code, Failure> {
+    if !ends.other_goals.is_empty() {
+        let count = ends.goals().count();
+        return Err(Failure::usage(format!(
+            "--clearest: {count} goals of the problem found, one expected, by --goal"
+        )));
+    }
+    let by = match by {
+        ClearestBy::Widest => Clearest::Widest,
+        ClearestBy::Weighted => Clearest::Weighted,
+    };
+    let begun = Instant::now();
+    let found = asker.run.clearest((&ends.start, &ends.goal), by)?;
+    let seconds = begun.elapsed().as_secs_f64();
+    let Some(ClearPath { path, clearance }) = found else {
+        return Err(Failure::new(Code::NoSuccess, format!("no path ({seconds:.3} s)")));
+    };
+    give(asker, arguments, &path)?;
+    let (configs, length) = (path.configs.len(), path.length);
+    let AlongMotion { least, mean, .. } = clearance;
+    note(format_args!(
+        "path of {configs} configurations, length {length:.6}, clearance {least:.6} at least and {mean:.6} in the mean, in {seconds:.3} s"
+    ));
+    Ok(Code::Done)
+}
+
+/// Writes a path to where the command line wants it, and the page that plays it.
+fn give(asker: &Asker, arguments: &QueryArguments, path: &Path) -> Result<(), Failure> {
+    let text = asker.text(path);
+    match &arguments.out {
+        Some(file) => write_out(file, &text)?,
+        None => {
+            output::data(&text);
+        }
+    }
+    let Some(file) = &arguments.animate else { return Ok(()) };
+    match animation(asker.run.problem(), path) {
+        Some(page) => write_whole(file, page),
+        None => Err(Failure::usage("--animate: this model cannot be drawn")),
+    }
 }
 
 /// The start and the goal that the command line gives, or else the problem's, of which there may be several goals.

@@ -27,7 +27,7 @@ pub fn view(arguments: &ViewArguments) -> Result<Code, Failure> {
     };
     check_page("--out", &out)?;
     let run = Run::at(run_in(&arguments.run)?).read()?;
-    let page = seen(&run, None, |viewer| viewer.page());
+    let page = seen(&run, arguments.clearance, None, |viewer| viewer.page());
     let page = page.ok_or_else(|| cannot_be_drawn(&arguments.run, &run))?;
     write_whole(&out, &page)?;
     let (found, megabytes) = (out.display(), page.len() as f64 / 1e6);
@@ -57,7 +57,12 @@ fn usual_place(arguments: &ViewArguments) -> Result<PathBuf, Failure> {
 }
 
 /// What a page shows of a run: its roadmap, the path of its own query made shorter, and as it was found.
-pub(super) fn seen<T>(run: &Recorded, live: Option<Live>, with: impl Fn(Viewer) -> T) -> T {
+pub(super) fn seen<T>(
+    run: &Recorded,
+    clearance: bool,
+    live: Option<Live>,
+    with: impl Fn(Viewer) -> T,
+) -> T {
     let found = run.path();
     let short = found.map(|path| shorten(run.context(), path, SHORTEN_TRIES, &mut Scratch::new()));
     let mut paths = Vec::new();
@@ -67,7 +72,7 @@ pub(super) fn seen<T>(run: &Recorded, live: Option<Live>, with: impl Fn(Viewer) 
     if let Some(path) = found {
         paths.push(NamedPath { name: "path as found", path });
     }
-    with(Viewer { problem: run.problem(), roadmap: run.roadmap(), paths: &paths, live })
+    with(Viewer { problem: run.problem(), roadmap: run.roadmap(), paths: &paths, live, clearance })
 }
 
 pub(super) fn cannot_be_drawn(folder: &Path, run: &Recorded) -> Failure {

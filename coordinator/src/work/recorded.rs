@@ -1,11 +1,16 @@
 use crate::exit::Failure;
 use crate::run::ledger::{Ledger, Stopped};
+use roadmill::clearance::{self, AlongMotion};
 use roadmill::export::RoundOutcome;
+use roadmill::model::bodies::Bodies;
 use roadmill::model::{Scratch, ValidityFunction};
 use roadmill::problem::Problem;
-use roadmill::query::{Answer, Attachment, EndError, Path, PreparedRoadmap};
+use roadmill::query::{
+    self, Answer, Attachment, ClearPath, Clearest, EndError, Path, PreparedRoadmap,
+};
 use roadmill::roadmap::{Digest, Roadmap};
 use roadmill::{Context, Ends};
+use std::sync::OnceLock;
 
 /// A run as it is recorded: the roadmap, and the way to paths through it.
 pub struct Recorded {
@@ -18,6 +23,8 @@ pub struct Recorded {
     hash: Digest,
     cx: Context,
     attachment: Attachment,
+    /// The clearance along every edge, found when it is first asked for; `None` of a model without clearances.
+    clearances: OnceLock<Option<Vec<AlongMotion>>>,
 }
 
 impl Recorded {
@@ -25,7 +32,19 @@ impl Recorded {
         let Ledger { hash, problem, roadmap, path, stopped, rounds, program } = ledger;
         let (cx, attachment) = (problem.context(), problem.attachment());
         let roadmap = PreparedRoadmap::new(roadmap);
-        Recorded { problem, roadmap, path, stopped, rounds, program, hash, cx, attachment }
+        let clearances = OnceLock::new();
+        Recorded {
+            problem,
+            roadmap,
+            path,
+            stopped,
+            rounds,
+            program,
+            hash,
+            cx,
+            attachment,
+            clearances,
+        }
     }
 
     /// The run with the validity function of its problem, which the ledger only names: queries need it.
@@ -105,10 +124,56 @@ impl Recorded {
         self.roadmap.solve(&self.cx, ends, &self.attachment, scratch)
     }
 
+    /// The clearance along every edge of the roadmap, in their order, certain to within the problem's resolution. It is found when
+    /// it is first asked for.
+    ///
+    /// # Errors
+    /// Exit code 2: the problem has no clearances, being about no bodies or without obstacles.
+    pub fn clearances_of_edges(&self) -> Result<&[AlongMotion], Failure> {
+        let found = self
+            .clearances
+            .get_or_init(|| clearance::of_edges(&self.cx, self.roadmap(), self.resolution()?));
+        found.as_deref().ok_or_else(no_clearance)
+    }
+
+    /// The clearance at every node of the roadmap, in their order.
+    ///
+    /// # Errors
+    /// As of [`Recorded::clearances_of_edges`].
+    pub fn clearances_of_nodes(&self) -> Result<Vec<f64>, Failure> {
+        clearance::of_nodes(&self.cx, self.roadmap()).ok_or_else(no_clearance)
+    }
+
+    /// The path that keeps away from obstacles best, as [`query::clearest`] finds it; `None` if there is none.
+    ///
+    /// # Errors
+    /// Exit code 2: `start` or `goal` is no valid configuration, or the problem has no clearances.
+    pub fn clearest(
+        &self,
+        ends: (&[f64], &[f64]),
+        by: Clearest,
+    ) -> Result<Option<ClearPath>, Failure> {
+        let [start, goal] = query::accepted(&self.cx, ends).map_err(Failure::usage)?;
+        let (of_edges, scratch) = (self.clearances_of_edges()?, &mut Scratch::new());
+        let tolerance = self.resolution().ok_or_else(no_clearance)?;
+        let (ends, by) = ([&start[..], &goal[..]], (by, tolerance));
+        let (cx, roadmap) = (&self.cx, self.roadmap());
+        Ok(query::clearest(cx, roadmap, ends, &self.attachment, of_edges, by, scratch))
+    }
+
+    /// How far the robot may move between two checks of a sampled motion, to within which clearances are certain.
+    fn resolution(&self) -> Option<f64> {
+        self.problem.model().bodies().map(Bodies::resolution)
+    }
+
     /// The better of the answers for the goals of a query, as [`query::solve_any`](roadmill::query::solve_any) has it.
     pub(crate) fn solve_any(&self, ends: &Ends, scratch: &mut Scratch) -> Answer {
         let mut to = |goal: &[f64]| self.solve((&ends.start, goal), scratch);
         let first = to(&ends.goal);
         ends.other_goals.iter().fold(first, |best, goal| best.or(to(goal)))
     }
+}
+
+fn no_clearance() -> Failure {
+    Failure::usage("clearances: a problem of bodies among obstacles expected, this one has none")
 }

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use roadmill::export::npz;
 use roadmill::model::{Scratch, ValidityFunction, with_functions};
-use roadmill::query::{Path, shorten};
+use roadmill::query::{ClearPath, Clearest, Path, shorten};
 use roadmill::roadmap::Configs;
 use roadmill_coordinator::Run;
 use roadmill_coordinator::exit::Failure;
@@ -116,6 +116,42 @@ impl LoadedRun {
         Ok((answer.path.as_ref().map(|path| given(py, path)), why, answer.dropped_edges))
     }
 
+    /// The path that keeps away from obstacles best, as `roadmill query --clearest` finds it, by the highest least clearance if
+    /// `widest`, else by lengths weighted with clearance; and its least and mean clearance. None if there is no path.
+    #[pyo3(signature = (start, goal, widest))]
+    fn clearest<'py>(
+        &self,
+        py: Python<'py>,
+        start: Vec<f64>,
+        goal: Vec<f64>,
+        widest: bool,
+    ) -> PyResult<Option<(FoundPath<'py>, f64, f64)>> {
+        let by = if widest { Clearest::Widest } else { Clearest::Weighted };
+        let ask = || {
+            self.recorded.expect_validity_function()?;
+            self.recorded.clearest((&start, &goal), by)
+        };
+        let found = py.detach(|| with_functions(ask));
+        let found = found.map_err(|failed| exception(py, &failed))?.map_err(raised)?;
+        Ok(found.map(|ClearPath { path, clearance }| {
+            (given(py, &path), clearance.least, clearance.mean)
+        }))
+    }
+
+    /// The clearances of the nodes, and of the edges the least and the mean one of each in turn, as bytes of float64.
+    fn clearances<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>)> {
+        let find = || {
+            let of_edges = self.recorded.clearances_of_edges()?;
+            let of_edges = of_edges.iter().flat_map(|along| [along.least, along.mean]);
+            Ok((bytes(self.recorded.clearances_of_nodes()?), bytes(of_edges)))
+        };
+        let (of_nodes, of_edges) = py.detach(find).map_err(raised)?;
+        Ok((PyBytes::new(py, &of_nodes), PyBytes::new(py, &of_edges)))
+    }
+
     /// Writes the roadmap's arrays as an `.npz` file.
     fn write_npz(&self, py: Python<'_>, file: PathBuf) -> PyResult<()> {
         let write = || {
@@ -133,6 +169,9 @@ fn given<'py>(py: Python<'py>, path: &Path) -> FoundPath<'py> {
 }
 
 fn bytes_of<'py>(py: Python<'py>, configs: &Configs) -> Bound<'py, PyBytes> {
-    let bytes: Vec<u8> = configs.values().flat_map(f64::to_le_bytes).collect();
-    PyBytes::new(py, &bytes)
+    PyBytes::new(py, &bytes(configs.values()))
+}
+
+fn bytes(numbers: impl IntoIterator<Item = f64>) -> Vec<u8> {
+    numbers.into_iter().flat_map(f64::to_le_bytes).collect()
 }

@@ -50,7 +50,7 @@ const SCRIPT: &[&str] = &[
 ///
 /// `None` where the problem's model cannot be drawn.
 pub fn animation(problem: &Problem, path: &Path) -> Option<String> {
-    let data = data(problem, None, &[NamedPath { name: "path", path }], None)?;
+    let data = data(problem, None, &[NamedPath { name: "path", path }], (None, false))?;
     Some(page(&problem.name, &data))
 }
 
@@ -66,7 +66,7 @@ pub fn animation(problem: &Problem, path: &Path) -> Option<String> {
 ///
 /// let built = Build::new(Problem::load("problems/maze.toml".as_ref())?).run()?;
 /// let paths: Vec<_> = built.path().map(|path| NamedPath { name: "path", path }).into_iter().collect();
-/// let viewer = Viewer { problem: built.problem(), roadmap: built.roadmap(), paths: &paths, live: None };
+/// let viewer = Viewer { problem: built.problem(), roadmap: built.roadmap(), paths: &paths, live: None, clearance: false };
 /// assert!(viewer.page().expect("a maze can be drawn").starts_with("<!DOCTYPE html>"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -80,6 +80,8 @@ pub struct Viewer<'a> {
     pub paths: &'a [NamedPath<'a>],
     /// Of a page that follows a build.
     pub live: Option<Live>,
+    /// Whether nodes can be coloured by their clearance, which has to be found first. It is left out of a model that has none.
+    pub clearance: bool,
 }
 
 /// What a page that follows a build is told of the build.
@@ -103,7 +105,7 @@ impl Viewer<'_> {
     ///
     /// `None` where the problem's model cannot be drawn.
     pub fn data(&self) -> Option<String> {
-        data(self.problem, Some(self.roadmap), self.paths, self.live)
+        data(self.problem, Some(self.roadmap), self.paths, (self.live, self.clearance))
     }
 }
 
@@ -137,7 +139,7 @@ fn data(
     problem: &Problem,
     roadmap: Option<&Roadmap>,
     paths: &[NamedPath],
-    live: Option<Live>,
+    (live, has_clearance): (Option<Live>, bool),
 ) -> Option<String> {
     let space = problem.space();
     let figure = problem.model.description().figure()?;
@@ -165,7 +167,12 @@ fn data(
         ("energy", relief(figure, roadmap).map_or_else(null, |relief| relief_data(&relief))),
         ("paths", list(paths.iter().map(|named| played(problem, figure, *named)))),
         ("hand", scene::hand(problem, figure).unwrap_or_else(null)),
-        ("roadmap", roadmap.map_or_else(null, |it| roadmap::roadmap_data(problem, figure, it))),
+        (
+            "roadmap",
+            roadmap.map_or_else(null, |it| {
+                roadmap::roadmap_data(problem, figure, (it, has_clearance))
+            }),
+        ),
     ]))
 }
 

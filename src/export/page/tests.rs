@@ -5,7 +5,7 @@ use std::path::Path as FilePath;
 use std::sync::Arc;
 
 fn shown(problem: &Problem, roadmap: &Roadmap, paths: &[NamedPath]) -> Option<String> {
-    Viewer { problem, roadmap, paths, live: None }.page()
+    Viewer { problem, roadmap, paths, live: None, clearance: false }.page()
 }
 
 /// The page of a problem's build, with the path that the first evaluator found.
