@@ -233,7 +233,8 @@ fn the_clearest_path_keeps_farther_away_than_the_shortest_and_costs_length() {
     let [widest, weighted] = ["widest", "weighted"].map(|by| {
         let found = scratch.run(&["query", "run", "--clearest", by, "--out", &format!("{by}.csv")]);
         found.assert_code(0);
-        let [least, mean] = ["clearance ", "at least and "].map(|it| number_after(&found.stderr, it));
+        let [least, mean] =
+            ["clearance ", "at least and "].map(|it| number_after(&found.stderr, it));
         (least, mean, length(&found.stderr))
     });
     assert!(widest.0 > 0.0 && widest.0 >= weighted.0 - 0.05, "{widest:?}, {weighted:?}");

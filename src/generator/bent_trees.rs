@@ -38,15 +38,15 @@ pub struct BentTrees {
     pub attempts: u64,
 }
 
-fn default_trials() -> u32 {
+pub(super) fn default_trials() -> u32 {
     12
 }
 
-fn default_nearby() -> f64 {
+pub(super) fn default_nearby() -> f64 {
     0.5
 }
 
-fn default_attempts() -> u64 {
+pub(super) fn default_attempts() -> u64 {
     1000
 }
 

@@ -1,8 +1,8 @@
-use super::bent_trees::BentTrees;
+use super::bent_trees::{self, BentTrees};
 use super::end_trees::{calibrated, draw_rest, step_of};
-use super::growth::{Complaints, Exploration, GrowingSet, GrowingTree, explore, needs_query};
+use super::growth::{Exploration, GrowingSet, GrowingTree, explore, needs_query};
 use super::rrt_connect::reach_for;
-use super::{ATTEMPTS_MAX, Generator, Reads, SlidingTrees};
+use super::{Generator, Reads, SlidingTrees};
 use crate::context::{Context, Ends};
 use crate::methods::Complaint;
 use crate::model::Scratch;
@@ -46,14 +46,14 @@ pub struct LocalTrees {
     #[serde(default)]
     pub step: Option<f64>,
     /// How many motions are tried before a slide has got on; each valid one allows two more.
-    #[serde(default = "default_trials")]
+    #[serde(default = "bent_trees::default_trials")]
     pub trials: u32,
     /// Which share of the configurations that trees are extended toward is drawn from the box around the tree's nodes and a
     /// step more.
-    #[serde(default = "default_nearby")]
+    #[serde(default = "bent_trees::default_nearby")]
     pub nearby: f64,
     /// The most extensions tried for one milestone.
-    #[serde(default = "default_attempts")]
+    #[serde(default = "bent_trees::default_attempts")]
     pub attempts: u64,
 }
 
@@ -65,29 +65,19 @@ fn default_roots() -> u32 {
     3
 }
 
-fn default_trials() -> u32 {
-    12
-}
-
-fn default_nearby() -> f64 {
-    0.5
-}
-
-fn default_attempts() -> u64 {
-    1000
-}
-
 impl Default for LocalTrees {
     fn default() -> LocalTrees {
-        LocalTrees {
-            sampler: default_sampler(),
-            roots: default_roots(),
-            after: 0,
-            step: None,
-            trials: default_trials(),
-            nearby: default_nearby(),
-            attempts: default_attempts(),
-        }
+        let BentTrees { step, trials, nearby, attempts } = BentTrees::default();
+        let (sampler, roots) = (default_sampler(), default_roots());
+        LocalTrees { sampler, roots, after: 0, step, trials, nearby, attempts }
+    }
+}
+
+impl LocalTrees {
+    /// The settings by which trees grow, which are those of [`SlidingTrees`](super::SlidingTrees).
+    fn growing(&self) -> BentTrees {
+        let LocalTrees { step, trials, nearby, attempts, .. } = *self;
+        BentTrees { step, trials, nearby, attempts }
     }
 }
 
@@ -110,13 +100,7 @@ impl Generator for LocalTrees {
         };
         let nodes = frozen.map_or(0, |frozen| frozen.configs().len() as u64);
         if nodes < self.after {
-            let sliding = SlidingTrees(BentTrees {
-                step: self.step,
-                trials: self.trials,
-                nearby: self.nearby,
-                attempts: self.attempts,
-            });
-            return sliding.generate(cx, seed, count, frozen, scratch);
+            return SlidingTrees(self.growing()).generate(cx, seed, count, frozen, scratch);
         }
         let limits = (step_of(self.step, cx), self.attempts);
         let mut set = GrowingSet::new(cx, seed, scratch, frozen, count, limits)
@@ -147,11 +131,7 @@ impl Generator for LocalTrees {
     }
 
     fn complaint(&self) -> Option<Complaint> {
-        let of_sampler = self.sampler.method().complaint();
-        of_sampler
-            .or_else(|| Complaints::of_step(self.step))
-            .or_else(|| Complaints::of_bending(self.trials, self.nearby))
-            .or_else(|| Complaint::of_attempts(self.attempts, ATTEMPTS_MAX))
+        self.sampler.method().complaint().or_else(|| self.growing().complaint())
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {
