@@ -1,6 +1,7 @@
 use super::CrewError;
 use roadmill::roadmap::Digest;
 use roadmill_workers::build_id_of;
+use rustix::io::{FdFlags, fcntl_setfd};
 use std::fs::File;
 use std::io;
 use std::os::fd::AsRawFd;
@@ -51,6 +52,9 @@ impl Executable {
             if metadata.permissions().mode() & 0o111 == 0 {
                 return other("a file that nobody may execute");
             }
+            // Workers inherit the descriptor by whose name they are started, so that the name still leads to their program: an
+            // emulator of another processor, such as `qemu-aarch64`, looks it up after the start.
+            fcntl_setfd(&file, FdFlags::empty())?;
             Ok((file, build_id_of(&metadata)))
         };
         let (file, build) = open().map_err(CrewError::system(what))?;
