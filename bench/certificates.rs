@@ -127,7 +127,7 @@ fn near(robot: &[Piece], obstacles: &[Piece], reach: f64) -> usize {
     let here = &Pose::IDENTITY;
     let is_near = |a: &Piece, b: &Piece| {
         (a.centre - b.centre).length() <= a.radius + b.radius + reach
-            && distance(here, &a.triangle, here, &b.triangle).is_ok_and(|it| it <= reach)
+            && distance(here, &a.triangle, here, &b.triangle).is_ok_and(|it| it.distance <= reach)
     };
     robot.iter().map(|a| obstacles.iter().filter(|b| is_near(a, b)).count()).sum()
 }
