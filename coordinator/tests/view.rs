@@ -143,6 +143,21 @@ fn a_build_is_followed_by_who_knows_the_address_until_a_signal_comes() {
     assert_eq!(ask(port, &elsewhere), ("403 Forbidden".to_owned(), "403 Forbidden".to_owned()));
     let endless = format!("GET {path} HTTP/1.1\r\nCookie: {}\r\n", "x".repeat(7 << 10));
     assert!(ask(port, &(endless + &"y".repeat(1024))).0.starts_with("431"));
+    // A robot that is moved by hand: an estimate at once, the exact answer soon.
+    let collides = |values: &str| get(&format!("{path}collides?q={values}"));
+    let exactly = |values: &str| {
+        let mut last = String::new();
+        wait_until("the exact answer", || {
+            last = collides(values).1;
+            last.ends_with("\"exact\":true}")
+        });
+        last
+    };
+    assert_eq!(exactly("1,2,2,1,0,0,0"), "{\"collides\":false,\"exact\":true}");
+    assert_eq!(exactly("2,0.3,2,1,0,0,0"), "{\"collides\":true,\"exact\":true}");
+    for wrong in ["", "1,2", "1,2,2,1,0,0,x", "1,2,2,0,0,0,0", "1,2,NaN,1,0,0,0"] {
+        assert_eq!(collides(wrong).0, "400 Bad Request", "{wrong}");
+    }
     // Rounds that come are given to who does not know them.
     build("10");
     let newer = || get(&format!("{path}data?known=0"));

@@ -9,6 +9,7 @@
 //! server. At most [`GUESTS_MAX`] connections are open: the oldest is closed for one more, so that connections that say nothing
 //! cannot keep a browser out either.
 
+use super::hand::Hand;
 use super::view::{cannot_be_drawn, open, seen};
 use crate::cli::ViewArguments;
 use crate::exit::{Code, Failure};
@@ -43,7 +44,7 @@ const GUESTS_MAX: usize = 32;
 
 /// Serves a page that follows a build until a signal comes, which is how the command is meant to end.
 pub(super) fn follow(arguments: &ViewArguments) -> Result<Code, Failure> {
-    let shown = Shown::read_as(&arguments.run, 0)?;
+    let shown = Shown::read_as(&arguments.run, 0, None)?;
     let signals = Signals::listen().map_err(Failure::system)?;
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).map_err(Failure::system)?;
     listener.set_nonblocking(true).map_err(Failure::system)?;
@@ -160,6 +161,15 @@ impl Server {
                 }
                 answer(&mut stream, "200 OK", "application/json", &shown.data)
             }
+            Asked::Collides { values } => {
+                let hand = locked(&self.shown).hand.clone();
+                match hand.told(&values) {
+                    Some(told) => answer(&mut stream, "200 OK", "application/json", &told),
+                    None => {
+                        answer(&mut stream, "400 Bad Request", "text/plain", "no configuration")
+                    }
+                }
+            }
         }
     }
 
@@ -172,7 +182,7 @@ impl Server {
         if Instant::now() < shown.rested || ledger_of(&self.run) == shown.ledger {
             return shown;
         }
-        let newer = match Shown::read_as(&self.run, shown.live.version + 1) {
+        let newer = match Shown::read_as(&self.run, shown.live.version + 1, Some(&shown.hand)) {
             Ok(newer) => newer,
             Err(_) => Shown { rested: Instant::now() + REST, ..(*shown).clone() },
         };
@@ -205,10 +215,12 @@ struct Shown {
     ledger: Option<(u64, SystemTime)>,
     /// When the run may be read again.
     rested: Instant,
+    hand: Arc<Hand>,
 }
 
 impl Shown {
-    fn read_as(folder: &Path, version: u64) -> Result<Shown, Failure> {
+    /// Reads the run; a hand that moved the robot of the same problem goes on.
+    fn read_as(folder: &Path, version: u64, hand: Option<&Arc<Hand>>) -> Result<Shown, Failure> {
         let begun = Instant::now();
         let ledger = ledger_of(folder);
         let run = Run::at(folder).read()?;
@@ -216,7 +228,9 @@ impl Shown {
         let both = seen(&run, false, Some(live), |viewer| Some((viewer.page()?, viewer.data()?)));
         let (page, data) = both.ok_or_else(|| cannot_be_drawn(folder, &run))?;
         let rested = Instant::now() + REST.max(begun.elapsed() * REST_FACTOR);
-        Ok(Shown { live, page: page.into(), data: data.into(), ledger, rested })
+        let hand = hand.filter(|hand| hand.is_of(run.problem())).cloned();
+        let hand = hand.unwrap_or_else(|| Arc::new(Hand::of(run.problem())));
+        Ok(Shown { live, page: page.into(), data: data.into(), ledger, rested, hand })
     }
 }
 
@@ -238,6 +252,10 @@ enum Asked {
     /// The data, unless they have the version that is known.
     Data {
         known: Option<u64>,
+    },
+    /// Whether the robot collides at a configuration, whose values have commas between.
+    Collides {
+        values: String,
     },
     /// Nothing that there is: the status of the answer.
     Refused(&'static str),
@@ -271,6 +289,10 @@ impl Allowed {
                 None if rest == "data" => Asked::Data { known: None },
                 Some(("data", query)) => Asked::Data {
                     known: query.strip_prefix("known=").and_then(|number| number.parse().ok()),
+                },
+                Some(("collides", query)) => match query.strip_prefix("q=") {
+                    Some(values) => Asked::Collides { values: values.to_owned() },
+                    None => Asked::Refused("400 Bad Request"),
                 },
                 _ => Asked::Refused("404 Not Found"),
             },
@@ -349,6 +371,9 @@ mod tests {
         assert_eq!(data(""), Asked::Data { known: None });
         assert_eq!(data("?known=3"), Asked::Data { known: Some(3) });
         assert_eq!(data("?known=x"), Asked::Data { known: None });
+        let collides = |query: &str| asked(&format!("GET /{TOKEN}/collides{query} HTTP/1.1"), own);
+        assert_eq!(collides("?q=1,2"), Asked::Collides { values: "1,2".to_owned() });
+        assert_eq!(collides("?1,2"), Asked::Refused("400 Bad Request"));
         for host in ["", "Host: example.org:4711", "Host: 127.0.0.1", "Host: 127.0.0.1:47110"] {
             assert_eq!(asked(&page, host), Asked::Refused("403 Forbidden"), "{host}");
         }

@@ -12,6 +12,7 @@ mod diff;
 mod export;
 mod fold;
 mod generate;
+mod hand;
 mod import;
 mod job;
 mod live;

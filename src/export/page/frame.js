@@ -55,7 +55,7 @@ function paint() {
   drawCrowd(camera, from, light);
   usePlain(camera, from, light);
   if (node >= 0) drawRobot(posesOf(node), TEAL, 1);
-  drawHint(camera);
+  drawHint(camera, handColour());
   usePlain(camera, from, light);
   if (played) {
     drawRobotAt(state.place, node >= 0 ? 0.35 : 1);

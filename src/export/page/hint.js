@@ -1,5 +1,5 @@
 // Drawing a hint: the robot is moved by hand, and its configurations are kept at regular intervals of its motion. Whatever the robot is, its base is
-// moved and its joints stay as they are. The page has no collision test.
+// moved and its joints stay as they are.
 const hint = { on: false, now: null, kept: [], strokes: [], since: 0 };
 const canDraw = () => !!data.hand && !!handStart();
 
@@ -121,10 +121,10 @@ function restoreHand() {
 // The robot where the hand has it, some robots where it was, and the way of its reference point.
 const GHOSTS = 24;
 const matrices = ({ poses }) => data.links.map((_, link) => placed(poses.slice(7 * link, 7 * link + 3), poses.slice(7 * link + 3, 7 * link + 7)));
-function drawHint(camera) {
+function drawHint(camera, colour) {
   if (!hint.on) return;
   const { kept, now } = hint, count = Math.min(GHOSTS, kept.length);
-  drawRobot(matrices(now), AMBER, 1);
+  drawRobot(matrices(now), colour, 1);
   gl.depthMask(false);
   for (let i = 0; i < count; i++) drawRobot(matrices(kept[Math.floor(i * kept.length / count)]), AMBER, 0.1);
   gl.disable(gl.DEPTH_TEST);
@@ -145,7 +145,8 @@ function tellHint() {
   element("drawn").textContent = counted(hint.kept.length, "configuration");
   element("undo").disabled = !hint.strokes.length;
   const turns = !data.hand.turns ? "" : planar ? ", shift-drag or the wheel turns it" : ", shift-drag turns it";
-  element("how").textContent = "Drag moves the robot" + turns + (planar ? "" : ", the wheel moves it in depth") + "; with ctrl they move the view. Collisions are not tested here.";
+  element("how").textContent = "Drag moves the robot" + turns + (planar ? "" : ", the wheel moves it in depth") + "; with ctrl they move the view. "
+    + (data.live ? "It is red where it collides." : "Collisions are not tested here.");
 }
 for (const [id, act] of [["draw", toggleHint], ["undo", undoHint], ["clear", clearHint], ["save", saveHint]])
   element(id).addEventListener("click", act);

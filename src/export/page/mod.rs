@@ -33,6 +33,7 @@ const SCRIPT: &[&str] = &[
     include_str!("roadmap.js"),
     include_str!("milestone.js"),
     include_str!("hint.js"),
+    include_str!("touch.js"),
     include_str!("frame.js"),
     include_str!("panel.js"),
     include_str!("player.js"),

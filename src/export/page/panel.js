@@ -71,6 +71,7 @@ function tellAll() {
   tellValues();
   tellPath();
   tellHint();
+  tellTouch();
   repaint();
 }
 // Fills a list of choices.

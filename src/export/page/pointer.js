@@ -31,6 +31,7 @@ canvas.addEventListener("pointermove", (event) => {
   } else if (isByHand) {
     dragHand(x, y, event.shiftKey || (event.buttons & 6) !== 0);
     tellHint();
+    tellTouch();
     tellValues();
   } else if (planar !== (event.shiftKey || (event.buttons & 6) !== 0)) moveBy(x, y);
   else turnBy(x, y);
