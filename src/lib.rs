@@ -48,6 +48,7 @@ pub mod generator;
 pub mod img;
 #[doc(hidden)]
 pub mod internal;
+pub mod ligand;
 pub mod local;
 pub mod math;
 pub mod methods;

@@ -1,0 +1,251 @@
+//! Groups of HETATM records of a PDB file: "Protein Data Bank Contents Guide", version 3.3, 2012.
+
+use super::super::check;
+use super::super::error::{LigandError, LigandFault};
+use super::super::perceive::bonds_by_distance;
+use super::super::{Atom, Bond, BondOrder, BondSource, Element, Ligand, graph};
+use super::{columns, expect_molecule, ligand, number, position};
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// Which group of a PDB file is meant: `BEN`, or `MTX` of chain `B`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// The residue name.
+    pub residue: String,
+    /// The chain; any if none is named.
+    pub chain: Option<String>,
+    /// The residue number; any if none is named.
+    pub number: Option<i32>,
+}
+
+impl fmt::Display for Group {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.residue)?;
+        if let Some(chain) = &self.chain {
+            write!(f, " of chain `{chain}`")?;
+        }
+        if let Some(number) = self.number {
+            write!(f, " with number {number}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Molecules of water by the names that they have in files.
+const WATERS: [&str; 7] = ["HOH", "DOD", "WAT", "H2O", "SOL", "TIP", "TP3"];
+
+/// A residue of HETATM records.
+#[derive(Default)]
+struct Residue<'a> {
+    lines: Vec<(usize, &'a str)>,
+}
+
+/// What tells residues apart: chain, number with insertion code, name, as their columns have them.
+type Key<'a> = (&'a str, &'a str, &'a str);
+
+/// The residues of HETATM records of a text's first model, in their order, and its CONECT records.
+struct Groups<'a> {
+    residues: Vec<(Key<'a>, Residue<'a>)>,
+    conect: Vec<&'a str>,
+}
+
+/// Every group of more than one atom, waters excepted.
+pub(super) fn all(text: &str) -> Result<Vec<Ligand>, LigandError> {
+    let groups = Groups::of(text);
+    let candidates: Vec<_> = groups.candidates().collect();
+    if candidates.is_empty() {
+        let wanted = "of a ligand".to_owned();
+        return Err(LigandError::pathless(LigandFault::NoGroup { wanted, there: Vec::new() }));
+    }
+    let mut ligands = Vec::new();
+    for (_, residue) in candidates {
+        expect_molecule(ligands.len(), residue.lines[0].0)?;
+        ligands.push(residue.read(&groups.conect)?);
+    }
+    Ok(ligands)
+}
+
+/// The group that is meant.
+pub(super) fn group(text: &str, wanted: &Group) -> Result<Ligand, LigandError> {
+    let groups = Groups::of(text);
+    let is_meant = |(chain, number, name): &Key| {
+        *name == wanted.residue
+            && wanted.chain.as_deref().is_none_or(|wanted| wanted == *chain)
+            && wanted.number.is_none_or(|wanted| number.parse() == Ok(wanted))
+    };
+    let meant: Vec<_> = groups.residues.iter().filter(|(key, _)| is_meant(key)).collect();
+    match &meant[..] {
+        [(_, residue)] => residue.read(&groups.conect),
+        [] => Err(LigandError::pathless(LigandFault::NoGroup {
+            wanted: wanted.to_string(),
+            there: groups.candidates().map(|(key, _)| shown(key)).collect(),
+        })),
+        several => Err(LigandError::pathless(LigandFault::Several {
+            count: several.len(),
+            names: several.iter().map(|(key, _)| shown(key)).collect(),
+            choose: "choose it by chain and number",
+        })),
+    }
+}
+
+fn shown((chain, number, name): &Key) -> String {
+    format!("{name} {number} of chain `{chain}`")
+}
+
+impl<'a> Groups<'a> {
+    fn of(text: &'a str) -> Groups<'a> {
+        let mut residues: Vec<(Key<'a>, Residue<'a>)> = Vec::new();
+        let mut places: BTreeMap<Key<'a>, usize> = BTreeMap::new();
+        let mut conect = Vec::new();
+        let mut is_first_model = true;
+        for (index, line) in text.lines().enumerate() {
+            match columns(line, 0, 6) {
+                "HETATM" if is_first_model => {
+                    let column = |start, end| columns(line, start, end).trim();
+                    let key = (column(21, 22), column(22, 27), column(17, 20));
+                    let place = *places.entry(key).or_insert_with(|| {
+                        residues.push((key, Residue::default()));
+                        residues.len() - 1
+                    });
+                    residues[place].1.lines.push((index + 1, line));
+                }
+                "ENDMDL" => is_first_model = false,
+                "CONECT" => conect.push(line),
+                _ => {}
+            }
+        }
+        Groups { residues, conect }
+    }
+
+    /// The residues that may be meant when none is named.
+    fn candidates(&self) -> impl Iterator<Item = &(Key<'a>, Residue<'a>)> {
+        let is_candidate =
+            |(key, residue): &&(Key, Residue)| residue.lines.len() > 1 && !WATERS.contains(&key.2);
+        self.residues.iter().filter(is_candidate)
+    }
+}
+
+impl Residue<'_> {
+    fn read(&self, conect: &[&str]) -> Result<Ligand, LigandError> {
+        let first = self.lines[0].0;
+        let chosen = self.location();
+        let is_chosen = |line: &str| [" ", "", chosen].contains(&columns(line, 16, 17));
+        let mut atoms = Vec::new();
+        let mut places = Vec::new();
+        let mut serials = Vec::new();
+        for (number, line) in self.lines.iter().filter(|(_, line)| is_chosen(line)) {
+            check::expect_room(atoms.len() + 1).map_err(|fault| LigandError::at(*number, fault))?;
+            let atom = atom(line).map_err(|fault| LigandError::at(*number, fault))?;
+            places.extend(atom.position.map(|position| (atom.element, position)));
+            serials.push(columns(line, 6, 11).trim());
+            atoms.push(atom);
+        }
+        let name = columns(self.lines[0].1, 17, 20);
+        let listed = conect_bonds(&serials, conect);
+        let neighbours = graph::neighbours(atoms.len(), &listed);
+        if graph::pieces(&neighbours, |_| false).len() <= 1 && !listed.is_empty() {
+            return ligand(name, first, atoms, listed, BondSource::Conect);
+        }
+        let bonds = bonds_by_distance(&places).map_err(|fault| LigandError::at(first, fault))?;
+        ligand(name, first, atoms, bonds, BondSource::Distances)
+    }
+
+    /// The letter of the alternative location that is taken: that whose atoms have most occupancy together, of several
+    /// the first in the alphabet; a blank if there are none.
+    fn location(&self) -> &str {
+        let mut sums: BTreeMap<&str, f64> = BTreeMap::new();
+        for (_, line) in &self.lines {
+            let occupancy = number(columns(line, 54, 60), "occupancy").unwrap_or(1.0);
+            let letter = columns(line, 16, 17);
+            if !letter.trim().is_empty() {
+                *sums.entry(letter).or_default() += occupancy;
+            }
+        }
+        let most = sums.iter().rev().max_by(|(_, one), (_, other)| one.total_cmp(other));
+        most.map_or(" ", |(letter, _)| *letter)
+    }
+}
+
+/// The atom of a line.
+fn atom(line: &str) -> Result<Atom, LigandFault> {
+    let field = columns(line, 12, 16);
+    let position = position([columns(line, 30, 38), columns(line, 38, 46), columns(line, 46, 54)])?;
+    let symbol = columns(line, 76, 78).trim();
+    let element = if symbol.is_empty() { of_name(field) } else { Element::of_symbol(symbol) };
+    let element = element.ok_or_else(|| LigandFault::UnknownElement {
+        found: if symbol.is_empty() { field.to_owned() } else { symbol.to_owned() },
+        atom: field.trim().to_owned(),
+    })?;
+    Ok(Atom {
+        name: field.trim().to_owned(),
+        element,
+        position: Some(position),
+        formal_charge: charge(columns(line, 78, 80)),
+        partial_charge: None,
+    })
+}
+
+/// The element of an atom by its name in four columns: the symbol ends with the second, so `CA  ` is calcium and ` CA ` a
+/// carbon; names of four letters begin with hydrogen's, or that of another element of one letter.
+fn of_name(field: &str) -> Option<Element> {
+    let trimmed = field.trim();
+    let letters = trimmed.trim_start_matches(|c: char| !c.is_ascii_alphabetic());
+    let is_at_left = field.starts_with(|c: char| c.is_ascii_alphabetic()) && trimmed.len() < 4;
+    let two = letters.get(..2).filter(|_| is_at_left).and_then(Element::of_symbol);
+    two.or_else(|| letters.get(..1).and_then(Element::of_symbol))
+}
+
+/// A charge such as `2+` or `1-`; `None` where the columns are blank.
+fn charge(text: &str) -> Option<i8> {
+    let digits = text.trim();
+    let (size, sign) = match digits.as_bytes() {
+        [size @ b'0'..=b'9', sign] | [sign, size @ b'0'..=b'9'] => (size - b'0', sign),
+        _ => return None,
+    };
+    let size = i8::try_from(size).ok()?;
+    match sign {
+        b'+' => Some(size),
+        b'-' => Some(-size),
+        _ => None,
+    }
+}
+
+/// The bonds that CONECT records list between the atoms of these serial numbers.
+///
+/// A bond that a record repeats is a double or triple one, as many programs write them. Where none is repeated nothing
+/// is told of orders, nor where all are, as some programs write every record twice.
+fn conect_bonds(serials: &[&str], conect: &[&str]) -> Vec<Bond> {
+    let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
+    for (number, serial) in serials.iter().enumerate() {
+        if numbers.insert(serial, number).is_some() {
+            // Numbers beyond the five columns: there is no telling which atoms are meant.
+            return Vec::new();
+        }
+    }
+    // How often the record of the first atom lists the second.
+    let mut listed: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for line in conect {
+        let Some(from) = numbers.get(columns(line, 6, 11).trim()) else { continue };
+        for start in [11, 16, 21, 26] {
+            let to = numbers.get(columns(line, start, start + 5).trim());
+            if let Some(to) = to.filter(|to| *to != from) {
+                *listed.entry([*from, *to]).or_default() += 1;
+            }
+        }
+    }
+    let mut times: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for ([a, b], count) in listed {
+        let most = times.entry([a.min(b), a.max(b)]).or_default();
+        *most = count.max(*most);
+    }
+    let tells_orders =
+        times.values().any(|times| *times > 1) && times.values().any(|times| *times == 1);
+    let order = |times| match times {
+        1 if tells_orders => BondOrder::Single,
+        2 if tells_orders => BondOrder::Double,
+        3 if tells_orders => BondOrder::Triple,
+        _ => BondOrder::Unknown,
+    };
+    times.into_iter().map(|(atoms, times)| Bond { atoms, order: order(times) }).collect()
+}
