@@ -11,6 +11,9 @@ use roadmill::roadmap::Configs;
 use roadmill::seed::{Purpose, Seed};
 use roadmill::uniformity::{Grid, Hotelling, Shares, Spread, nearest_distances};
 
+/// The study whose runs others have as well.
+const STUDY: &str = "figure-5.7";
+
 pub const SAMPLES: usize = 1000;
 
 /// How finely is looked. The tolerance is far below the mean distance of neighbours, 0.002 in the plane, so that samples do not scatter about the axis; bounds are no
@@ -46,6 +49,23 @@ impl Drawn {
         }
     }
 
+    fn case(self, dimensions: usize) -> String {
+        format!("{dimensions}D {}", self.name())
+    }
+
+    /// Of each run the deviation of the nearest distances, and the number of samples in each cell.
+    pub fn runs(self, bench: &mut Bench, dimensions: usize) -> Vec<Vec<f64>> {
+        let cx = blocks(dimensions).problem.context();
+        bench.case_of(STUDY, &self.case(dimensions), |seed| {
+            let configs = self.samples(&cx, seed);
+            let distances = nearest_distances(cx.space(), &configs);
+            let spread = Spread::of(&distances).expect("there are samples");
+            let counts = counts(&configs, dimensions);
+            let counts = counts.iter().map(|count| *count as f64);
+            std::iter::once(spread.deviation).chain(counts).collect()
+        })
+    }
+
     /// The samples of a run.
     pub fn samples(self, cx: &Context, seed: u64) -> Configs {
         let drawn = match self {
@@ -76,7 +96,7 @@ pub fn cells(dimensions: usize) -> Grid {
 }
 
 /// How many samples are in each cell.
-pub fn counts(configs: &Configs, dimensions: usize) -> Vec<usize> {
+fn counts(configs: &Configs, dimensions: usize) -> Vec<usize> {
     let at = |q: &[f64], axis: usize| q.get(axis).copied().unwrap_or(0.0);
     let points: Vec<[f64; 3]> = configs.iter().map(|q| [q[0], q[1], at(q, 2)]).collect();
     cells(dimensions).counts(&points).0
@@ -95,23 +115,13 @@ pub fn run(bench: &mut Bench) {
     println!("|{}", " --- |".repeat(6));
     let (mut rows, mut panels) = (Vec::new(), Vec::new());
     for dimensions in [2, 3] {
-        let cx = blocks(dimensions).problem.context();
         let mut of_blocks = Vec::new();
         let mut series = Vec::new();
         for (at, drawn) in DRAWN.into_iter().enumerate() {
-            let case = format!("{dimensions}D {}", drawn.name());
-            if !bench.wants(&case) {
+            if !bench.wants(&drawn.case(dimensions)) {
                 continue;
             }
-            let runs = bench.case(&case, |seed| {
-                let configs = drawn.samples(&cx, seed);
-                let distances = nearest_distances(cx.space(), &configs);
-                let spread = Spread::of(&distances).expect("there are samples");
-                let counts = counts(&configs, dimensions);
-                std::iter::once(spread.deviation)
-                    .chain(counts.iter().map(|count| *count as f64))
-                    .collect()
-            });
+            let runs = drawn.runs(bench, dimensions);
             of_blocks.push(row(&format!("{dimensions}D"), drawn, &runs));
             series.push(Series {
                 name: drawn.name().to_owned(),

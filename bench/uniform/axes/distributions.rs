@@ -1,6 +1,6 @@
 //! Figures 5.8 and 5.9: 1000 samples between two blocks, seen.
 
-use super::distances::{DRAWN, Drawn, SAMPLES, cells, counts};
+use super::distances::{DRAWN, Drawn, SAMPLES, cells};
 use super::mean;
 use super::scenes::blocks;
 use crate::Bench;
@@ -39,11 +39,9 @@ fn picture(
     println!("| samples | mean number in each cell of the axis, {expected:.1} if uniform |");
     println!("| --- | --- |");
     for drawn in DRAWN {
-        let runs = bench.case(&format!("{dimensions}D {}", drawn.name()), |seed| {
-            let found = counts(&drawn.samples(&cx, seed), dimensions);
-            found.iter().map(|count| *count as f64).collect()
-        });
-        let means: Vec<f64> = (0..cells(dimensions).len()).map(|cell| mean(&runs, cell)).collect();
+        let runs = drawn.runs(bench, dimensions);
+        let means: Vec<f64> =
+            (0..cells(dimensions).len()).map(|cell| mean(&runs, 1 + cell)).collect();
         let words: Vec<String> = means.iter().map(|mean| format!("{mean:.0}")).collect();
         println!("| {} | {} |", drawn.name(), words.join(" "));
         let points = means.iter().enumerate().map(|(cell, mean)| [cell as f64 + 1.0, *mean]);
