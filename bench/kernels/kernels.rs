@@ -57,6 +57,9 @@ pub const KERNELS: &[Kernel] = &[
     kernel("sample-bridge", "milestone", || samples("bridge = { deviation = 0.5 }")),
     kernel("sample-obprm", "milestone", || samples("obprm = { step = 0.1 }")),
     kernel("sample-uobprm", "milestone", || samples("uobprm = { length = 0.5, step = 0.1 }")),
+    kernel("sample-umaprm", "milestone", || {
+        samples("umaprm = { length = 0.5, step = 0.1, tolerance = 0.01 }")
+    }),
     kernel("index-build", "configuration", index_built),
     kernel("index-search", "query", index_searched),
     kernel("brute-search", "query", brute_searched),

@@ -136,7 +136,7 @@ fn panel(rows: &[Row], number: usize, title: &str, y_label: &str) -> Panel {
         title: title.to_owned(),
         x_label: String::new(),
         y_label: y_label.to_owned(),
-        log_y: true,
+        log_y: number == SECONDS,
         words: (0..3).map(|at| (at as f64, format!("Obstacle {}", at + 1))).collect(),
         series: series.collect(),
     }
