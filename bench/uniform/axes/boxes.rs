@@ -32,8 +32,8 @@ impl Cuboid {
     }
 }
 
-/// Boxes laid one after the other, each of material or of void, the later ones in the place of the earlier. What is material in the end, as boxes that do not
-/// overlap: the cells between all sides of all boxes, with neighbours joined along x, then y, then z.
+/// Boxes laid one after the other, each of material or of void, the later ones in the place of the earlier. What is material in the end,
+/// as boxes that do not overlap: the cells between all sides of all boxes, with neighbours joined along x, then y, then z.
 pub fn carve(laid: &[(Cuboid, bool)]) -> Vec<Cuboid> {
     let lines = [0, 1, 2].map(|axis| {
         let sides = laid.iter().flat_map(|(cuboid, _)| [cuboid.min[axis], cuboid.max[axis]]);

@@ -16,8 +16,8 @@ const STUDY: &str = "figure-5.7";
 
 pub const SAMPLES: usize = 1000;
 
-/// How finely is looked. The tolerance is far below the mean distance of neighbours, 0.002 in the plane, so that samples do not scatter about the axis; bounds are no
-/// obstacles, so that the part of the axis that belongs to them is left out.
+/// How finely is looked. The tolerance is far below the mean distance of neighbours, 0.002 in the plane, so that samples do not scatter
+/// about the axis; bounds are no obstacles, so that the part of the axis that belongs to them is left out.
 pub const FINENESS: Fineness = Fineness { length: 1.0, step: 0.1, tolerance: 1e-6, bounds: false };
 
 /// The level of the test of counts.

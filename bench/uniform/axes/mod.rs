@@ -90,9 +90,9 @@ struct Fineness {
 }
 
 impl Fineness {
-    /// By a rule for all scenes of Figures 5.10 to 5.15: the step is a quarter of the width of the narrowest place, so that UMAPRM sees the axis there, the
-    /// tolerance a hundredth of it, and segments are a tenth as long as the longest side of the bounds. The sides of the bounds are obstacles: samples are
-    /// on the axis of the entire space (§5.2.4).
+    /// By a rule for all scenes of Figures 5.10 to 5.15: the step is a quarter of the width of the narrowest place, so that UMAPRM sees
+    /// the axis there, the tolerance a hundredth of it, and segments are a tenth as long as the longest side of the bounds. The sides of
+    /// the bounds are obstacles: samples are on the axis of the entire space (§5.2.4).
     fn of_width(width: f64, longest_side: f64) -> Fineness {
         let (step, tolerance) = (width / 4.0, width / 100.0);
         Fineness { length: longest_side / 10.0, step, tolerance, bounds: true }

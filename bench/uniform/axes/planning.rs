@@ -17,8 +17,8 @@ const STUDY: &str = "figure-5.14";
 /// What counts as alike.
 const ALIKE: f64 = 0.1;
 
-/// What is told of each run: whether it was solved, its CPU seconds and nodes, and of its path the mean clearance, the mean over its edges of their least
-/// clearance, and the length; 0 without a path.
+/// What is told of each run: whether it was solved, its CPU seconds and nodes, and of its path the mean clearance, the mean over its
+/// edges of their least clearance, and the length; 0 without a path.
 pub const SOLVED: usize = 0;
 pub const SECONDS: usize = 1;
 pub const NODES: usize = 2;

@@ -58,7 +58,8 @@ const HALF_GAP: f64 = 0.25;
 /// Half of the side of the space with the two blocks.
 pub const HALF_SIDE: f64 = 2.0;
 
-/// Two unit blocks beside each other in the middle of the space (Figure 5.6, a and b): the axis is the line or the plane of all points with x = 0.
+/// Two unit blocks beside each other in the middle of the space (Figure 5.6, a and b): the axis is the line or the plane of all points
+/// with x = 0.
 pub fn blocks(dimensions: usize) -> Scene {
     // In the plane blocks are high, so that no point in them is nearest to their upper and lower sides.
     let height = if dimensions == 2 { 100.0 } else { 1.0 };
@@ -89,7 +90,8 @@ const TUNNEL: f64 = 0.4;
 /// How thick the walls of the tunnel are, and the wall through which it leads.
 const TUNNEL_WALL: f64 = 0.1;
 
-/// A tunnel in the shape of an S with thin walls through a thin wall between the halves of a cube of side 10, the ends in opposite corners (Figure 5.13 b).
+/// A tunnel in the shape of an S with thin walls through a thin wall between the halves of a cube of side 10, the ends in opposite
+/// corners (Figure 5.13 b).
 pub fn s_tunnel() -> Scene {
     let corners = [[3.0, 7.5], [3.0, 6.5], [7.0, 6.5], [7.0, 3.5], [3.0, 3.5], [3.0, 2.5]];
     let corners = corners.map(|[x, z]| [x, 5.0, z]);
@@ -121,8 +123,8 @@ const TRAP_WALL: f64 = 0.1;
 /// How far its entrance reaches into it.
 const ENTRANCE: f64 = 3.0;
 
-/// A bug trap (Figure 5.13 d): a cube in a cube of twice its side, hollow, with an entrance that leads into it as a square tube; `opening` is the tube's width as a
-/// share of the trap's side. The start is in the trap and the goal outside.
+/// A bug trap (Figure 5.13 d): a cube in a cube of twice its side, hollow, with an entrance that leads into it as a square tube;
+/// `opening` is the tube's width as a share of the trap's side. The start is in the trap and the goal outside.
 pub fn bug_trap(opening: f64) -> Scene {
     let (low, high, middle) = (0.5 * TRAP, 1.5 * TRAP, TRAP);
     let width = opening * TRAP;
@@ -157,8 +159,8 @@ pub fn parasol() -> Option<PathBuf> {
 /// How many times higher the planar scenes are made.
 const HIGHER: f64 = 1000.0;
 
-/// Parasol's planar scene in a file, for a point in the place of its robot. Its obstacles are made higher, so that no point in them is nearest to their upper and
-/// lower sides; at z = 0, where the point moves, they stay as they are.
+/// Parasol's planar scene in a file, for a point in the place of its robot. Its obstacles are made higher, so that no point in them is
+/// nearest to their upper and lower sides; at z = 0, where the point moves, they stay as they are.
 fn of_parasol(name: &str, file: &str, width: f64) -> Option<Scene> {
     let path = parasol()?.join(file);
     let read = read_parasol(&path, &SceneOptions::default());

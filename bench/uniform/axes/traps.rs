@@ -7,8 +7,8 @@ use crate::Bench;
 
 /// Widths of the opening as shares of the trap's side: their denominators.
 const OPENINGS: [u32; 3] = [20, 50, 100];
-/// The most runs of UMAPRM, and of the others at the widest opening. There one whose first run is not solved has no further ones, since each takes all the time
-/// that there is; at the other openings the others have one run.
+/// The most runs of UMAPRM, and of the others at the widest opening. There one whose first run is not solved has no further ones, since
+/// each takes all the time that there is; at the other openings the others have one run.
 const RUNS: u64 = 10;
 
 /// What the runs of a case came to.
