@@ -4,6 +4,7 @@ use super::planning::{NODES, SECONDS, SOLVED, build};
 use super::scenes::bug_trap;
 use super::{METHODS, Method, mean, verdict, verdicts};
 use crate::Bench;
+use crate::support::panels::{Look, Panel, Series, svg};
 
 /// Widths of the opening as shares of the trap's side: their denominators.
 const OPENINGS: [u32; 3] = [20, 50, 100];
@@ -15,8 +16,13 @@ const RUNS: u64 = 10;
 struct Row {
     opening: u32,
     method: Method,
-    solved: usize,
-    runs: usize,
+    runs: Vec<Vec<f64>>,
+}
+
+impl Row {
+    fn solved(&self) -> usize {
+        self.runs.iter().filter(|run| run[SOLVED] == 1.0).count()
+    }
 }
 
 pub fn run(bench: &mut Bench) {
@@ -42,28 +48,60 @@ pub fn run(bench: &mut Bench) {
                     break;
                 }
             }
-            let solved = runs.iter().filter(|run| run[SOLVED] == 1.0).count();
+            let row = Row { opening, method, runs };
             println!(
-                "| 1/{opening} | {} | {solved} of {} | {:.0} | {:.1} |",
+                "| 1/{opening} | {} | {} of {} | {:.0} | {:.1} |",
                 method.name(),
-                runs.len(),
-                mean(&runs, NODES),
-                mean(&runs, SECONDS)
+                row.solved(),
+                row.runs.len(),
+                mean(&row.runs, NODES),
+                mean(&row.runs, SECONDS)
             );
-            rows.push(Row { opening, method, solved, runs: runs.len() });
+            rows.push(row);
         }
     }
+    bench.draw(&svg(&[SECONDS, NODES].map(|number| panel(&rows, number))));
     verdicts();
     for opening in OPENINGS {
         let of =
             |method: Method| rows.iter().find(|row| row.opening == opening && row.method == method);
         let [Some(umaprm), Some(maprm), Some(prm)] = METHODS.map(of) else { continue };
         let [ours, theirs, prms] =
-            [umaprm, maprm, prm].map(|row| format!("{} of {}", row.solved, row.runs));
+            [umaprm, maprm, prm].map(|row| format!("{} of {}", row.solved(), row.runs.len()));
         verdict(
             &format!("1/{opening}: only UMAPRM leaves the trap"),
             &format!("UMAPRM {ours}, MAPRM {theirs}, PRM {prms}"),
-            umaprm.solved == umaprm.runs && maprm.solved == 0 && prm.solved == 0,
+            umaprm.solved() == umaprm.runs.len() && maprm.solved() + prm.solved() == 0,
         );
+    }
+}
+
+/// A dot for each run that was solved.
+fn panel(rows: &[Row], number: usize) -> Panel {
+    let (y_label, unit) =
+        if number == SECONDS { ("CPU seconds", 1.0) } else { ("thousands of nodes", 1000.0) };
+    let series = METHODS.into_iter().enumerate().map(|(beside, method)| {
+        let own = rows.iter().filter(|row| row.method == method);
+        let points = own.flat_map(|row| {
+            let at = OPENINGS.iter().position(|opening| *opening == row.opening);
+            let x = at.map_or(0.0, |at| at as f64) + 0.2 * (beside as f64 - 1.0);
+            let solved = row.runs.iter().filter(|run| run[SOLVED] == 1.0);
+            solved.map(move |run| [x, run[number] / unit])
+        });
+        Series {
+            name: method.name().to_owned(),
+            colour: method.colour(),
+            look: Look::Dots,
+            points: points.collect(),
+        }
+    });
+    let words = OPENINGS.iter().enumerate();
+    Panel {
+        title: "out of the bug trap".to_owned(),
+        x_label: "opening, as a share of the trap's side".to_owned(),
+        y_label: y_label.to_owned(),
+        log_y: true,
+        words: words.map(|(at, opening)| (at as f64, format!("1/{opening}"))).collect(),
+        series: series.collect(),
     }
 }
