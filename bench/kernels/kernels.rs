@@ -57,6 +57,9 @@ pub const KERNELS: &[Kernel] = &[
     kernel("sample-bridge", "milestone", || samples("bridge = { deviation = 0.5 }")),
     kernel("sample-obprm", "milestone", || samples("obprm = { step = 0.1 }")),
     kernel("sample-uobprm", "milestone", || samples("uobprm = { length = 0.5, step = 0.1 }")),
+    kernel("sample-umaprm", "milestone", || {
+        some_samples("umaprm = { length = 0.5, step = 0.1, tolerance = 0.01 }", 2)
+    }),
     kernel("index-build", "configuration", index_built),
     kernel("index-search", "query", index_searched),
     kernel("brute-search", "query", brute_searched),
@@ -180,13 +183,18 @@ fn clearances() -> Work {
 }
 
 fn samples(sampler: &str) -> Work {
+    some_samples(sampler, 50)
+}
+
+/// So many milestones: few of a sampler whose milestones take long.
+fn some_samples(sampler: &str, count: usize) -> Work {
     let cx = problem("cage").context();
     let sampler: SamplerKind = toml::from_str(sampler).expect("a sampler");
     let mut scratch = Scratch::new();
     Box::new(move || {
         let mut configs = Configs::new(cx.space().len());
         let seed = Seed::of_set(1, "kernels", Ordinal(0));
-        let sampled = sampler.method().sample(&cx, &seed, 50, &mut scratch, &mut configs);
+        let sampled = sampler.method().sample(&cx, &seed, count, &mut scratch, &mut configs);
         sampled.expect("the cage has room");
         configs.len()
     })

@@ -120,7 +120,7 @@ fn stroke(out: &mut String, path: &str, colour: &str, width: f64) {
     .expect("memory");
 }
 
-/// The picture of some panels; the names of the first one's series stand below.
+/// The picture of some panels; the names of the first one's series, of those that have names, stand below.
 pub fn svg(panels: &[Panel]) -> String {
     let [left, top, right, bottom] = AROUND;
     let rows = panels.len().div_ceil(PER_ROW) as f64;
@@ -135,7 +135,8 @@ pub fn svg(panels: &[Panel]) -> String {
         draw(&mut out, panel, &Axes::of(panel, index));
     }
     let mut x = left;
-    for series in panels.first().map_or(&[][..], |panel| &panel.series) {
+    let series = panels.first().map_or(&[][..], |panel| &panel.series);
+    for series in series.iter().filter(|series| !series.name.is_empty()) {
         let y = height - 20.0;
         stroke(&mut out, &format!("M{x:.1} {y:.1}h18"), series.colour, 4.0);
         text(&mut out, [x + 26.0, y + 5.0], "font-size=\"14\"", &series.name);

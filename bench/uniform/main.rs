@@ -28,7 +28,7 @@ pub struct Study {
     pub name: &'static str,
     /// What it shows, in a line.
     pub about: &'static str,
-    /// Runs it and prints what came of it.
+    /// Runs it and prints its table.
     pub run: fn(&mut Bench),
 }
 
@@ -53,8 +53,18 @@ impl Bench {
 
     /// The numbers of each run of a case, in the order of the seeds: those that stand in the file, and else those of `measure`, which gets
     /// the seed.
-    pub fn case(&mut self, case: &str, mut measure: impl FnMut(u64) -> Vec<f64>) -> Vec<Vec<f64>> {
-        let (study, book) = (self.study, &mut self.book);
+    pub fn case(&mut self, case: &str, measure: impl FnMut(u64) -> Vec<f64>) -> Vec<Vec<f64>> {
+        self.case_of(self.study, case, measure)
+    }
+
+    /// The same, of a case that belongs to another study, so that two figures of the same runs share them.
+    pub fn case_of(
+        &mut self,
+        study: &str,
+        case: &str,
+        mut measure: impl FnMut(u64) -> Vec<f64>,
+    ) -> Vec<Vec<f64>> {
+        let book = &mut self.book;
         (1..=self.runs).map(|seed| book.run(study, case, seed, || measure(seed))).collect()
     }
 
