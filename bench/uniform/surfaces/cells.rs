@@ -46,12 +46,13 @@ struct Outcome {
 }
 
 impl Outcome {
-    fn probability(&self) -> f64 {
-        self.shares.test.map_or(f64::NAN, |test| test.probability)
+    /// The probability of as large a departure from the law; `None` where there are too few runs to tell.
+    fn probability(&self) -> Option<f64> {
+        self.shares.test.map(|test| test.probability)
     }
 
-    fn uniform(&self) -> bool {
-        self.probability() >= LEVEL
+    fn uniform(&self) -> Option<bool> {
+        self.probability().map(|probability| probability >= LEVEL)
     }
 }
 
@@ -64,7 +65,7 @@ struct Statement {
 /// What statements are about.
 #[derive(Clone)]
 struct Found {
-    uniform: bool,
+    uniform: Option<bool>,
     means: Vec<f64>,
     deviation: f64,
 }
@@ -138,7 +139,7 @@ fn study(bench: &mut Bench, layout: &Layout) {
         }
         let pairs: Vec<(f64, f64)> =
             came.means.iter().zip(case.paper).map(|(ours, paper)| (*ours, paper[0])).collect();
-        cells.push(format!("{:.3}", came.probability()));
+        cells.push(came.probability().map_or("–".to_owned(), |p| format!("{p:.3}")));
         cells.push(format!("{:.1}", mean(&runs, 16) / SAMPLES as f64 * 1e6));
         cells.push(format!("{:.0}", mean(&runs, 17) / SAMPLES as f64));
         cells.push(if pairs.is_empty() { "–" } else { agreement(&pairs, WITHIN) }.to_owned());
@@ -218,7 +219,9 @@ pub fn single(bench: &mut Bench) {
         statements: &[
             Statement {
                 says: "PRM has about a sixteenth in every cell, so that it is far from the law",
-                holds: |of| of("PRM").map(|f| !f.uniform && (f.means[0] - 0.0625).abs() < 0.003),
+                holds: |of| {
+                    of("PRM").and_then(|f| Some(!f.uniform? && (f.means[0] - 0.0625).abs() < 0.003))
+                },
             },
             Statement {
                 says: "Gaussian has no sample in free cells, against the dissertation's 0.0057 in each: none is farther than about 4 d from a small robot's surface",
@@ -234,11 +237,11 @@ pub fn single(bench: &mut Bench) {
             },
             Statement {
                 says: "OBPRM is uniform among the cells, by symmetry",
-                holds: |of| of("OBPRM").map(|f| f.uniform),
+                holds: |of| of("OBPRM").and_then(|f| f.uniform),
             },
             Statement {
                 says: "UOBPRM is uniform, and its error is 0",
-                holds: |of| of("UOBPRM l=1").map(|f| f.uniform && f.means[1] == 0.0),
+                holds: |of| of("UOBPRM l=1").and_then(|f| Some(f.uniform? && f.means[1] == 0.0)),
             },
             Statement {
                 says: "UOBPRM has the least deviation in the ball's cells",
@@ -302,11 +305,11 @@ pub fn four(bench: &mut Bench) {
         statements: &[
             Statement {
                 says: "UOBPRM is uniform",
-                holds: |of| of("UOBPRM l=1").map(|f| f.uniform),
+                holds: |of| of("UOBPRM l=1").and_then(|f| f.uniform),
             },
             Statement {
                 says: "Gaussian is uniform",
-                holds: |of| of("Gaussian d=0.2").map(|f| f.uniform),
+                holds: |of| of("Gaussian d=0.2").and_then(|f| f.uniform),
             },
             Statement {
                 says: "a cell's deviation is lower with Gaussian than with UOBPRM, as in the dissertation: its samples are independent",
@@ -314,11 +317,11 @@ pub fn four(bench: &mut Bench) {
             },
             Statement {
                 says: "OBPRM is not uniform: cells at the box's middle get more than those at its sides",
-                holds: |of| of("OBPRM").map(|f| !f.uniform),
+                holds: |of| of("OBPRM").and_then(|f| Some(!f.uniform?)),
             },
             Statement {
                 says: "walks of OBPRM from colliding configurations alone are uniform on balls, by symmetry",
-                holds: |of| of("OBPRM outward").map(|f| f.uniform),
+                holds: |of| of("OBPRM outward").and_then(|f| f.uniform),
             },
             Statement {
                 says: "each sampler has a quarter around each ball, by symmetry, within 0.01: the dissertation's PRM, Bridge and OBPRM have not",
@@ -387,7 +390,7 @@ pub fn mixed(bench: &mut Bench) {
         statements: &[
             Statement {
                 says: "UOBPRM is uniform: what steps of 0.025 miss at the cubes' edges is less than the test sees",
-                holds: |of| of("UOBPRM l=1").map(|f| f.uniform),
+                holds: |of| of("UOBPRM l=1").and_then(|f| f.uniform),
             },
             Statement {
                 says: "UOBPRM has within 0.003 of 0.1718 around a ball and of 0.3282 around a cube",
@@ -401,13 +404,16 @@ pub fn mixed(bench: &mut Bench) {
             },
             Statement {
                 says: "Gaussian is not uniform: pairs miss edges of the cubes",
-                holds: |of| of("Gaussian d=0.2").map(|f| !f.uniform),
+                holds: |of| of("Gaussian d=0.2").and_then(|f| Some(!f.uniform?)),
             },
             Statement {
                 says: "Gaussian has less than 0.18 around a ball, nearer to the law than the dissertation's 0.1948",
                 holds: |of| of("Gaussian d=0.2").map(|f| f.means[0] < 0.18 && f.means[1] < 0.18),
             },
-            Statement { says: "OBPRM is not uniform", holds: |of| of("OBPRM").map(|f| !f.uniform) },
+            Statement {
+                says: "OBPRM is not uniform",
+                holds: |of| of("OBPRM").and_then(|f| Some(!f.uniform?)),
+            },
             Statement {
                 says: "PRM has a quarter in each region within 0.01: the robot is small",
                 holds: |of| {
