@@ -1,11 +1,15 @@
 //! Chapter 4: samples on the surfaces of C-obstacles.
 
 mod cells;
+mod cost;
 mod dots;
 mod draws;
+mod lengths;
+mod passages;
 mod picture;
 mod report;
 mod scenes;
+mod torus;
 
 use super::{Bench, Study};
 
@@ -28,4 +32,26 @@ pub const STUDIES: &[Study] = &[
     Study { name: "figure-4.6", about: "one ball: where samples lie", run: dots::single },
     Study { name: "figure-4.8", about: "four balls: where samples lie", run: dots::four },
     Study { name: "figure-4.10", about: "balls and cubes: where samples lie", run: dots::mixed },
+    Study {
+        name: "figure-4.12",
+        about: "a torus: distribution error over triangles",
+        run: torus::study,
+    },
+    Study { name: "table-4.4", about: "what samples cost around one ball", run: cost::single },
+    Study { name: "table-4.5", about: "what samples cost in the Tunnel", run: cost::tunnels },
+    Study {
+        name: "figure-4.14",
+        about: "passages of three widths: the share of 1000 samples",
+        run: passages::fixed_samples,
+    },
+    Study {
+        name: "figure-4.15",
+        about: "passages of three widths: samples until 100 are in",
+        run: passages::fixed_inside,
+    },
+    Study {
+        name: "figure-4.18",
+        about: "Lemma 2: UOBPRM and Gaussian with one length; draws Figure 4.19",
+        run: lengths::study,
+    },
 ];

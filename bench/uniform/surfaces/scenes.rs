@@ -98,7 +98,7 @@ pub struct Scene {
 
 impl Scene {
     /// Its `[space]`, `[robot]` and obstacles, as a problem file has them.
-    fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let Scene { half, edge, .. } = self;
         let low = half.map(|end| -end);
         let mut text = format!(
