@@ -5,6 +5,7 @@ mod cost;
 mod dots;
 mod draws;
 mod lengths;
+mod motion;
 mod passages;
 mod picture;
 mod report;
@@ -39,6 +40,12 @@ pub const STUDIES: &[Study] = &[
     },
     Study { name: "table-4.4", about: "what samples cost around one ball", run: cost::single },
     Study { name: "table-4.5", about: "what samples cost in the Tunnel", run: cost::tunnels },
+    Study {
+        name: "table-4.6",
+        about: "a query in the Tunnel, by two robots",
+        run: motion::tunnels,
+    },
+    Study { name: "table-4.7", about: "a query in the Z-Tunnel", run: motion::z },
     Study {
         name: "figure-4.14",
         about: "passages of three widths: the share of 1000 samples",
