@@ -6,6 +6,7 @@ mod dots;
 mod draws;
 mod lengths;
 mod motion;
+mod ompl;
 mod passages;
 mod picture;
 mod report;
@@ -60,5 +61,10 @@ pub const STUDIES: &[Study] = &[
         name: "figure-4.18",
         about: "Lemma 2: UOBPRM and Gaussian with one length; draws Figure 4.19",
         run: lengths::study,
+    },
+    Study {
+        name: "cost-ompl",
+        about: "what samples cost beside OMPL's samplers",
+        run: ompl::study,
     },
 ];
