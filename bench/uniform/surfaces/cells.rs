@@ -1,16 +1,16 @@
 //! Tables 4.1 to 4.3 with Figures 4.7, 4.9 and 4.11: how samples are shared out among 16 cells, four by four, around balls and cubes.
 //!
 //! A run is 4000 samples. A region is an obstacle's four cells. Of a region a table has, as the dissertation has, the mean share of its
-//! samples and the mean's error, and the standard deviation of the share *of one cell*, which is how the dissertation's numbers can be read: with
-//! 4000 independent samples a share of 6.25 % has a standard deviation of 0.0038, which is what Table 4.2 has for UOBPRM, and a share of 25 % has
-//! one of 0.0068. In Table 4.1 means are those of a cell, too.
+//! samples and the mean's error, and the standard deviation of the share *of one cell*, which is how the dissertation's numbers can be
+//! read: with 4000 independent samples a share of 6.25 % has a standard deviation of 0.0038, which is what Table 4.2 has for UOBPRM, and
+//! a share of 25 % has one of 0.0068. In Table 4.1 means are those of a cell, too.
 //!
-//! Stated before the runs: an entry agrees if no mean is farther than 0.01 from the dissertation's. "Uniform" is that Hotelling's test over the
-//! runs does not reject the law at a level of 1 %, with the law for a cube robot (`scenes.rs`); each study states what it expects of whom.
-//! Bridge test takes being out of bounds as colliding: with one convex obstacle there are no other bridges. UOBPRM has `adjusted_bounds`. OBPRM
-//! walks from free and from colliding configurations; a row says what walks from colliding ones alone give.
+//! Stated before the runs: an entry agrees if no mean is farther than 0.01 from the dissertation's. "Uniform" is that Hotelling's test
+//! over the runs does not reject the law at a level of 1 %, with the law for a cube robot (`scenes.rs`); each study states what it
+//! expects of whom. Bridge test takes being out of bounds as colliding: with one convex obstacle there are no other bridges. UOBPRM has
+//! `adjusted_bounds`. OBPRM walks from free and from colliding configurations; a row says what walks from colliding ones alone give.
 
-use super::draws::{self, mean};
+use super::draws::{self, mean, square};
 use super::picture::{Bars, bars};
 use super::report::{agreement, head, row, stated};
 use super::scenes::{EDGE, Scene, Solid, four_balls, grown, mixture, one_ball};
@@ -91,7 +91,7 @@ fn outcome(runs: &[Vec<f64>], layout: &Layout) -> Option<Outcome> {
     };
     let means = layout.regions.iter().map(of).collect();
     let spread = |region: &Region| {
-        let squares = region.cells.iter().map(|cell| shares.cells[*cell].deviation.powi(2));
+        let squares = region.cells.iter().map(|cell| square(shares.cells[*cell].deviation));
         (squares.sum::<f64>() / region.cells.len() as f64).sqrt()
     };
     let deviations = layout.regions.iter().map(spread).collect();
@@ -151,8 +151,7 @@ fn study(bench: &mut Bench, layout: &Layout) {
                 .collect(),
             ideals: came.shares.cells.iter().map(|cell| cell.expected).collect(),
         });
-        let deviation = came.deviations.iter().fold(0.0, |sum, deviation| sum + deviation)
-            / came.deviations.len() as f64;
+        let deviation = came.deviations.iter().sum::<f64>() / came.deviations.len() as f64;
         let uniform = came.uniform();
         found.push((case.name, Found { uniform, means: came.means, deviation }));
     }

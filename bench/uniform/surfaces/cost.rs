@@ -1,8 +1,8 @@
 //! Tables 4.4 and 4.5: what 1000 samples cost, in the scene with one ball and in the Tunnel.
 //!
-//! The dissertation's seconds are of another machine and another collision checker, so what can agree is order and trend: which of two entries
-//! takes longer. The last column of a table says of how many of all pairs of entries, both given by the dissertation, ours and the dissertation's
-//! times have the same order.
+//! The dissertation's seconds are of another machine and another collision checker, so what can agree is order and trend: which of two
+//! entries takes longer. The last column of a table says of how many of all pairs of entries, both given by the dissertation, ours and
+//! the dissertation's times have the same order.
 //!
 //! UOBPRM has segments of length 1 around the ball and 2 in the Tunnel, so that l/t says the step; `adjusted_bounds` around the ball.
 //! Bridge test takes being out of bounds as colliding. What finds no sample in 200 000 attempts is given up, which a run has as −1.

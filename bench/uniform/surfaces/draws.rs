@@ -51,3 +51,7 @@ pub fn run(cx: &Context, text: &str, run: u64, count: usize) -> Result<Drawn, Ga
 pub fn mean(runs: &[Vec<f64>], at: usize) -> f64 {
     runs.iter().map(|run| run[at]).sum::<f64>() / runs.len() as f64
 }
+
+pub fn square(number: f64) -> f64 {
+    number * number
+}

@@ -1,15 +1,17 @@
-//! Figures 4.17 to 4.19 and Lemma 2: UOBPRM is Gaussian sampling if segments have one step (t = l), and Gaussian's pairs one length (d = l).
+//! Figures 4.17 to 4.19 and Lemma 2: UOBPRM is Gaussian sampling if segments have one step (t = l), and Gaussian's
+//! pairs one length (d = l).
 //!
-//! The library's Gaussian draws lengths |N(0, d)|, so pairs of one length are drawn here, by [`pairs`]; `Gaussian sigma` is the library's. UOBPRM is taken twice:
-//! with segments that start in the bounds widened by l, as the lemma has it, and with `adjusted_bounds`. A run is 1000 samples around one ball
-//! (the dissertation has 4000). A trial is a pair or a segment.
+//! The library's Gaussian draws lengths |N(0, d)|, so pairs of one length are drawn here, by [`pairs`]; `Gaussian sigma` is the
+//! library's. UOBPRM is taken twice: with segments that start in the bounds widened by l, as the lemma has it, and with
+//! `adjusted_bounds`. A run is 1000 samples around one ball (the dissertation has 4000). A trial is a pair or a segment.
 //!
-//! Stated before the runs. Lemma 2 holds if the numbers of trials per sample and per volume of the starts, (8 + 2l)³ for UOBPRM and 8³ for Gaussian, differ by
-//! less than 3 % at every length, and the mean shares of free cells by less than 0.01. The dissertation's figures say three more things: times are alike for short
-//! lengths, UOBPRM gets faster than Gaussian for long ones, and is uniform for l = d = 2 while Gaussian is not. With t = l none of
-//! the last two can follow from anything but the box of the starts: Lemma 2 says that UOBPRM is as little uniform with
-//! t = l = 2. So stated here is: with adjusted bounds UOBPRM is *faster at all lengths*, the more so the shorter they are; without, it is slower
-//! for long ones; with t = l = 2 both have samples in free cells; and UOBPRM with l = 2 and t = 0.1 is uniform.
+//! Stated before the runs. Lemma 2 holds if the numbers of trials per sample and per volume of the starts, (8 + 2l)³ for UOBPRM and 8³
+//! for Gaussian, differ by less than 3 % at every length, and the mean shares of free cells by less than 0.01. The dissertation's
+//! figures say three more things: times are alike for short lengths, UOBPRM gets faster than Gaussian for long ones, and is uniform for
+//! l = d = 2 while Gaussian is not. With t = l none of the last two can follow from anything but the box of the starts: Lemma 2 says
+//! that UOBPRM is as little uniform with t = l = 2. So stated here is: with adjusted bounds UOBPRM is *faster at all lengths*, the more
+//! so the shorter they are; without, it is slower for long ones; with t = l = 2 both have samples in free cells; and UOBPRM with l = 2
+//! and t = 0.1 is uniform.
 
 use super::draws::{self, mean};
 use super::picture::{Bars, bars};

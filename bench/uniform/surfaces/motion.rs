@@ -1,20 +1,20 @@
 //! Tables 4.6 and 4.7: what it takes to meet a query in the Tunnel and in the Z-Tunnel, with one sampler alone.
 //!
-//! A run grows a roadmap in sets of 20 samples, each joined with its 10 nearest in the set and among what came before by straight lines that are
-//! looked at in steps, until the query is met or the cap is reached: `--seconds`, here 20 CPU seconds at most. A run that reaches the cap
-//! counts with what it had then.
+//! A run grows a roadmap in sets of 20 samples, each joined with its 10 nearest in the set and among what came before by straight lines
+//! that are looked at in steps, until the query is met or the cap is reached: `--seconds`, here 20 CPU seconds at most. A run that
+//! reaches the cap counts with what it had then.
 //!
 //! Robots: in the Tunnel a cube of edge 1, and a linkage of four boxes of 0.8 × 0.3 × 0.3, one after the other, with
 //! joints that bend by up to 90° to either side, about z, y and z in turn; links may not touch but their neighbours. In the
 //! Z-Tunnel a cube of edge 0.8. UOBPRM has no `adjusted_bounds`: walls reach the bounds everywhere.
 //!
-//! The dissertation's "CD calls" are configurations checked, on motions as well. Here configurations are those that samplers asked for, and motions
-//! are counted as such, however many steps they have. An entry agrees if nodes are within a factor of 3 of the
+//! The dissertation's "CD calls" are configurations checked, on motions as well. Here configurations are those that samplers asked for,
+//! and motions are counted as such, however many steps they have. An entry agrees if nodes are within a factor of 3 of the
 //! dissertation's, which is of other tunnels; more is in the order of the samplers.
 //!
-//! Stated before the runs: as in the dissertation PRM needs the most nodes and the most time of all in both tunnels with the rigid body; the
-//! best UOBPRM needs fewer nodes than PRM, Gaussian, Bridge and OBPRM with either robot and in the Z-Tunnel; UOBPRM needs the fewest nodes with the
-//! longest step, 1, and the most with the shortest, 0.2.
+//! Stated before the runs: as in the dissertation PRM needs the most nodes and the most time of all in both tunnels with the rigid body;
+//! the best UOBPRM needs fewer nodes than PRM, Gaussian, Bridge and OBPRM with either robot and in the Z-Tunnel; UOBPRM needs the fewest
+//! nodes with the longest step, 1, and the most with the shortest, 0.2.
 
 use super::draws::mean;
 use super::report::{head, row, stated};
@@ -113,8 +113,12 @@ fn linkage() -> Robot {
     Robot { text, ends }
 }
 
-/// The mean number of nodes and of CPU seconds of each case that was run.
-type Means = Vec<(&'static str, f64, f64)>;
+/// Means of a case that was run.
+struct Mean {
+    name: &'static str,
+    nodes: f64,
+    seconds: f64,
+}
 
 fn measured(
     bench: &mut Bench,
@@ -122,7 +126,7 @@ fn measured(
     robot: &Robot,
     letter: &str,
     cases: &[Case],
-) -> Means {
+) -> Vec<Mean> {
     let seconds = bench.seconds.min(SECONDS);
     let mut means = Vec::new();
     for case in cases {
@@ -149,7 +153,7 @@ fn measured(
             format!("{configurations:.0} + {motions:.0} / {paper_calls:.0}"),
             if near { "yes" } else { "no" }.to_owned(),
         ]);
-        means.push((case.name, nodes, time));
+        means.push(Mean { name: case.name, nodes, seconds: time });
     }
     means
 }
@@ -232,7 +236,7 @@ pub fn tunnels(bench: &mut Bench) {
         }
         let says = format!("{letter}: the best UOBPRM needs fewer nodes than the other samplers");
         stated(&says, fewest(means, samplers.len()));
-        let uobprm: Vec<f64> = uobprm(means).map(|(_, nodes, _)| *nodes).collect();
+        let uobprm: Vec<f64> = uobprm(means).map(|mean| mean.nodes).collect();
         let (least, most) = bounds(&uobprm);
         let ends = (uobprm.len() == 5).then(|| uobprm[4] <= least && uobprm[0] >= most);
         stated(
@@ -249,24 +253,24 @@ fn bounds(numbers: &[f64]) -> (f64, f64) {
     numbers.iter().fold((f64::INFINITY, 0.0), fold)
 }
 
-fn uobprm<'a>(means: &'a Means) -> impl Iterator<Item = &'a (&'static str, f64, f64)> {
-    means.iter().filter(|(name, ..)| name.starts_with("UOBPRM"))
+fn uobprm(means: &[Mean]) -> impl Iterator<Item = &Mean> {
+    means.iter().filter(|mean| mean.name.starts_with("UOBPRM"))
 }
 
 /// Whether one of UOBPRM's entries has fewer nodes than all others' entries; `None` if not all were run.
-fn fewest(means: &Means, count: usize) -> Option<bool> {
-    let ours = uobprm(means).map(|(_, nodes, _)| *nodes).fold(f64::INFINITY, f64::min);
-    let mut others = means.iter().filter(|(name, ..)| !name.starts_with("UOBPRM"));
-    (means.len() == count).then(|| others.all(|(_, nodes, _)| *nodes > ours))
+fn fewest(means: &[Mean], count: usize) -> Option<bool> {
+    let ours = uobprm(means).map(|mean| mean.nodes).fold(f64::INFINITY, f64::min);
+    let mut others = means.iter().filter(|mean| !mean.name.starts_with("UOBPRM"));
+    (means.len() == count).then(|| others.all(|mean| mean.nodes > ours))
 }
 
 /// States that PRM needs the most.
-fn most_of_all(before: &str, means: &Means, count: usize) {
+fn most_of_all(before: &str, means: &[Mean], count: usize) {
     let all = means.len() == count;
-    let prm = means.iter().find(|(name, ..)| *name == "PRM").filter(|_| all);
-    let nodes = prm.map(|prm| means.iter().all(|other| other.1 <= prm.1));
+    let prm = means.iter().find(|mean| mean.name == "PRM").filter(|_| all);
+    let nodes = prm.map(|prm| means.iter().all(|other| other.nodes <= prm.nodes));
     stated(&format!("{before}PRM needs the most nodes"), nodes);
-    let time = prm.map(|prm| means.iter().all(|other| other.2 <= prm.2));
+    let time = prm.map(|prm| means.iter().all(|other| other.seconds <= prm.seconds));
     stated(&format!("{before}PRM needs the most time"), time);
 }
 
@@ -298,8 +302,7 @@ pub fn z(bench: &mut Bench) {
     println!();
     most_of_all("", &means, cases.len());
     stated("UOBPRM needs the fewest nodes", fewest(&means, cases.len()));
-    let nodes: Vec<(&str, f64)> = means.iter().map(|(name, nodes, _)| (*name, *nodes)).collect();
-    let of = |name: &str| nodes.iter().find(|(known, _)| *known == name).map(|(_, nodes)| *nodes);
+    let of = |name: &str| means.iter().find(|mean| mean.name == name).map(|mean| mean.nodes);
     let order =
         [of("UOBPRM l=1 t=0.01"), of("Gaussian d=0.2"), of("OBPRM"), of("Bridge d=3"), of("PRM")];
     let order: Option<Vec<f64>> = order.into_iter().collect();

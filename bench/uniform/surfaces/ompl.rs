@@ -5,14 +5,15 @@
 //! ROADMILL_SAMPLERS_PEER=$PWD/samplers cargo bench --bench uniform -- cost-ompl
 //! ```
 //!
-//! A run is 1000 samples here and 1000 there, one after the other in one thread each; the ratio of a case is the median of the runs' ratios. Both have
-//! solid balls and boxes and the robot's middle in the bounds, and before anything is measured both say of the same 2000 configurations which are
-//! valid. The methods differ in what they draw:
+//! A run is 1000 samples here and 1000 there, one after the other in one thread each; the ratio of a case is the median of the runs'
+//! ratios. Both have solid balls and boxes and the robot's middle in the bounds, and before anything is measured both say of the same
+//! 2000 configurations which are valid. The methods differ in what they draw:
 //!
-//! - OMPL's Gaussian and Bridge move every coordinate by a normal deviate. So that translations have the same mean length, OMPL gets 0.3395 of the
-//!   deviation here: E|N(0, 1)| · Γ(2) Γ(3) / (Γ(3/2) Γ(7/2)) = 0.542 here, 1.596 there.
-//! - OMPL's obstacle-based sampler draws a colliding configuration and a free one, and keeps the last free one on the motion from the latter to the
-//!   former, in steps of a hundredth of the space. Here it is OBPRM with walks from colliding configurations, in steps of 0.1.
+//! - OMPL's Gaussian and Bridge move every coordinate by a normal deviate. So that translations have the same mean length, OMPL gets
+//!   0.3395 of the deviation here: E|N(0, 1)| · Γ(2) Γ(3) / (Γ(3/2) Γ(7/2)) = 0.542 here, 1.596 there.
+//! - OMPL's obstacle-based sampler draws a colliding configuration and a free one, and keeps the last free one on the motion from the
+//!   latter to the former, in steps of a hundredth of the space. Here it is OBPRM with walks from colliding configurations, in
+//!   steps of 0.1.
 //! - There is no UOBPRM there. Ours stands beside OMPL's obstacle-based sampler, which is meant for the same.
 //!
 //! Stated before the runs: a uniform sample costs less here than there; so do Gaussian and Bridge in the Tunnel; OMPL's obstacle-based

@@ -2,13 +2,13 @@
 //!
 //! The robot is a cube that translates and turns, and its base is in its middle. Where uniformity is measured (Figure 4.5) its
 //! edge is [`EDGE`], small against the least distance of neighbours on a segment. In all scenes but those of motion planning a turn by
-//! a radian counts as a length of 1 in the metric, much more than it moves any point of the cube: then the area of a C-obstacle's surface in the
-//! metric is the area in the workspace, averaged over all rotations, to within a factor 1 + (reach / 1)² / 2, which is
+//! a radian counts as a length of 1 in the metric, much more than it moves any point of the cube: then the area of a C-obstacle's
+//! surface in the metric is the area in the workspace, averaged over all rotations, to within a factor 1 + (reach / 1)² / 2, which is
 //! 1.00015 for the cube of 0.02.
 //!
 //! *The law for a cube.* The surface of a convex body K, grown by a convex body L in all its rotations, has the mean area
-//! S(K) + S(L) + M(K) M(L) / 2π (Blaschke's and Santaló's formula), with M the integral of the mean curvature: 4πr for a ball, π (a + b + c)
-//! for a box. So [`grown`] says how much surface an obstacle has for the robot; for a point it is S(K).
+//! S(K) + S(L) + M(K) M(L) / 2π (Blaschke's and Santaló's formula), with M the integral of the mean curvature: 4πr for a ball, π (a + b
+//! + c) for a box. So [`grown`] says how much surface an obstacle has for the robot; for a point it is S(K).
 
 use roadmill::problem::Problem;
 use std::f64::consts::{PI, TAU};

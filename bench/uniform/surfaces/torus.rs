@@ -1,17 +1,18 @@
 //! Figure 4.12: the distribution error on a torus of 1024 triangles.
 //!
-//! A run is 4000 samples. Every sample counts for the triangle that is nearest to the robot's base. The *distribution error* of a triangle is the
-//! difference of its share of the samples and its share of the area; a run's is the mean over the triangles, here divided by PRM's. Independent
-//! samples that have the law would have [`floor`]. The figure's numbers are not in the dissertation's text, only that UOBPRM's is the least.
+//! A run is 4000 samples. Every sample counts for the triangle that is nearest to the robot's base. The *distribution error* of a
+//! triangle is the difference of its share of the samples and its share of the area; a run's is the mean over the triangles, here
+//! divided by PRM's. Independent samples that have the law would have [`floor`]. The figure's numbers are not in the dissertation's
+//! text, only that UOBPRM's is the least.
 //!
 //! Hotelling's test needs fewer shares than runs. It takes the eight pairs of bands around the tube, where the surface is bent in different
 //! ways, and the law for a cube: 1 + 2H 3a/4 times the area, with 2H the sum of the principal curvatures and a the edge.
 //!
-//! Stated before the runs: UOBPRM has the least error, within a fifth of the floor, and is uniform at a level of 1 %; Gaussian comes next; PRM
-//! and Bridge test have the largest. UOBPRM has t = 0.01 and l = 1 as the dissertation has it. OBPRM walks in steps of 0.1, the last
-//! of them halved twice: its walks begin anywhere in the box, and steps of 0.01 would only make them long.
+//! Stated before the runs: UOBPRM has the least error, within a fifth of the floor, and is uniform at a level of 1 %; Gaussian comes
+//! next; PRM and Bridge test have the largest. UOBPRM has t = 0.01 and l = 1 as the dissertation has it. OBPRM walks in steps of 0.1,
+//! the last of them halved twice: its walks begin anywhere in the box, and steps of 0.01 would only make them long.
 
-use super::draws::{self, mean};
+use super::draws::{self, mean, square};
 use super::report::{head, row, stated};
 use super::scenes::{EDGE, TORUS, TORUS_PIECES, torus, torus_problem};
 use crate::Bench;
@@ -100,7 +101,7 @@ pub fn study(bench: &mut Bench) {
             [error, drawn.seconds, drawn.asked].into_iter().chain(grouped).collect()
         });
         let error = mean(&runs, 0);
-        let squares: f64 = runs.iter().map(|run| (run[0] - error).powi(2)).sum();
+        let squares: f64 = runs.iter().map(|run| square(run[0] - error)).sum();
         let spread = (squares / (runs.len() as f64 - 1.0).max(1.0)).sqrt();
         let counts: Vec<Vec<usize>> =
             runs.iter().map(|run| run[3..].iter().map(|n| *n as usize).collect()).collect();
