@@ -12,7 +12,7 @@
 
 use super::draws::{self, mean, square};
 use super::picture::{Bars, bars};
-use super::report::{agreement, head, row, stated};
+use super::report::{agreement, chance, head, row, stated};
 use super::scenes::{EDGE, Scene, Solid, four_balls, grown, mixture, one_ball};
 use crate::Bench;
 use crate::support::plot::COLOURS;
@@ -98,7 +98,8 @@ fn outcome(runs: &[Vec<f64>], layout: &Layout) -> Option<Outcome> {
     Some(Outcome { means, deviations, shares })
 }
 
-fn study(bench: &mut Bench, layout: &Layout) {
+/// Prints the table and draws the figure, whose panels it returns.
+fn study(bench: &mut Bench, layout: &Layout) -> Vec<Bars> {
     let cx = layout.scene.problem().context();
     let grid = Grid::new([-4.0; 3], [4.0; 3], [4, 4, 1]).expect("a box");
     let mut titles = vec!["sampler".to_owned()];
@@ -106,7 +107,10 @@ fn study(bench: &mut Bench, layout: &Layout) {
         titles.push(format!("{}, ours: mean ± sd (error)", region.name));
         titles.push("dissertation".to_owned());
     }
-    titles.extend(["p of the law", "µs each", "asked each", "agrees"].map(str::to_owned));
+    titles.extend(
+        ["largest error of a cell", "p of the law", "µs each", "asked each", "agrees"]
+            .map(str::to_owned),
+    );
     head(&titles);
     let whole: f64 = layout.expected.iter().sum();
     let (mut found, mut panels) = (Vec::new(), Vec::new());
@@ -139,7 +143,8 @@ fn study(bench: &mut Bench, layout: &Layout) {
         }
         let pairs: Vec<(f64, f64)> =
             came.means.iter().zip(case.paper).map(|(ours, paper)| (*ours, paper[0])).collect();
-        cells.push(came.probability().map_or("–".to_owned(), |p| format!("{p:.3}")));
+        cells.push(format!("{:.1} %", 100.0 * came.shares.largest_error));
+        cells.push(chance(came.probability()));
         cells.push(format!("{:.1}", mean(&runs, 16) / SAMPLES as f64 * 1e6));
         cells.push(format!("{:.0}", mean(&runs, 17) / SAMPLES as f64));
         cells.push(if pairs.is_empty() { "–" } else { agreement(&pairs, WITHIN) }.to_owned());
@@ -170,6 +175,18 @@ fn study(bench: &mut Bench, layout: &Layout) {
         &legend,
         &panels,
     ));
+    panels
+}
+
+/// The shares of rows of cells, which is what Table 4.2 of the dissertation may have: found after the runs.
+fn rows(panels: &[Bars]) {
+    head(&["sampler", "cells 1 to 4", "5 to 8", "9 to 12", "13 to 16"]);
+    for panel in panels {
+        let shares = panel.heights.chunks(4);
+        let shares = shares.map(|row| row.iter().map(|(share, _)| share).sum::<f64>());
+        let words = shares.map(|share| format!("{share:.4}"));
+        row(&[panel.title.clone()].into_iter().chain(words).collect::<Vec<_>>());
+    }
 }
 
 fn colour(layout: &Layout, cell: usize) -> &'static str {
@@ -332,7 +349,7 @@ pub fn four(bench: &mut Bench) {
             },
         ],
     };
-    study(bench, &layout);
+    rows(&study(bench, &layout));
 }
 
 const MIXED: &[Region] = &[

@@ -15,7 +15,7 @@
 
 use super::draws::{self, mean};
 use super::picture::{Bars, bars};
-use super::report::{head, row, stated};
+use super::report::{chance, head, row, stated};
 use super::scenes::one_ball;
 use crate::Bench;
 use crate::support::cpu_seconds;
@@ -157,10 +157,7 @@ pub fn study(bench: &mut Bench) {
                 trials,
                 of_volume,
                 format!("{:.2}", 100.0 * found.free()),
-                found
-                    .shares
-                    .test
-                    .map_or("–".to_owned(), |test| format!("{:.3}", test.probability)),
+                chance(found.shares.test.map(|test| test.probability)),
             ]);
         }
         all.push(of);

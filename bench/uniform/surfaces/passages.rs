@@ -21,7 +21,7 @@
 
 use super::draws::{self, Drawn, mean, square};
 use super::picture::{Bars, bars};
-use super::report::{head, row, stated};
+use super::report::{chance, head, row, stated};
 use super::scenes::{PASSAGE_EDGE, PASSAGES, SLAB, grown, parse, passage};
 use crate::Bench;
 use crate::support::plot::COLOURS;
@@ -182,7 +182,7 @@ pub fn fixed_samples(bench: &mut Bench) {
                 (number + 1).to_string(),
                 format!("{mean_inside:.1} ± {sd:.1}"),
                 law.map_or("–".to_owned(), |law| format!("{:.1}", law * 1e3)),
-                test.map_or("–".to_owned(), |p| format!("{p:.3}")),
+                chance(test),
                 format!("{:.1}", mean(&runs, 2) * 1e3),
             ]);
             heights.push((found.cells[0].mean, COLOURS[number]));

@@ -37,3 +37,12 @@ pub fn stated(says: &str, came_true: Option<bool>) {
 pub fn rises(numbers: &[f64]) -> bool {
     numbers.windows(2).all(|pair| pair[0] < pair[1])
 }
+
+/// A probability; none where there are too few runs for a test.
+pub fn chance(probability: Option<f64>) -> String {
+    match probability {
+        Some(p) if p < 0.001 => "< 0.001".to_owned(),
+        Some(p) => format!("{p:.3}"),
+        None => "–".to_owned(),
+    }
+}

@@ -13,7 +13,7 @@
 //! the last of them halved twice: its walks begin anywhere in the box, and steps of 0.01 would only make them long.
 
 use super::draws::{self, mean, square};
-use super::report::{head, row, stated};
+use super::report::{chance, head, row, stated};
 use super::scenes::{EDGE, TORUS, TORUS_PIECES, torus, torus_problem};
 use crate::Bench;
 use crate::support::panels::{Look, Panel, Series, svg};
@@ -117,7 +117,7 @@ pub fn study(bench: &mut Bench) {
             format!("{spread:.1e}"),
             format!("{:.3}", error / floor),
             format!("{of_prm:.3}"),
-            test.map_or("–".to_owned(), |test| format!("{:.3}", test.probability)),
+            chance(test.map(|test| test.probability)),
             format!("{:.1}", mean(&runs, 1) / SAMPLES as f64 * 1e6),
             format!("{:.0}", mean(&runs, 2) / SAMPLES as f64),
         ]);
