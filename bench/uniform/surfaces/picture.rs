@@ -74,7 +74,7 @@ impl Sheet {
 fn sheet_size(panels: usize, [width, height]: [f64; 2]) -> [f64; 2] {
     let (columns, rows) = (panels.clamp(1, PER_ROW), panels.div_ceil(PER_ROW).max(1));
     let wide = LEFT + columns as f64 * (width + GAP);
-    [wide.max(640.0), TOP + rows as f64 * (height + GAP) - GAP + 24.0]
+    [wide.max(700.0), TOP + rows as f64 * (height + GAP) - GAP + 24.0]
 }
 
 /// The left upper corner of a panel.

@@ -13,10 +13,10 @@
 //! the last of them halved twice: its walks begin anywhere in the box, and steps of 0.01 would only make them long.
 
 use super::draws::{self, mean, square};
+use super::picture::{Bars, bars};
 use super::report::{chance, head, row, stated};
 use super::scenes::{EDGE, TORUS, TORUS_PIECES, torus, torus_problem};
 use crate::Bench;
-use crate::support::panels::{Look, Panel, Series, svg};
 use crate::support::plot::COLOURS;
 use roadmill::scene::Mesh;
 use roadmill::uniformity::{Shares, triangle_areas, triangle_counts};
@@ -140,21 +140,14 @@ pub fn study(bench: &mut Bench) {
     let rest = |worse: f64| errors.iter().filter(|(_, error)| *error > worse).count() <= 1;
     let largest = of("PRM").zip(of("Bridge d=3")).filter(|_| all).map(|(a, b)| rest(a) && rest(b));
     stated("PRM and Bridge test have the two largest errors", largest);
-    let points = |(at, (_, error)): (usize, &(&str, f64))| vec![[at as f64, error / errors[0].1]];
-    let series = errors.iter().enumerate().zip(COLOURS).map(|(entry, colour)| Series {
-        name: entry.1.0.to_owned(),
-        colour,
-        look: Look::Dots,
-        points: points(entry),
-    });
-    let words = errors.iter().enumerate().map(|(at, (name, _))| (at as f64, (*name).to_owned()));
-    let words = words.collect();
-    bench.draw(&svg(&[Panel {
-        title: "Distribution error on the torus, by PRM's".to_owned(),
-        x_label: String::new(),
-        y_label: "error by PRM's".to_owned(),
-        log_y: false,
-        words,
-        series: series.collect(),
-    }]));
+    let colours =
+        || errors.iter().zip(COLOURS).map(|((name, error), colour)| (*name, *error, colour));
+    let legend: Vec<(&str, &str)> = colours().map(|(name, _, colour)| (name, colour)).collect();
+    let prm = errors[0].1;
+    let panel = Bars {
+        title: "the line is the floor".to_owned(),
+        heights: colours().map(|(_, error, colour)| (error / prm, colour)).collect(),
+        ideals: vec![floor / prm; errors.len()],
+    };
+    bench.draw(&bars("Distribution error on the torus, by PRM's", &legend, &[panel]));
 }
