@@ -20,7 +20,7 @@ use super::draws::mean;
 use super::report::{head, row, stated};
 use super::scenes::{Scene, parse, query, tunnel, z_tunnel};
 use crate::Bench;
-use crate::support::cpu_seconds;
+use crate::support::{cpu_seconds, median};
 use roadmill::img::{Core, Cut, Judgement, Observer, Progress, Round, Serial, Setup, Stop, drive};
 use roadmill::model::Asked;
 use roadmill::problem::Problem;
@@ -139,6 +139,7 @@ fn measured(
         let runs = bench.case(&name, |seed| build(problem.clone().with_seed(seed), seconds));
         let met = mean(&runs, 0) * runs.len() as f64;
         let ours = [1, 2, 3, 4, 5].map(|at| mean(&runs, at));
+        let middle = median(&mut runs.iter().map(|run| run[1]).collect::<Vec<f64>>());
         let ratio = ours[0] / case.paper[0];
         let near = (FACTOR.recip()..=FACTOR).contains(&ratio);
         let [nodes, edges, time, configurations, motions] = ours;
@@ -147,7 +148,7 @@ fn measured(
             letter.to_owned(),
             case.name.to_owned(),
             format!("{met:.0} of {}", runs.len()),
-            format!("{nodes:.0} / {paper_nodes:.0}"),
+            format!("{nodes:.0} ({middle:.0}) / {paper_nodes:.0}"),
             format!("{edges:.0} / {paper_edges:.0}"),
             format!("{time:.3} / {paper_time:.1}"),
             format!("{configurations:.0} + {motions:.0} / {paper_calls:.0}"),
@@ -163,7 +164,7 @@ fn titles() {
         "robot",
         "sampler",
         "query met",
-        "nodes, ours / dissertation",
+        "nodes: mean (median) / dissertation",
         "edges",
         "CPU s",
         "configurations + motions / CD calls",
