@@ -13,7 +13,7 @@ mod report;
 mod scenes;
 mod torus;
 
-use super::{Bench, Study};
+use super::Study;
 
 pub const STUDIES: &[Study] = &[
     Study {
