@@ -142,7 +142,7 @@ fn panel(rows: &[Row], number: usize, title: &str, y_label: &str) -> Panel {
     }
 }
 
-fn of<'a>(rows: &'a [Row], method: Method) -> &'a Row {
+fn of(rows: &[Row], method: Method) -> &Row {
     rows.iter().find(|row| row.method == method).expect("all methods are run")
 }
 

@@ -56,10 +56,13 @@ impl Outcome {
     }
 }
 
+/// What was found of a case; `None` of one that was not run.
+type Of<'a> = dyn Fn(&str) -> Option<Found> + 'a;
+
 /// Something stated before the runs: of which case, and what.
 struct Statement {
     says: &'static str,
-    holds: fn(&dyn Fn(&str) -> Option<Found>) -> Option<bool>,
+    holds: fn(&Of) -> Option<bool>,
 }
 
 /// What statements are about.
