@@ -253,7 +253,11 @@ fn the_clearest_path_keeps_farther_away_than_the_shortest_and_costs_length() {
     scratch.build("energy", &[&repository("problems/muller-brown.toml"), "--threads", "2"], 0);
     let refused = scratch.run(&["query", "energy", "--clearest", "widest"]);
     refused.assert_code(2);
-    assert!(refused.stderr.contains("clearances: a problem of bodies among obstacles expected"));
+    let why = "clearances: a problem of bodies among obstacles expected";
+    assert!(refused.stderr.contains(why));
+    let refused = scratch.run(&["view", "energy", "--clearance", "--no-open", "--out", "e.html"]);
+    refused.assert_code(2);
+    assert!(refused.stderr.contains(why) && !scratch.path("e.html").exists());
 }
 
 #[test]

@@ -213,8 +213,8 @@ class Roadmap:
                 the edges' lengths, each divided by its mean clearance.
 
         Raises:
-            UsageError: A configuration is not valid, the run's validity function is missing, or the problem has no clearances,
-                being about no bodies or without obstacles.
+            UsageError: A configuration is not valid, or the problem has no clearances: it is about no bodies, without obstacles, or
+                has a validity function, which tells no distances.
         """
         if by not in ("widest", "weighted"):
             raise ValueError(f"by: {by!r} found, 'widest' or 'weighted' expected")
@@ -232,7 +232,7 @@ class Roadmap:
     @property
     def node_clearances(self) -> Floats:
         """How far the nearest obstacle is from the robot at each node, n, in the problem's unit of length. It is found when it or
-        `edge_clearances` is first asked for; a `UsageError` of a problem that is about no bodies or has no obstacles."""
+        `edge_clearances` is first asked for; a `UsageError` of a problem that is about no bodies, has no obstacles, or has a validity function."""
         return self._clearances[0]
 
     @property

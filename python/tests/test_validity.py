@@ -147,6 +147,12 @@ def test_an_exception_ends_the_build_as_itself(sampled: Problem, tmp_path: pathl
     assert run.resume(threads=1).digest == whole.digest
 
 
+def test_a_function_tells_no_distances(built: Roadmap) -> None:
+    for ask in (built.clearest, lambda: built.node_clearances):
+        with pytest.raises(roadmill.UsageError, match="a problem without a validity function expected"):
+            ask()
+
+
 def test_an_exception_of_a_query_leaves_the_roadmap_usable(built: Roadmap) -> None:
     fails = False
 

@@ -163,11 +163,9 @@ impl Server {
             }
             Asked::Collides { values } => {
                 let hand = locked(&self.shown).hand.clone();
-                match hand.told(&values) {
-                    Some(told) => answer(&mut stream, "200 OK", "application/json", &told),
-                    None => {
-                        answer(&mut stream, "400 Bad Request", "text/plain", "no configuration")
-                    }
+                match hand.map_or(Err("404 Not Found"), |hand| hand.told(&values)) {
+                    Ok(told) => answer(&mut stream, "200 OK", "application/json", &told),
+                    Err(status) => answer(&mut stream, status, "text/plain", status),
                 }
             }
         }
@@ -182,11 +180,13 @@ impl Server {
         if Instant::now() < shown.rested || ledger_of(&self.run) == shown.ledger {
             return shown;
         }
-        let newer = match Shown::read_as(&self.run, shown.live.version + 1, Some(&shown.hand)) {
+        let newer = match Shown::read_as(&self.run, shown.live.version + 1, shown.hand.as_ref()) {
             Ok(newer) => newer,
             Err(_) => Shown { rested: Instant::now() + REST, ..(*shown).clone() },
         };
-        *locked(&self.shown) = Arc::new(newer);
+        // What was shown before may hold a hand, which ends its thread: not while others wait for the lock.
+        let before = std::mem::replace(&mut *locked(&self.shown), Arc::new(newer));
+        drop(before);
         known()
     }
 }
@@ -215,7 +215,8 @@ struct Shown {
     ledger: Option<(u64, SystemTime)>,
     /// When the run may be read again.
     rested: Instant,
-    hand: Arc<Hand>,
+    /// Of a run whose configurations the model alone judges.
+    hand: Option<Arc<Hand>>,
 }
 
 impl Shown {
@@ -230,6 +231,8 @@ impl Shown {
         let rested = Instant::now() + REST.max(begun.elapsed() * REST_FACTOR);
         let hand = hand.filter(|hand| hand.is_of(run.problem())).cloned();
         let hand = hand.unwrap_or_else(|| Arc::new(Hand::of(run.problem())));
+        // A validity function of another program is not known here.
+        let hand = run.expect_validity_function().is_ok().then_some(hand);
         Ok(Shown { live, page: page.into(), data: data.into(), ledger, rested, hand })
     }
 }

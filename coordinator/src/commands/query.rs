@@ -83,7 +83,8 @@ fn clearest(
     let found = asker.run.clearest((&ends.start, &ends.goal), by)?;
     let seconds = begun.elapsed().as_secs_f64();
     let Some(ClearPath { path, clearance }) = found else {
-        return Err(Failure::new(Code::NoSuccess, format!("no path ({seconds:.3} s)")));
+        let why = asker.ask_any(ends).answer.why_no_path();
+        return Err(Failure::new(Code::NoSuccess, format!("no path: {why} ({seconds:.3} s)")));
     };
     give(asker, arguments, &path)?;
     let (configs, length) = (path.configs.len(), path.length);

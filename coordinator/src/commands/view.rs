@@ -27,6 +27,9 @@ pub fn view(arguments: &ViewArguments) -> Result<Code, Failure> {
     };
     check_page("--out", &out)?;
     let run = Run::at(run_in(&arguments.run)?).read()?;
+    if arguments.clearance {
+        run.expect_clearances_of_nodes()?;
+    }
     let page = seen(&run, arguments.clearance, None, |viewer| viewer.page());
     let page = page.ok_or_else(|| cannot_be_drawn(&arguments.run, &run))?;
     write_whole(&out, &page)?;

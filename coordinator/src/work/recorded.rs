@@ -133,7 +133,7 @@ impl Recorded {
         let found = self
             .clearances
             .get_or_init(|| clearance::of_edges(&self.cx, self.roadmap(), self.resolution()?));
-        found.as_deref().ok_or_else(no_clearance)
+        found.as_deref().ok_or_else(|| self.no_clearances())
     }
 
     /// The clearance at every node of the roadmap, in their order.
@@ -141,7 +141,7 @@ impl Recorded {
     /// # Errors
     /// As of [`Recorded::clearances_of_edges`].
     pub fn clearances_of_nodes(&self) -> Result<Vec<f64>, Failure> {
-        clearance::of_nodes(&self.cx, self.roadmap()).ok_or_else(no_clearance)
+        clearance::of_nodes(&self.cx, self.roadmap()).ok_or_else(|| self.no_clearances())
     }
 
     /// The path that keeps away from obstacles best, as [`query::clearest`] finds it; `None` if there is none.
@@ -154,11 +154,36 @@ impl Recorded {
         by: Clearest,
     ) -> Result<Option<ClearPath>, Failure> {
         let [start, goal] = query::accepted(&self.cx, ends).map_err(Failure::usage)?;
+        self.expect_clearances(&start)?;
         let (of_edges, scratch) = (self.clearances_of_edges()?, &mut Scratch::new());
-        let tolerance = self.resolution().ok_or_else(no_clearance)?;
+        let tolerance = self.resolution().ok_or_else(|| self.no_clearances())?;
         let (ends, by) = ([&start[..], &goal[..]], (by, tolerance));
         let (cx, roadmap) = (&self.cx, self.roadmap());
         Ok(query::clearest(cx, roadmap, ends, &self.attachment, of_edges, by, scratch))
+    }
+
+    /// Whether nodes have clearances, by the first of them; a roadmap without nodes lacks none.
+    ///
+    /// # Errors
+    /// As of [`Recorded::clearances_of_edges`].
+    pub fn expect_clearances_of_nodes(&self) -> Result<(), Failure> {
+        self.roadmap().configs().iter().next().map_or(Ok(()), |q| self.expect_clearances(q))
+    }
+
+    /// Whether there is a clearance at a configuration: where there is one there is one everywhere.
+    fn expect_clearances(&self, q: &[f64]) -> Result<(), Failure> {
+        let clearances = self.cx.model().clearances();
+        let found = clearances.and_then(|it| it.clearance(q, &mut Scratch::new()));
+        found.map(|_| ()).ok_or_else(|| self.no_clearances())
+    }
+
+    fn no_clearances(&self) -> Failure {
+        Failure::usage(match self.problem.validity_function() {
+            None => "clearances: a problem of bodies among obstacles expected, this one has none",
+            Some(_) => {
+                "clearances: a problem without a validity function expected; a function tells no distances"
+            }
+        })
     }
 
     /// How far the robot may move between two checks of a sampled motion, to within which clearances are certain.
@@ -172,8 +197,4 @@ impl Recorded {
         let first = to(&ends.goal);
         ends.other_goals.iter().fold(first, |best, goal| best.or(to(goal)))
     }
-}
-
-fn no_clearance() -> Failure {
-    Failure::usage("clearances: a problem of bodies among obstacles expected, this one has none")
 }
