@@ -215,6 +215,17 @@ fn position(texts: [&str; 3]) -> Result<Point, LigandFault> {
     Ok(position)
 }
 
+/// That a line whose fields are told by their columns is ASCII: one character of several bytes would shift all behind it.
+fn expect_ascii(line: &str) -> Result<(), LigandFault> {
+    match line.chars().find(|c| !c.is_ascii()) {
+        Some(c) => {
+            let found = format!("a line of an atom or a bond with `{c}`");
+            Err(syntax(found, "columns of ASCII"))
+        }
+        None => Ok(()),
+    }
+}
+
 /// The columns of a line from `start` to before `end`, counted from 0, as far as the line goes. Where a character
 /// of more than one byte is in the way there is no telling columns, and nothing is found.
 fn columns(line: &str, start: usize, end: usize) -> &str {

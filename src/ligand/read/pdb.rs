@@ -4,7 +4,7 @@ use super::super::check;
 use super::super::error::{LigandError, LigandFault};
 use super::super::perceive::bonds_by_distance;
 use super::super::{Atom, Bond, BondOrder, BondSource, Element, Ligand, graph};
-use super::{columns, expect_molecule, ligand, number, position};
+use super::{columns, expect_ascii, expect_molecule, ligand, number, position};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -52,7 +52,7 @@ struct Groups<'a> {
 
 /// Every group of more than one atom, waters excepted.
 pub(super) fn all(text: &str) -> Result<Vec<Ligand>, LigandError> {
-    let groups = Groups::of(text);
+    let groups = Groups::of(text)?;
     let candidates: Vec<_> = groups.candidates().collect();
     if candidates.is_empty() {
         let wanted = "of a ligand".to_owned();
@@ -68,7 +68,7 @@ pub(super) fn all(text: &str) -> Result<Vec<Ligand>, LigandError> {
 
 /// The group that is meant.
 pub(super) fn group(text: &str, wanted: &Group) -> Result<Ligand, LigandError> {
-    let groups = Groups::of(text);
+    let groups = Groups::of(text)?;
     let is_meant = |(chain, number, name): &Key| {
         *name == wanted.residue
             && wanted.chain.as_deref().is_none_or(|wanted| wanted == *chain)
@@ -94,12 +94,15 @@ fn shown((chain, number, name): &Key) -> String {
 }
 
 impl<'a> Groups<'a> {
-    fn of(text: &'a str) -> Groups<'a> {
+    fn of(text: &'a str) -> Result<Groups<'a>, LigandError> {
         let mut residues: Vec<(Key<'a>, Residue<'a>)> = Vec::new();
         let mut places: BTreeMap<Key<'a>, usize> = BTreeMap::new();
         let mut conect = Vec::new();
         let mut is_first_model = true;
         for (index, line) in text.lines().enumerate() {
+            if ["HETATM", "ATOM  ", "CONECT"].iter().any(|record| line.starts_with(record)) {
+                expect_ascii(line).map_err(|fault| LigandError::at(index + 1, fault))?;
+            }
             match columns(line, 0, 6) {
                 "HETATM" if is_first_model => {
                     let column = |start, end| columns(line, start, end).trim();
@@ -115,7 +118,7 @@ impl<'a> Groups<'a> {
                 _ => {}
             }
         }
-        Groups { residues, conect }
+        Ok(Groups { residues, conect })
     }
 
     /// The residues that may be meant when none is named.

@@ -8,7 +8,7 @@ use super::super::check;
 use super::super::error::{LigandError, LigandFault, syntax};
 use super::super::perceive::bonds_by_distance;
 use super::super::{Atom, BondOrder, BondSource, Element, Ligand};
-use super::{columns, expect_molecule, ligand, number, position};
+use super::{columns, expect_ascii, expect_molecule, ligand, number, position};
 use std::collections::BTreeMap;
 
 /// A molecule that is being read.
@@ -99,6 +99,7 @@ impl<'a> Reading<'a> {
     }
 
     fn atom(&mut self, line: &'a str) -> Result<(), LigandFault> {
+        expect_ascii(line)?;
         let name = columns(line, 12, 16).trim();
         if !self.in_root && self.open.is_empty() {
             return Err(syntax(format!("atom `{name}` outside of ROOT and BRANCH"), "it in one"));

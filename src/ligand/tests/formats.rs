@@ -1,11 +1,7 @@
 //! What is taken from files of each format.
 
 use super::super::{BondOrder, BondSource, Element, Group, read, read_all, read_bytes, read_group};
-use super::{ACETAMIDE, ACETONE, ETHANOL, ETHANOL_V3000, ETHER, links, one, sorted_bonds};
-
-fn symbols(ligand: &super::Ligand) -> Vec<&'static str> {
-    ligand.atoms().iter().map(|atom| atom.element.symbol()).collect()
-}
+use super::{ACETAMIDE, ACETONE, ETHANOL, ETHANOL_V3000, ETHER, links, one, sorted_bonds, symbols};
 
 #[test]
 fn sdf_of_both_versions_is_read_alike() {
