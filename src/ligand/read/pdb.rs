@@ -123,23 +123,22 @@ impl<'a> Groups<'a> {
 
     /// The residues that may be meant when none is named.
     fn candidates(&self) -> impl Iterator<Item = &(Key<'a>, Residue<'a>)> {
-        let is_candidate =
-            |(key, residue): &&(Key, Residue)| residue.lines.len() > 1 && !WATERS.contains(&key.2);
+        let is_candidate = |(key, residue): &&(Key, Residue)| {
+            !WATERS.contains(&key.2) && residue.chosen().len() > 1
+        };
         self.residues.iter().filter(is_candidate)
     }
 }
 
-impl Residue<'_> {
+impl<'a> Residue<'a> {
     fn read(&self, conect: &[&str]) -> Result<Ligand, LigandError> {
         let first = self.lines[0].0;
-        let chosen = self.location();
-        let is_chosen = |line: &str| [" ", "", chosen].contains(&columns(line, 16, 17));
         let mut atoms = Vec::new();
         let mut places = Vec::new();
         let mut serials = Vec::new();
-        for (number, line) in self.lines.iter().filter(|(_, line)| is_chosen(line)) {
-            check::expect_room(atoms.len() + 1).map_err(|fault| LigandError::at(*number, fault))?;
-            let atom = atom(line).map_err(|fault| LigandError::at(*number, fault))?;
+        for (number, line) in self.chosen() {
+            check::expect_room(atoms.len() + 1).map_err(|fault| LigandError::at(number, fault))?;
+            let atom = atom(line).map_err(|fault| LigandError::at(number, fault))?;
             places.extend(atom.position.map(|position| (atom.element, position)));
             serials.push(columns(line, 6, 11).trim());
             atoms.push(atom);
@@ -154,20 +153,41 @@ impl Residue<'_> {
         ligand(name, first, atoms, bonds, BondSource::Distances)
     }
 
-    /// The letter of the alternative location that is taken: that whose atoms have most occupancy together, of several
-    /// the first in the alphabet; a blank if there are none.
-    fn location(&self) -> &str {
-        let mut sums: BTreeMap<&str, f64> = BTreeMap::new();
+    /// The lines of the atoms that are taken, each with its number: of alternative locations those of one letter, that
+    /// whose atoms have most occupancy together. An atom that does not have this letter is taken with its own of most
+    /// occupancy. Of equal ones it is the first in the alphabet.
+    fn chosen(&self) -> Vec<(usize, &'a str)> {
+        let mut of_all: BTreeMap<&str, f64> = BTreeMap::new();
+        let mut of_atoms: BTreeMap<&str, BTreeMap<&str, f64>> = BTreeMap::new();
         for (_, line) in &self.lines {
             let occupancy = number(columns(line, 54, 60), "occupancy").unwrap_or(1.0);
-            let letter = columns(line, 16, 17);
-            if !letter.trim().is_empty() {
-                *sums.entry(letter).or_default() += occupancy;
+            if let Some(letter) = location(line) {
+                *of_all.entry(letter).or_default() += occupancy;
+                let of_atom = of_atoms.entry(columns(line, 12, 16)).or_default();
+                *of_atom.entry(letter).or_default() += occupancy;
             }
         }
-        let most = sums.iter().rev().max_by(|(_, one), (_, other)| one.total_cmp(other));
-        most.map_or(" ", |(letter, _)| *letter)
+        let common = most_occupied(&of_all);
+        let letter_of = |name| {
+            let letters = of_atoms.get(name)?;
+            common.filter(|letter| letters.contains_key(letter)).or_else(|| most_occupied(letters))
+        };
+        let is_chosen = |line: &'a str| {
+            location(line).is_none_or(|letter| letter_of(columns(line, 12, 16)) == Some(letter))
+        };
+        self.lines.iter().filter(|(_, line)| is_chosen(line)).copied().collect()
     }
+}
+
+/// The letter of a line's alternative location, if there is one.
+fn location(line: &str) -> Option<&str> {
+    Some(columns(line, 16, 17)).filter(|letter| !letter.trim().is_empty())
+}
+
+/// The letter of most occupancy, of equal ones the first in the alphabet.
+fn most_occupied<'a>(letters: &BTreeMap<&'a str, f64>) -> Option<&'a str> {
+    let most = letters.iter().rev().max_by(|(_, one), (_, other)| one.total_cmp(other));
+    most.map(|(letter, _)| *letter)
 }
 
 /// The atom of a line.
@@ -190,11 +210,18 @@ fn atom(line: &str) -> Result<Atom, LigandFault> {
 }
 
 /// The element of an atom by its name in four columns: the symbol ends with the second, so `CA  ` is calcium and ` CA ` a
-/// carbon; names of four letters begin with hydrogen's, or that of another element of one letter.
+/// carbon; names of four letters begin with hydrogen's, or that of another element of one letter, but for chlorine and bromine with
+/// a number behind.
 fn of_name(field: &str) -> Option<Element> {
     let trimmed = field.trim();
     let letters = trimmed.trim_start_matches(|c: char| !c.is_ascii_alphabetic());
-    let is_at_left = field.starts_with(|c: char| c.is_ascii_alphabetic()) && trimmed.len() < 4;
+    // Ligands with many halogens: `CL10`, `BR12`.
+    let is_halogen = match trimmed.to_ascii_uppercase().as_bytes() {
+        [b'C', b'L', digit, _] | [b'B', b'R', digit, _] => digit.is_ascii_digit(),
+        _ => false,
+    };
+    let is_at_left =
+        field.starts_with(|c: char| c.is_ascii_alphabetic()) && (trimmed.len() < 4 || is_halogen);
     let two = letters.get(..2).filter(|_| is_at_left).and_then(Element::of_symbol);
     two.or_else(|| letters.get(..1).and_then(Element::of_symbol))
 }

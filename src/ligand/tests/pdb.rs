@@ -1,6 +1,6 @@
 //! What is taken from groups of PDB files whose lines are not as simple as most.
 
-use super::{error, one};
+use super::{error, one, symbols};
 
 /// A line of an atom: its serial number, name, letter of the alternative location, five columns of residue name and
 /// chain, x and y in Å, occupancy and element.
@@ -47,4 +47,54 @@ fn lines_with_other_characters_than_ascii_are_refused() {
     assert_eq!(one(&format!("REMARK   1 AUTH   J.MÜLLER\n{text}")).atoms().len(), 3);
     let found = error(&super::ETHER.replacen(" O1 ", " O’ ", 1));
     assert_eq!(found.line(), Some(3), "{found}");
+}
+
+#[test]
+fn atoms_without_the_chosen_location_have_their_most_occupied_one() {
+    let text = [
+        line(1, " C1", ' ', "LIG A", [0.0, 0.0], 1.0, "C"),
+        line(2, " C2", ' ', "LIG A", [1.5, 0.0], 1.0, "C"),
+        line(3, " O1", 'A', "LIG A", [2.2, 1.2], 0.5, "O"),
+        line(4, " O1", 'B', "LIG A", [2.2, -1.2], 0.5, "O"),
+        line(5, " F1", 'C', "LIG A", [-0.7, 1.2], 0.2, "F"),
+        line(6, " F1", 'D', "LIG A", [-0.7, -1.2], 0.4, "F"),
+        line(7, " F2", 'C', "LIG A", [-0.7, 1.2], 0.2, "F"),
+        line(8, " F2", 'D', "LIG A", [-0.7, -1.2], 0.2, "F"),
+    ];
+    let ligand = one(&text[..6].concat());
+    assert_eq!(symbols(&ligand), ["C", "C", "O", "F"]);
+    let y = |ligand: &super::Ligand, atom: usize| ligand.positions().unwrap()[atom].y;
+    assert_eq!((y(&ligand, 2), y(&ligand, 3)), (1.2, -1.2));
+    // Of locations of equal occupancy the first is taken.
+    let ligand = one(&[&text[..4], &text[6..]].concat().concat());
+    assert_eq!((symbols(&ligand), y(&ligand, 3)), (vec!["C", "C", "O", "F"], 1.2));
+}
+
+#[test]
+fn an_ion_with_two_locations_is_one_atom_and_no_ligand() {
+    let ion = [('A', 0.6), ('B', 0.4)]
+        .map(|(letter, occupancy)| line(10, "CA", letter, " CA B", [20.0, 0.0], occupancy, "CA"));
+    let ligand = one(&format!("{}{}", acetaldehyde("LIG A"), ion.concat()));
+    assert_eq!((ligand.name(), ligand.atoms().len()), ("LIG", 3));
+    let found = error(&ion.concat()).to_string();
+    assert!(found.ends_with("none of more than one atom but waters"), "{found}");
+}
+
+#[test]
+fn names_of_four_letters_tell_chlorine_and_bromine() {
+    for (name, element) in [
+        ("CL10", "Cl"),
+        ("BR12", "Br"),
+        ("Cl10", "Cl"),
+        ("CLA1", "C"),
+        ("C123", "C"),
+        ("HG11", "H"),
+        ("CL1", "Cl"),
+    ] {
+        let text = [
+            line(1, " C1", ' ', "LIG A", [0.0, 0.0], 1.0, ""),
+            line(2, name, ' ', "LIG A", [1.3, 0.0], 1.0, ""),
+        ];
+        assert_eq!(symbols(&one(&text.concat())), ["C", element], "{name}");
+    }
 }

@@ -1,7 +1,7 @@
 //! What is refused, with the line and the words.
 
 use super::super::{Atom, Bond, BondOrder, Element, Ligand, LigandFault, Point, read, read_bytes};
-use super::{ACETAMIDE, ACETONE, ETHANOL, ETHANOL_V3000, ETHER, error, one};
+use super::{ACETAMIDE, ACETONE, ETHANOL, ETHANOL_V3000, ETHER, error};
 
 #[test]
 fn what_is_wrong_in_sdf_is_named_with_its_line() {
