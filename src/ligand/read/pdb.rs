@@ -44,10 +44,13 @@ struct Residue<'a> {
 /// What tells residues apart: chain, number with insertion code, name, as their columns have them.
 type Key<'a> = (&'a str, &'a str, &'a str);
 
+/// CONECT records by the serial number that they begin with.
+type Conect<'a> = BTreeMap<&'a str, Vec<&'a str>>;
+
 /// The residues of HETATM records of a text's first model, in their order, and its CONECT records.
 struct Groups<'a> {
     residues: Vec<(Key<'a>, Residue<'a>)>,
-    conect: Vec<&'a str>,
+    conect: Conect<'a>,
 }
 
 /// Every group of more than one atom, waters excepted.
@@ -97,7 +100,7 @@ impl<'a> Groups<'a> {
     fn of(text: &'a str) -> Result<Groups<'a>, LigandError> {
         let mut residues: Vec<(Key<'a>, Residue<'a>)> = Vec::new();
         let mut places: BTreeMap<Key<'a>, usize> = BTreeMap::new();
-        let mut conect = Vec::new();
+        let mut conect = Conect::new();
         let mut is_first_model = true;
         for (index, line) in text.lines().enumerate() {
             if ["HETATM", "ATOM  ", "CONECT"].iter().any(|record| line.starts_with(record)) {
@@ -114,7 +117,7 @@ impl<'a> Groups<'a> {
                     residues[place].1.lines.push((index + 1, line));
                 }
                 "ENDMDL" => is_first_model = false,
-                "CONECT" => conect.push(line),
+                "CONECT" => conect.entry(columns(line, 6, 11).trim()).or_default().push(line),
                 _ => {}
             }
         }
@@ -131,7 +134,7 @@ impl<'a> Groups<'a> {
 }
 
 impl<'a> Residue<'a> {
-    fn read(&self, conect: &[&str]) -> Result<Ligand, LigandError> {
+    fn read(&self, conect: &Conect) -> Result<Ligand, LigandError> {
         let first = self.lines[0].0;
         let mut atoms = Vec::new();
         let mut places = Vec::new();
@@ -245,7 +248,7 @@ fn charge(text: &str) -> Option<i8> {
 ///
 /// A bond that a record repeats is a double or triple one, as many programs write them. Where none is repeated nothing
 /// is told of orders, nor where all are, as some programs write every record twice.
-fn conect_bonds(serials: &[&str], conect: &[&str]) -> Vec<Bond> {
+fn conect_bonds(serials: &[&str], conect: &Conect) -> Vec<Bond> {
     let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
     for (number, serial) in serials.iter().enumerate() {
         if numbers.insert(serial, number).is_some() {
@@ -255,8 +258,10 @@ fn conect_bonds(serials: &[&str], conect: &[&str]) -> Vec<Bond> {
     }
     // How often the record of the first atom lists the second.
     let mut listed: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    for line in conect {
-        let Some(from) = numbers.get(columns(line, 6, 11).trim()) else { continue };
+    let records = numbers.iter().flat_map(|(serial, from)| {
+        conect.get(serial).into_iter().flatten().map(move |line| (from, line))
+    });
+    for (from, line) in records {
         for start in [11, 16, 21, 26] {
             let to = numbers.get(columns(line, start, start + 5).trim());
             if let Some(to) = to.filter(|to| *to != from) {

@@ -1,5 +1,6 @@
 //! What is taken from groups of PDB files whose lines are not as simple as most.
 
+use super::super::read_bytes;
 use super::{error, one, symbols};
 
 /// A line of an atom: its serial number, name, letter of the alternative location, five columns of residue name and
@@ -97,4 +98,29 @@ fn names_of_four_letters_tell_chlorine_and_bromine() {
         ];
         assert_eq!(symbols(&one(&text.concat())), ["C", element], "{name}");
     }
+}
+
+#[test]
+fn many_groups_with_many_conect_records_are_read_in_time() {
+    let groups = 5000;
+    let (mut atoms, mut bonds) = (String::new(), String::new());
+    for group in 0..groups {
+        let [a, b] = [2 * group + 1, 2 * group + 2];
+        for (serial, x) in [(a, 0.0), (b, 1.5)] {
+            let number = format!("LIG A{group:>4} ");
+            atoms += &line(serial, " C1", ' ', "LIG A", [x, 0.0], 1.0, "C").replacen(
+                "LIG A   1 ",
+                &number,
+                1,
+            );
+        }
+        bonds += &format!("CONECT{a:>5}{b:>5}\nCONECT{b:>5}{a:>5}\n");
+    }
+    let start = std::time::Instant::now();
+    let ligands = read_bytes(format!("{atoms}{bonds}").as_bytes()).unwrap();
+    assert_eq!(ligands.len(), groups);
+    assert!(ligands.iter().all(|ligand| ligand.bond_source() == super::super::BondSource::Conect));
+    // Looking through all records for every group would take some ten times as long, in a build for tests.
+    let seconds = start.elapsed().as_secs_f64();
+    assert!(seconds < 3.0, "{seconds} s");
 }
