@@ -31,7 +31,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Ligand, LigandError> {
             return Ok(ligands.remove(0));
         }
         let choose = match format {
-            Format::Pdb => "choose it by residue name, chain and number",
+            Format::Pdb => "choose it by residue name, chain, number and insertion code",
             _ => "read all of them, or write one into a file of its own",
         };
         let names = ligands.iter().map(|ligand| {
@@ -53,7 +53,7 @@ pub fn read_all(path: impl AsRef<Path>) -> Result<Vec<Ligand>, LigandError> {
 }
 
 /// Reads a group of HETATM records of a PDB file's first model, by its residue name and, where several groups have that,
-/// by chain and residue number. Bonds are those of CONECT records where they join all atoms of the group; otherwise
+/// by chain, residue number and insertion code. Bonds are those of CONECT records where they join all atoms of the group; otherwise
 /// they are perceived from distances.
 ///
 /// # Errors

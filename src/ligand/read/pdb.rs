@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 /// Which group of a PDB file is meant: `BEN`, or `MTX` of chain `B`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Group {
     /// The residue name.
     pub residue: String,
@@ -17,6 +17,8 @@ pub struct Group {
     pub chain: Option<String>,
     /// The residue number; any if none is named.
     pub number: Option<i32>,
+    /// The insertion code, a letter behind the number; any if none is named.
+    pub insertion: Option<char>,
 }
 
 impl fmt::Display for Group {
@@ -28,11 +30,16 @@ impl fmt::Display for Group {
         if let Some(number) = self.number {
             write!(f, " with number {number}")?;
         }
+        match (self.number, self.insertion) {
+            (Some(_), Some(code)) => write!(f, "{code}")?,
+            (None, Some(code)) => write!(f, " with insertion code {code}")?,
+            (_, None) => {}
+        }
         Ok(())
     }
 }
 
-/// Molecules of water by the names that they have in files.
+/// Molecules of water by the names that they have in files, of longer names the first three letters: `TIP3`.
 const WATERS: [&str; 7] = ["HOH", "DOD", "WAT", "H2O", "SOL", "TIP", "TP3"];
 
 /// A residue of HETATM records.
@@ -41,8 +48,52 @@ struct Residue<'a> {
     lines: Vec<(usize, &'a str)>,
 }
 
-/// What tells residues apart: chain, number with insertion code, name, as their columns have them.
-type Key<'a> = (&'a str, &'a str, &'a str);
+/// What tells residues apart, as their columns have it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Key<'a> {
+    chain: &'a str,
+    number: &'a str,
+    /// The insertion code.
+    insertion: &'a str,
+    residue: &'a str,
+}
+
+impl<'a> Key<'a> {
+    fn of(line: &'a str) -> Key<'a> {
+        let (residue, chain) = residue_and_chain(line);
+        let (number, insertion) = (columns(line, 22, 26).trim(), columns(line, 26, 27).trim());
+        Key { chain, number, insertion, residue }
+    }
+
+    fn is_meant(&self, wanted: &Group) -> bool {
+        self.residue == wanted.residue
+            && wanted.chain.as_deref().is_none_or(|chain| chain == self.chain)
+            && wanted.number.is_none_or(|number| self.number.parse() == Ok(number))
+            && wanted.insertion.is_none_or(|code| self.insertion.chars().eq([code]))
+    }
+
+    fn is_water(&self) -> bool {
+        self.residue.get(..3).is_some_and(|residue| WATERS.contains(&residue))
+    }
+}
+
+impl fmt::Display for Key<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Key { chain, number, insertion, residue } = self;
+        write!(f, "{residue} {number}{insertion} of chain `{chain}`")
+    }
+}
+
+/// The residue's name, columns 18 to 20, and the chain, column 22. Column 21 is blank by the format; where it is not,
+/// it ends a name of four letters if 18 to 20 are full, and begins a chain of two letters otherwise.
+pub(super) fn residue_and_chain(line: &str) -> (&str, &str) {
+    let (narrow, wide) = (columns(line, 17, 20), columns(line, 17, 21));
+    let is_wide = wide.len() > 3 && !wide.ends_with(' ');
+    match is_wide && wide.contains(' ') {
+        true => (narrow.trim(), columns(line, 20, 22).trim()),
+        false => (wide.trim(), columns(line, 21, 22).trim()),
+    }
+}
 
 /// CONECT records by the serial number that they begin with.
 type Conect<'a> = BTreeMap<&'a str, Vec<&'a str>>;
@@ -72,28 +123,19 @@ pub(super) fn all(text: &str) -> Result<Vec<Ligand>, LigandError> {
 /// The group that is meant.
 pub(super) fn group(text: &str, wanted: &Group) -> Result<Ligand, LigandError> {
     let groups = Groups::of(text)?;
-    let is_meant = |(chain, number, name): &Key| {
-        *name == wanted.residue
-            && wanted.chain.as_deref().is_none_or(|wanted| wanted == *chain)
-            && wanted.number.is_none_or(|wanted| number.parse() == Ok(wanted))
-    };
-    let meant: Vec<_> = groups.residues.iter().filter(|(key, _)| is_meant(key)).collect();
+    let meant: Vec<_> = groups.residues.iter().filter(|(key, _)| key.is_meant(wanted)).collect();
     match &meant[..] {
         [(_, residue)] => residue.read(&groups.conect),
         [] => Err(LigandError::pathless(LigandFault::NoGroup {
             wanted: wanted.to_string(),
-            there: groups.candidates().map(|(key, _)| shown(key)).collect(),
+            there: groups.candidates().map(|(key, _)| key.to_string()).collect(),
         })),
         several => Err(LigandError::pathless(LigandFault::Several {
             count: several.len(),
-            names: several.iter().map(|(key, _)| shown(key)).collect(),
-            choose: "choose it by chain and number",
+            names: several.iter().map(|(key, _)| key.to_string()).collect(),
+            choose: "choose it by chain, number and insertion code",
         })),
     }
-}
-
-fn shown((chain, number, name): &Key) -> String {
-    format!("{name} {number} of chain `{chain}`")
 }
 
 impl<'a> Groups<'a> {
@@ -108,8 +150,7 @@ impl<'a> Groups<'a> {
             }
             match columns(line, 0, 6) {
                 "HETATM" if is_first_model => {
-                    let column = |start, end| columns(line, start, end).trim();
-                    let key = (column(21, 22), column(22, 27), column(17, 20));
+                    let key = Key::of(line);
                     let place = *places.entry(key).or_insert_with(|| {
                         residues.push((key, Residue::default()));
                         residues.len() - 1
@@ -126,9 +167,8 @@ impl<'a> Groups<'a> {
 
     /// The residues that may be meant when none is named.
     fn candidates(&self) -> impl Iterator<Item = &(Key<'a>, Residue<'a>)> {
-        let is_candidate = |(key, residue): &&(Key, Residue)| {
-            !WATERS.contains(&key.2) && residue.chosen().len() > 1
-        };
+        let is_candidate =
+            |(key, residue): &&(Key, Residue)| !key.is_water() && residue.chosen().len() > 1;
         self.residues.iter().filter(is_candidate)
     }
 }
@@ -146,7 +186,7 @@ impl<'a> Residue<'a> {
             serials.push(columns(line, 6, 11).trim());
             atoms.push(atom);
         }
-        let name = columns(self.lines[0].1, 17, 20);
+        let (name, _) = residue_and_chain(self.lines[0].1);
         let listed = conect_bonds(&serials, conect);
         let neighbours = graph::neighbours(atoms.len(), &listed);
         if graph::pieces(&neighbours, |_| false).len() <= 1 && !listed.is_empty() {

@@ -8,6 +8,7 @@ use super::super::check;
 use super::super::error::{LigandError, LigandFault, syntax};
 use super::super::perceive::bonds_by_distance;
 use super::super::{Atom, BondOrder, BondSource, Element, Ligand};
+use super::pdb::residue_and_chain;
 use super::{columns, expect_ascii, expect_molecule, ligand, number, position};
 use std::collections::BTreeMap;
 
@@ -115,7 +116,7 @@ impl<'a> Reading<'a> {
             _ => Some(number(charge, "the charge of an atom in columns 67 to 76")?),
         };
         if self.name.is_none() {
-            self.name = Some(columns(line, 17, 20).trim());
+            self.name = Some(residue_and_chain(line).0);
         }
         self.atoms.push(Atom {
             name: name.to_owned(),

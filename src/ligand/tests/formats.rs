@@ -136,6 +136,7 @@ fn groups_are_chosen_by_name_chain_and_number() {
         residue: residue.to_owned(),
         chain: chain.map(str::to_owned),
         number,
+        insertion: None,
     };
     let error = read(&path).unwrap_err().to_string();
     assert!(

@@ -1,6 +1,6 @@
 //! What is taken from groups of PDB files whose lines are not as simple as most.
 
-use super::super::read_bytes;
+use super::super::{Group, read_bytes, read_group};
 use super::{error, one, symbols};
 
 /// A line of an atom: its serial number, name, letter of the alternative location, five columns of residue name and
@@ -123,4 +123,52 @@ fn many_groups_with_many_conect_records_are_read_in_time() {
     // Looking through all records for every group would take some ten times as long, in a build for tests.
     let seconds = start.elapsed().as_secs_f64();
     assert!(seconds < 3.0, "{seconds} s");
+}
+
+#[test]
+fn residue_names_have_four_letters_and_chains_two_where_columns_tell() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("four.pdb");
+    for (columns, residue, chain) in [
+        ("LIGXA", "LIGX", "A"),
+        ("CA XA", "CA", "XA"),
+        ("LIG A", "LIG", "A"),
+        ("LIGX ", "LIGX", ""),
+    ] {
+        let text = acetaldehyde(columns);
+        assert_eq!(one(&text).name(), residue, "{columns}");
+        std::fs::write(&path, text).unwrap();
+        let group = |residue: &str| Group {
+            residue: residue.to_owned(),
+            chain: Some(chain.to_owned()),
+            ..Group::default()
+        };
+        assert_eq!(read_group(&path, &group(residue)).unwrap().name(), residue);
+        let found = read_group(&path, &group("LI")).unwrap_err().to_string();
+        assert!(found.ends_with(&format!("expected: {residue} 1 of chain `{chain}`")), "{found}");
+    }
+    // Waters are waters under their longer names.
+    assert_eq!(one(&format!("{}{}", acetaldehyde("LIG A"), acetaldehyde("TIP3W"))).name(), "LIG");
+}
+
+#[test]
+fn groups_are_chosen_by_number_and_insertion_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("inserted.pdb");
+    let with_code = |code: &str| acetaldehyde("LIG A").replace("   1 ", &format!("   1{code}"));
+    let group = |insertion| Group {
+        residue: "LIG".to_owned(),
+        number: Some(1),
+        insertion,
+        ..Group::default()
+    };
+    std::fs::write(&path, with_code("A")).unwrap();
+    assert_eq!(read_group(&path, &group(None)).unwrap().atoms().len(), 3);
+    std::fs::write(&path, format!("{}{}", with_code("A"), with_code("B"))).unwrap();
+    let found = read_group(&path, &group(None)).unwrap_err().to_string();
+    let expected = "(LIG 1A of chain `A`, LIG 1B of chain `A`); one expected: choose it by chain, number and insertion code";
+    assert!(found.ends_with(expected), "{found}");
+    assert_eq!(read_group(&path, &group(Some('B'))).unwrap().line(), Some(4));
+    let found = read_group(&path, &group(Some('C'))).unwrap_err().to_string();
+    assert!(found.contains("no HETATM group LIG with number 1C found"), "{found}");
 }
