@@ -188,3 +188,17 @@ fn elements_have_symbols_numbers_and_radii() {
         assert_eq!(Element::of_symbol(symbol), None, "{symbol}");
     }
 }
+
+#[test]
+fn models_of_pdbqt_have_names_of_their_own() {
+    let names = |text: &str| -> Vec<String> {
+        read_bytes(text.as_bytes()).unwrap().iter().map(|ligand| ligand.name().to_owned()).collect()
+    };
+    let unnamed = ETHER.replace("REMARK  Name = ether\n", "");
+    let other = unnamed.replace("UNL", "BBB");
+    let models = |first: &str| format!("MODEL 1\n{first}ENDMDL\nMODEL 2\n{other}ENDMDL\n");
+    assert_eq!(names(&models(&unnamed)), ["UNL", "BBB"]);
+    assert_eq!(names(&models(ETHER)), ["ether", "BBB"]);
+    // A name before the first model is that of all that have none.
+    assert_eq!(names(&format!("REMARK  Name = all\n{}", models(ETHER))), ["ether", "all"]);
+}
