@@ -202,3 +202,8 @@ fn models_of_pdbqt_have_names_of_their_own() {
     // A name before the first model is that of all that have none.
     assert_eq!(names(&format!("REMARK  Name = all\n{}", models(ETHER))), ["ether", "all"]);
 }
+
+#[test]
+fn names_of_mol2_may_begin_with_the_sign_of_comments() {
+    assert_eq!(one(&ACETAMIDE.replace("acet amide", "#12 lead")).name(), "#12 lead");
+}
