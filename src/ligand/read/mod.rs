@@ -141,11 +141,16 @@ fn text(bytes: &[u8]) -> Result<Cow<'_, str>, LigandError> {
 fn format_of(text: &str) -> Result<Format, LigandError> {
     let is_counts = |line: &str| line.contains("V2000") || line.contains("V3000");
     let fourth = text.lines().nth(3).unwrap_or("");
-    if is_counts(fourth) {
+    // Counts begin with their three columns; a record of a PDB file or a comment begins with neither blank nor digit.
+    if fourth.starts_with(|c: char| c == ' ' || c.is_ascii_digit()) && is_counts(fourth) {
         return Ok(Format::Sdf);
     }
     if text.lines().any(|line| line.starts_with("@<TRIPOS>")) {
         return Ok(Format::Mol2);
+    }
+    // Old files and some programs leave the version out, or a line of the header. Data items may look like any format.
+    if text.lines().any(|line| line.starts_with("M  END")) {
+        return Ok(Format::Sdf);
     }
     let begins = |words: &[&str]| {
         text.lines().any(|line| words.contains(&line.split_whitespace().next().unwrap_or("")))
@@ -159,8 +164,7 @@ fn format_of(text: &str) -> Result<Format, LigandError> {
     if !is_mmcif && text.lines().any(is_atom) {
         return Ok(Format::Pdb);
     }
-    // Old files and some programs leave the version out, or a line of the header.
-    let has_end = text.lines().any(|line| line.starts_with("M  END") || line.starts_with("$$$$"));
+    let has_end = text.lines().any(|line| line.starts_with("$$$$"));
     if has_end || text.lines().take(6).any(is_counts) {
         return Ok(Format::Sdf);
     }

@@ -207,3 +207,13 @@ fn models_of_pdbqt_have_names_of_their_own() {
 fn names_of_mol2_may_begin_with_the_sign_of_comments() {
     assert_eq!(one(&ACETAMIDE.replace("acet amide", "#12 lead")).name(), "#12 lead");
 }
+
+#[test]
+fn single_lines_do_not_hide_the_format() {
+    // A data item like a record of PDBQT, in a file that does not tell its version.
+    let text = ETHANOL.replace("0999 V2000", "").replace("$$ no end", "ROOT of plants");
+    assert_eq!(one(&text).name(), "ethanol");
+    // A remark with the word of an SDF file's fourth line.
+    let remarks = "HEADER    X\nTITLE     A\nREMARK  1\nREMARK  V2000 converted\n";
+    assert_eq!(one(&format!("{remarks}{ACETONE}")).name(), "ACN");
+}
