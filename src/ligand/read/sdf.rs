@@ -2,8 +2,8 @@
 //!
 //! "CTfile formats", Dassault Systèmes BIOVIA, 2020. The crate is given one record after the other, from its header to
 //! `M  END`, with a cursor that tells at which line it stopped; data items behind that are not looked at. What it would
-//! not refuse is checked before: numbers of atoms and bonds, for which it would ask for memory, and what it makes of
-//! characters other than ASCII.
+//! not refuse is checked before: numbers of atoms and bonds, for which it would ask for memory, charges, and what it
+//! makes of characters other than ASCII.
 
 use super::super::check::{self, BONDS_MAX};
 use super::super::error::{LigandError, LigandFault, syntax};
@@ -64,6 +64,16 @@ fn molecule(record: &[&str], first: usize) -> Result<Ligand, LigandError> {
 fn v2000(record: &[&str], first: usize) -> Result<Molecule, LigandError> {
     if let Ok(atoms) = columns(record[3], 0, 3).trim().parse() {
         check::expect_room(atoms).map_err(|fault| LigandError::at(first + 3, fault))?;
+        for (place, line) in record.iter().enumerate().skip(4).take(atoms) {
+            check_v2000_charge(line).map_err(|fault| LigandError::at(first + place, fault))?;
+        }
+    }
+    for (place, line) in record.iter().enumerate().skip(4) {
+        // Behind the number of pairs, each of an atom and its charge.
+        let words = line.strip_prefix("M  CHG").into_iter().flat_map(str::split_whitespace);
+        for charge in words.skip(2).step_by(2) {
+            check_charge(charge).map_err(|fault| LigandError::at(first + place, fault))?;
+        }
     }
     let text = record.join("\n");
     let mut cursor = Cursor::new(text.as_bytes());
@@ -74,7 +84,11 @@ fn v2000(record: &[&str], first: usize) -> Result<Molecule, LigandError> {
 }
 
 fn v3000(record: &[&str], first: usize) -> Result<Molecule, LigandError> {
-    check_counts(record).map_err(|fault| LigandError::at(first, fault))?;
+    let lines = v3000_lines(record);
+    check_counts(&lines).map_err(|fault| LigandError::at(first, fault))?;
+    for (place, line) in v3000_atoms(&lines) {
+        check_v3000_charge(line).map_err(|fault| LigandError::at(first + place, fault))?;
+    }
     // Only labels have other characters than ASCII, and labels are not used.
     let is_odd = |c: char| !c.is_ascii();
     let body = record[4..].join("\n").replace(is_odd, "?");
@@ -93,25 +107,73 @@ fn v3000(record: &[&str], first: usize) -> Result<Molecule, LigandError> {
     Ok(molecule)
 }
 
-/// That a record of V3000 does not announce more atoms or bonds than are taken. A line that ends in `-` goes on.
-fn check_counts(record: &[&str]) -> Result<(), LigandFault> {
-    let mut logical = String::new();
-    for line in record.iter().filter_map(|line| line.strip_prefix(V30)) {
-        if let Some(begin) = line.strip_suffix('-') {
-            logical.push_str(begin);
-            continue;
+/// The lines of V3000 in a record, each with the place of its first line: one that ends in `-` goes on in the next.
+fn v3000_lines(record: &[&str]) -> Vec<(usize, String)> {
+    let mut lines: Vec<(usize, String)> = Vec::new();
+    let mut goes_on = false;
+    for (place, line) in record.iter().enumerate() {
+        let Some(line) = line.strip_prefix(V30) else { continue };
+        if !goes_on {
+            lines.push((place, String::new()));
         }
-        logical.push_str(line);
-        if let Some(counts) = logical.strip_prefix("COUNTS ") {
-            let mut numbers = counts.split_whitespace().map(|word| word.parse().unwrap_or(0));
-            check::expect_room(numbers.next().unwrap_or(0))?;
-            if let Some(found) = numbers.next().filter(|bonds| *bonds > BONDS_MAX) {
-                return Err(LigandFault::TooMany { found, what: "bonds", most: BONDS_MAX });
-            }
+        goes_on = line.ends_with('-');
+        if let Some((_, whole)) = lines.last_mut() {
+            whole.push_str(line.strip_suffix('-').unwrap_or(line));
         }
-        logical.clear();
+    }
+    lines
+}
+
+/// That a record of V3000 does not announce more atoms or bonds than are taken.
+fn check_counts(lines: &[(usize, String)]) -> Result<(), LigandFault> {
+    for counts in lines.iter().filter_map(|(_, line)| line.strip_prefix("COUNTS ")) {
+        let mut numbers = counts.split_whitespace().map(|word| word.parse().unwrap_or(0));
+        check::expect_room(numbers.next().unwrap_or(0))?;
+        if let Some(found) = numbers.next().filter(|bonds| *bonds > BONDS_MAX) {
+            return Err(LigandFault::TooMany { found, what: "bonds", most: BONDS_MAX });
+        }
     }
     Ok(())
+}
+
+/// The lines of atoms among those of V3000.
+fn v3000_atoms(lines: &[(usize, String)]) -> &[(usize, String)] {
+    let place = |begin: &str| lines.iter().position(|(_, line)| line.starts_with(begin));
+    let start = place("BEGIN ATOM").map_or(lines.len(), |begin| begin + 1);
+    let end = place("END ATOM").filter(|end| *end >= start).unwrap_or(lines.len());
+    &lines[start..end]
+}
+
+/// That the charge of an atom's line in V3000 is one, if the line has any: the crate would take it for 0.
+fn check_v3000_charge(line: &str) -> Result<(), LigandFault> {
+    let pairs = line.split_whitespace().skip(6).filter_map(|word| word.split_once('='));
+    for (_, charge) in pairs.filter(|(key, _)| key.eq_ignore_ascii_case("CHG")) {
+        check_charge(charge)?;
+    }
+    Ok(())
+}
+
+/// That the code for the charge of an atom's line in V2000 is one, if the line has any: the crate would take it for 0.
+fn check_v2000_charge(line: &str) -> Result<(), LigandFault> {
+    let code = columns(line, 36, 39).trim();
+    if code.is_empty() || code.parse().is_ok_and(|code: u8| code <= 7) {
+        return Ok(());
+    }
+    Err(LigandFault::BadNumber {
+        found: format!("`{code}`"),
+        expected: "the charge of an atom, 0 to 7 in columns 37 to 39,".to_owned(),
+    })
+}
+
+/// That a formal charge is one that the format has.
+fn check_charge(text: &str) -> Result<(), LigandFault> {
+    if text.parse().is_ok_and(|charge: i8| (-15..=15).contains(&charge)) {
+        return Ok(());
+    }
+    Err(LigandFault::BadNumber {
+        found: format!("`{text}`"),
+        expected: "a charge of -15 to 15".to_owned(),
+    })
 }
 
 /// The line, counted from 1, that the cursor has read last.
