@@ -43,6 +43,9 @@ pub(super) fn read(text: &str) -> Result<Vec<Ligand>, LigandError> {
     Ok(ligands)
 }
 
+/// A molecule of the crate, and for each of its atoms the place of its line in the record.
+type Found = (Molecule, Vec<usize>);
+
 /// The molecule of a record whose first line has the number `first`.
 fn molecule(record: &[&str], first: usize) -> Result<Ligand, LigandError> {
     let end = record.iter().position(|line| line.starts_with("M  END"));
@@ -55,13 +58,15 @@ fn molecule(record: &[&str], first: usize) -> Result<Ligand, LigandError> {
         let found = "a drawing in two dimensions".to_owned();
         return Err(LigandError::at(first + 1, LigandFault::NoCoordinates(found)));
     }
-    let molecule =
+    let (molecule, places) =
         if counts.contains("V3000") { v3000(record, first)? } else { v2000(record, first)? };
-    let (atoms, bonds) = convert(&molecule).map_err(|fault| LigandError::at(first, fault))?;
+    let line = |atom: usize| first + places.get(atom).copied().unwrap_or(0);
+    let (atoms, bonds) =
+        convert(&molecule).map_err(|(atom, fault)| LigandError::at(line(atom), fault))?;
     ligand(record[0], first, atoms, bonds, BondSource::Format)
 }
 
-fn v2000(record: &[&str], first: usize) -> Result<Molecule, LigandError> {
+fn v2000(record: &[&str], first: usize) -> Result<Found, LigandError> {
     if let Ok(atoms) = columns(record[3], 0, 3).trim().parse() {
         check::expect_room(atoms).map_err(|fault| LigandError::at(first + 3, fault))?;
         for (place, line) in record.iter().enumerate().skip(4).take(atoms) {
@@ -80,10 +85,12 @@ fn v2000(record: &[&str], first: usize) -> Result<Molecule, LigandError> {
     let found = SdfParser::new(&mut cursor).parse_molecule();
     let line = first + line_of(&cursor) - 1;
     let molecule = found.map_err(|error| LigandError::at(line, fault(&error)))?;
-    molecule.ok_or_else(|| LigandError::at(first, LigandFault::Empty))
+    let molecule = molecule.ok_or_else(|| LigandError::at(first, LigandFault::Empty))?;
+    let places = (4..).take(molecule.atoms.len()).collect();
+    Ok((molecule, places))
 }
 
-fn v3000(record: &[&str], first: usize) -> Result<Molecule, LigandError> {
+fn v3000(record: &[&str], first: usize) -> Result<Found, LigandError> {
     let lines = v3000_lines(record);
     check_counts(&lines).map_err(|fault| LigandError::at(first, fault))?;
     for (place, line) in v3000_atoms(&lines) {
@@ -104,7 +111,8 @@ fn v3000(record: &[&str], first: usize) -> Result<Molecule, LigandError> {
         let fault = syntax(found, "each number once");
         return Err(LigandError::at(first, fault));
     }
-    Ok(molecule)
+    let places = v3000_atoms(&lines).iter().map(|(place, _)| *place).collect();
+    Ok((molecule, places))
 }
 
 /// The lines of V3000 in a record, each with the place of its first line: one that ends in `-` goes on in the next.
@@ -221,18 +229,20 @@ fn fault(error: &SdfError) -> LigandFault {
     }
 }
 
-/// The crate's atoms and bonds as this library's.
-fn convert(molecule: &Molecule) -> Result<(Vec<Atom>, Vec<Bond>), LigandFault> {
+/// The crate's atoms and bonds as this library's; an error with the atom that it is of.
+fn convert(molecule: &Molecule) -> Result<(Vec<Atom>, Vec<Bond>), (usize, LigandFault)> {
     let mut atoms = Vec::with_capacity(molecule.atoms.len());
     for (index, atom) in molecule.atoms.iter().enumerate() {
         let element = Element::of_symbol(&atom.element).ok_or_else(|| {
             let found = atom.element.clone();
-            LigandFault::UnknownElement { found, atom: (index + 1).to_string() }
+            (index, LigandFault::UnknownElement { found, atom: (index + 1).to_string() })
         })?;
+        let position = Point::new(atom.x, atom.y, atom.z);
+        check::check_position(&position, index).map_err(|fault| (index, fault))?;
         atoms.push(Atom {
             name: String::new(),
             element,
-            position: Some(Point::new(atom.x, atom.y, atom.z)),
+            position: Some(position),
             formal_charge: Some(atom.formal_charge),
             partial_charge: None,
         });

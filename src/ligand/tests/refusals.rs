@@ -6,14 +6,14 @@ use super::{ACETAMIDE, ACETONE, ETHANOL, ETHANOL_V3000, ETHER, error, one};
 #[test]
 fn what_is_wrong_in_sdf_is_named_with_its_line() {
     for (from, to, expected) in [
-        ("O   0  5", "Xx  0  5", "line 1: `Xx` as the element of atom 3 found; a chemical element"),
-        ("O   0  5", "Du  0  5", "line 1: `Du` as the element of atom 3"),
+        ("O   0  5", "Xx  0  5", "line 7: `Xx` as the element of atom 3 found; a chemical element"),
+        ("O   0  5", "Du  0  5", "line 7: `Du` as the element of atom 3"),
         (
             "    1.5200",
             "       nan",
-            "line 1: `NaN` found; a number of at most 99999 Å as a coordinate of atom 2",
+            "line 6: `NaN` found; a number of at most 99999 Å as a coordinate of atom 2",
         ),
-        ("    1.5200", "  1e300   ", "line 1: `1"),
+        ("    1.5200", "  1e300   ", "line 6: `1"),
         ("    1.5200", "   one    ", "line 6: `one` found; a coordinate in Å expected"),
         ("  1  2  1  0\n  2  3  1  0\n", "", "line 8: "),
         (
@@ -84,7 +84,12 @@ fn what_is_wrong_in_v3000_is_named_with_its_line() {
             "COUNTS 3 1",
             "line 15: a line that is no part of an SDF record (Expected END BOND",
         ),
-        ("30 O", "30 R#", "line 1: `R#` as the element of atom 3"),
+        ("30 O", "30 R#", "line 11: `R#` as the element of atom 3"),
+        (
+            "20 C 1.52",
+            "20 C nan",
+            "line 9: `NaN` found; a number of at most 99999 Å as a coordinate of atom 2",
+        ),
     ] {
         let found = error(&ETHANOL_V3000.replacen(from, to, 1)).to_string();
         assert!(found.starts_with(expected), "{from} -> {to}: {found}");
