@@ -120,9 +120,9 @@ fn many_groups_with_many_conect_records_are_read_in_time() {
     let ligands = read_bytes(format!("{atoms}{bonds}").as_bytes()).unwrap();
     assert_eq!(ligands.len(), groups);
     assert!(ligands.iter().all(|ligand| ligand.bond_source() == super::super::BondSource::Conect));
-    // Looking through all records for every group would take some ten times as long, in a build for tests.
+    // Looking through all records for every group takes some thirty seconds in a build for tests, and finding them a half.
     let seconds = start.elapsed().as_secs_f64();
-    assert!(seconds < 3.0, "{seconds} s");
+    assert!(seconds < 10.0, "{seconds} s");
 }
 
 #[test]
