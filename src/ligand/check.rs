@@ -74,14 +74,8 @@ fn check_numbers(atoms: &[Atom]) -> Result<(), LigandFault> {
                 expected: format!("the partial charge {of}, finite,"),
             });
         }
-        for value in atom.position.iter().flat_map(|position| position.iter()) {
-            check_coordinate(*value).map_err(|fault| match fault {
-                LigandFault::BadNumber { found, expected } => LigandFault::BadNumber {
-                    found,
-                    expected: format!("{expected} as a coordinate {of}"),
-                },
-                other => other,
-            })?;
+        if let Some(position) = &atom.position {
+            check_position(position, number)?;
         }
     }
     let positions: Vec<Point> = atoms.iter().filter_map(|atom| atom.position).collect();
@@ -94,6 +88,17 @@ fn check_numbers(atoms: &[Atom]) -> Result<(), LigandFault> {
         return Err(LigandFault::NoCoordinates(found));
     }
     Ok(())
+}
+
+/// That the position in Å of the atom with this number is finite and not too far away.
+pub(super) fn check_position(position: &Point, number: usize) -> Result<(), LigandFault> {
+    position.iter().try_for_each(|value| check_coordinate(*value)).map_err(|fault| match fault {
+        LigandFault::BadNumber { found, expected } => LigandFault::BadNumber {
+            found,
+            expected: format!("{expected} as a coordinate of atom {}", number + 1),
+        },
+        other => other,
+    })
 }
 
 /// That a coordinate in Å is finite and not too large.

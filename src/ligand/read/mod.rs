@@ -31,7 +31,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Ligand, LigandError> {
             return Ok(ligands.remove(0));
         }
         let choose = match format {
-            Format::Pdb => "choose it by residue name, chain and number",
+            Format::Pdb => "choose it by residue name, chain, number and insertion code",
             _ => "read all of them, or write one into a file of its own",
         };
         let names = ligands.iter().map(|ligand| {
@@ -53,7 +53,7 @@ pub fn read_all(path: impl AsRef<Path>) -> Result<Vec<Ligand>, LigandError> {
 }
 
 /// Reads a group of HETATM records of a PDB file's first model, by its residue name and, where several groups have that,
-/// by chain and residue number. Bonds are those of CONECT records where they join all atoms of the group; otherwise
+/// by chain, residue number and insertion code. Bonds are those of CONECT records where they join all atoms of the group; otherwise
 /// they are perceived from distances.
 ///
 /// # Errors
@@ -141,11 +141,16 @@ fn text(bytes: &[u8]) -> Result<Cow<'_, str>, LigandError> {
 fn format_of(text: &str) -> Result<Format, LigandError> {
     let is_counts = |line: &str| line.contains("V2000") || line.contains("V3000");
     let fourth = text.lines().nth(3).unwrap_or("");
-    if is_counts(fourth) {
+    // Counts begin with their three columns; a record of a PDB file or a comment begins with neither blank nor digit.
+    if fourth.starts_with(|c: char| c == ' ' || c.is_ascii_digit()) && is_counts(fourth) {
         return Ok(Format::Sdf);
     }
     if text.lines().any(|line| line.starts_with("@<TRIPOS>")) {
         return Ok(Format::Mol2);
+    }
+    // Old files and some programs leave the version out, or a line of the header. Data items may look like any format.
+    if text.lines().any(|line| line.starts_with("M  END")) {
+        return Ok(Format::Sdf);
     }
     let begins = |words: &[&str]| {
         text.lines().any(|line| words.contains(&line.split_whitespace().next().unwrap_or("")))
@@ -159,8 +164,7 @@ fn format_of(text: &str) -> Result<Format, LigandError> {
     if !is_mmcif && text.lines().any(is_atom) {
         return Ok(Format::Pdb);
     }
-    // Old files and some programs leave the version out, or a line of the header.
-    let has_end = text.lines().any(|line| line.starts_with("M  END") || line.starts_with("$$$$"));
+    let has_end = text.lines().any(|line| line.starts_with("$$$$"));
     if has_end || text.lines().take(6).any(is_counts) {
         return Ok(Format::Sdf);
     }
@@ -213,6 +217,17 @@ fn position(texts: [&str; 3]) -> Result<Point, LigandFault> {
         check::check_coordinate(position[axis])?;
     }
     Ok(position)
+}
+
+/// That a line whose fields are told by their columns is ASCII: one character of several bytes would shift all behind it.
+fn expect_ascii(line: &str) -> Result<(), LigandFault> {
+    match line.chars().find(|c| !c.is_ascii()) {
+        Some(c) => {
+            let found = format!("a line of an atom or a bond with `{c}`");
+            Err(syntax(found, "columns of ASCII"))
+        }
+        None => Ok(()),
+    }
 }
 
 /// The columns of a line from `start` to before `end`, counted from 0, as far as the line goes. Where a character

@@ -45,10 +45,10 @@ pub(super) fn read(text: &str) -> Result<Vec<Ligand>, LigandError> {
             continue;
         }
         let is_header = section == "MOLECULE";
-        // A molecule without a name has a blank line for it.
+        // A molecule without a name has a blank line for it, and a name may begin with the sign of comments.
         let is_name =
             is_header && reading.as_ref().is_some_and(|molecule| molecule.header.is_empty());
-        if content.starts_with('#') || content.trim().is_empty() && !is_name {
+        if !is_name && (content.starts_with('#') || content.trim().is_empty()) {
             continue;
         }
         let Some(molecule) = &mut reading else {

@@ -8,13 +8,17 @@ use super::super::check;
 use super::super::error::{LigandError, LigandFault, syntax};
 use super::super::perceive::bonds_by_distance;
 use super::super::{Atom, BondOrder, BondSource, Element, Ligand};
-use super::{columns, expect_molecule, ligand, number, position};
+use super::pdb::residue_and_chain;
+use super::{columns, expect_ascii, expect_molecule, ligand, number, position};
 use std::collections::BTreeMap;
 
 /// A molecule that is being read.
 #[derive(Default)]
 struct Reading<'a> {
+    /// By a remark.
     name: Option<&'a str>,
+    /// The residue name of its first atom.
+    residue: Option<&'a str>,
     /// The line at which it begins.
     line: usize,
     has_root: bool,
@@ -32,6 +36,8 @@ struct Reading<'a> {
 pub(super) fn read(text: &str) -> Result<Vec<Ligand>, LigandError> {
     let mut ligands = Vec::new();
     let mut reading = Reading { line: 1, ..Reading::default() };
+    // The name that stands before the first MODEL is that of every model without one.
+    let mut common: Option<Option<&str>> = None;
     for (line, content) in text.lines().enumerate().map(|(index, line)| (index + 1, line)) {
         match content.split_whitespace().next().unwrap_or("") {
             "MODEL" => {
@@ -39,11 +45,12 @@ pub(super) fn read(text: &str) -> Result<Vec<Ligand>, LigandError> {
                     let fault = syntax("MODEL within a molecule", "ENDMDL before it");
                     return Err(LigandError::at(line, fault));
                 }
-                reading = Reading { line, name: reading.name, ..Reading::default() };
+                let name = *common.get_or_insert(reading.name);
+                reading = Reading { line, name, ..Reading::default() };
             }
             "ENDMDL" => {
                 expect_molecule(ligands.len(), line)?;
-                let next = Reading { line: line + 1, name: reading.name, ..Reading::default() };
+                let next = Reading { line: line + 1, ..Reading::default() };
                 ligands.push(std::mem::replace(&mut reading, next).finish()?);
             }
             _ => {
@@ -99,6 +106,7 @@ impl<'a> Reading<'a> {
     }
 
     fn atom(&mut self, line: &'a str) -> Result<(), LigandFault> {
+        expect_ascii(line)?;
         let name = columns(line, 12, 16).trim();
         if !self.in_root && self.open.is_empty() {
             return Err(syntax(format!("atom `{name}` outside of ROOT and BRANCH"), "it in one"));
@@ -113,9 +121,7 @@ impl<'a> Reading<'a> {
             "" => None,
             _ => Some(number(charge, "the charge of an atom in columns 67 to 76")?),
         };
-        if self.name.is_none() {
-            self.name = Some(columns(line, 17, 20).trim());
-        }
+        self.residue.get_or_insert(residue_and_chain(line).0);
         self.atoms.push(Atom {
             name: name.to_owned(),
             element: element(columns(line, 77, 80).trim(), name)?,
@@ -159,7 +165,8 @@ impl<'a> Reading<'a> {
             };
             bonds[bond].order = BondOrder::Single;
         }
-        ligand(self.name.unwrap_or(""), self.line, self.atoms, bonds, BondSource::Distances)
+        let name = self.name.or(self.residue).unwrap_or("");
+        ligand(name, self.line, self.atoms, bonds, BondSource::Distances)
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! "CTfile formats", Dassault Systèmes BIOVIA, 2020. The crate is given one record after the other, from its header to
 //! `M  END`, with a cursor that tells at which line it stopped; data items behind that are not looked at. What it would
-//! not refuse is checked before: numbers of atoms and bonds, for which it would ask for memory, and what it makes of
-//! characters other than ASCII.
+//! not refuse is checked before: numbers of atoms and bonds, for which it would ask for memory, charges, and what it
+//! makes of characters other than ASCII.
 
 use super::super::check::{self, BONDS_MAX};
 use super::super::error::{LigandError, LigandFault, syntax};
@@ -43,6 +43,9 @@ pub(super) fn read(text: &str) -> Result<Vec<Ligand>, LigandError> {
     Ok(ligands)
 }
 
+/// A molecule of the crate, and for each of its atoms the place of its line in the record.
+type Found = (Molecule, Vec<usize>);
+
 /// The molecule of a record whose first line has the number `first`.
 fn molecule(record: &[&str], first: usize) -> Result<Ligand, LigandError> {
     let end = record.iter().position(|line| line.starts_with("M  END"));
@@ -55,26 +58,44 @@ fn molecule(record: &[&str], first: usize) -> Result<Ligand, LigandError> {
         let found = "a drawing in two dimensions".to_owned();
         return Err(LigandError::at(first + 1, LigandFault::NoCoordinates(found)));
     }
-    let molecule =
+    let (molecule, places) =
         if counts.contains("V3000") { v3000(record, first)? } else { v2000(record, first)? };
-    let (atoms, bonds) = convert(&molecule).map_err(|fault| LigandError::at(first, fault))?;
+    let line = |atom: usize| first + places.get(atom).copied().unwrap_or(0);
+    let (atoms, bonds) =
+        convert(&molecule).map_err(|(atom, fault)| LigandError::at(line(atom), fault))?;
     ligand(record[0], first, atoms, bonds, BondSource::Format)
 }
 
-fn v2000(record: &[&str], first: usize) -> Result<Molecule, LigandError> {
+fn v2000(record: &[&str], first: usize) -> Result<Found, LigandError> {
     if let Ok(atoms) = columns(record[3], 0, 3).trim().parse() {
         check::expect_room(atoms).map_err(|fault| LigandError::at(first + 3, fault))?;
+        for (place, line) in record.iter().enumerate().skip(4).take(atoms) {
+            check_v2000_charge(line).map_err(|fault| LigandError::at(first + place, fault))?;
+        }
+    }
+    for (place, line) in record.iter().enumerate().skip(4) {
+        // Behind the number of pairs, each of an atom and its charge.
+        let words = line.strip_prefix("M  CHG").into_iter().flat_map(str::split_whitespace);
+        for charge in words.skip(2).step_by(2) {
+            check_charge(charge).map_err(|fault| LigandError::at(first + place, fault))?;
+        }
     }
     let text = record.join("\n");
     let mut cursor = Cursor::new(text.as_bytes());
     let found = SdfParser::new(&mut cursor).parse_molecule();
     let line = first + line_of(&cursor) - 1;
     let molecule = found.map_err(|error| LigandError::at(line, fault(&error)))?;
-    molecule.ok_or_else(|| LigandError::at(first, LigandFault::Empty))
+    let molecule = molecule.ok_or_else(|| LigandError::at(first, LigandFault::Empty))?;
+    let places = (4..).take(molecule.atoms.len()).collect();
+    Ok((molecule, places))
 }
 
-fn v3000(record: &[&str], first: usize) -> Result<Molecule, LigandError> {
-    check_counts(record).map_err(|fault| LigandError::at(first, fault))?;
+fn v3000(record: &[&str], first: usize) -> Result<Found, LigandError> {
+    let lines = v3000_lines(record);
+    check_counts(&lines).map_err(|fault| LigandError::at(first, fault))?;
+    for (place, line) in v3000_atoms(&lines) {
+        check_v3000_charge(line).map_err(|fault| LigandError::at(first + place, fault))?;
+    }
     // Only labels have other characters than ASCII, and labels are not used.
     let is_odd = |c: char| !c.is_ascii();
     let body = record[4..].join("\n").replace(is_odd, "?");
@@ -90,28 +111,77 @@ fn v3000(record: &[&str], first: usize) -> Result<Molecule, LigandError> {
         let fault = syntax(found, "each number once");
         return Err(LigandError::at(first, fault));
     }
-    Ok(molecule)
+    let places = v3000_atoms(&lines).iter().map(|(place, _)| *place).collect();
+    Ok((molecule, places))
 }
 
-/// That a record of V3000 does not announce more atoms or bonds than are taken. A line that ends in `-` goes on.
-fn check_counts(record: &[&str]) -> Result<(), LigandFault> {
-    let mut logical = String::new();
-    for line in record.iter().filter_map(|line| line.strip_prefix(V30)) {
-        if let Some(begin) = line.strip_suffix('-') {
-            logical.push_str(begin);
-            continue;
+/// The lines of V3000 in a record, each with the place of its first line: one that ends in `-` goes on in the next.
+fn v3000_lines(record: &[&str]) -> Vec<(usize, String)> {
+    let mut lines: Vec<(usize, String)> = Vec::new();
+    let mut goes_on = false;
+    for (place, line) in record.iter().enumerate() {
+        let Some(line) = line.strip_prefix(V30) else { continue };
+        if !goes_on {
+            lines.push((place, String::new()));
         }
-        logical.push_str(line);
-        if let Some(counts) = logical.strip_prefix("COUNTS ") {
-            let mut numbers = counts.split_whitespace().map(|word| word.parse().unwrap_or(0));
-            check::expect_room(numbers.next().unwrap_or(0))?;
-            if let Some(found) = numbers.next().filter(|bonds| *bonds > BONDS_MAX) {
-                return Err(LigandFault::TooMany { found, what: "bonds", most: BONDS_MAX });
-            }
+        goes_on = line.ends_with('-');
+        if let Some((_, whole)) = lines.last_mut() {
+            whole.push_str(line.strip_suffix('-').unwrap_or(line));
         }
-        logical.clear();
+    }
+    lines
+}
+
+/// That a record of V3000 does not announce more atoms or bonds than are taken.
+fn check_counts(lines: &[(usize, String)]) -> Result<(), LigandFault> {
+    for counts in lines.iter().filter_map(|(_, line)| line.strip_prefix("COUNTS ")) {
+        let mut numbers = counts.split_whitespace().map(|word| word.parse().unwrap_or(0));
+        check::expect_room(numbers.next().unwrap_or(0))?;
+        if let Some(found) = numbers.next().filter(|bonds| *bonds > BONDS_MAX) {
+            return Err(LigandFault::TooMany { found, what: "bonds", most: BONDS_MAX });
+        }
     }
     Ok(())
+}
+
+/// The lines of atoms among those of V3000.
+fn v3000_atoms(lines: &[(usize, String)]) -> &[(usize, String)] {
+    let place = |begin: &str| lines.iter().position(|(_, line)| line.starts_with(begin));
+    let start = place("BEGIN ATOM").map_or(lines.len(), |begin| begin + 1);
+    let end = place("END ATOM").filter(|end| *end >= start).unwrap_or(lines.len());
+    &lines[start..end]
+}
+
+/// That the charge of an atom's line in V3000 is one, if the line has any: the crate would take it for 0.
+fn check_v3000_charge(line: &str) -> Result<(), LigandFault> {
+    let pairs = line.split_whitespace().skip(6).filter_map(|word| word.split_once('='));
+    for (_, charge) in pairs.filter(|(key, _)| key.eq_ignore_ascii_case("CHG")) {
+        check_charge(charge)?;
+    }
+    Ok(())
+}
+
+/// That the code for the charge of an atom's line in V2000 is one, if the line has any: the crate would take it for 0.
+fn check_v2000_charge(line: &str) -> Result<(), LigandFault> {
+    let code = columns(line, 36, 39).trim();
+    if code.is_empty() || code.parse().is_ok_and(|code: u8| code <= 7) {
+        return Ok(());
+    }
+    Err(LigandFault::BadNumber {
+        found: format!("`{code}`"),
+        expected: "the charge of an atom, 0 to 7 in columns 37 to 39,".to_owned(),
+    })
+}
+
+/// That a formal charge is one that the format has.
+fn check_charge(text: &str) -> Result<(), LigandFault> {
+    if text.parse().is_ok_and(|charge: i8| (-15..=15).contains(&charge)) {
+        return Ok(());
+    }
+    Err(LigandFault::BadNumber {
+        found: format!("`{text}`"),
+        expected: "a charge of -15 to 15".to_owned(),
+    })
 }
 
 /// The line, counted from 1, that the cursor has read last.
@@ -159,18 +229,20 @@ fn fault(error: &SdfError) -> LigandFault {
     }
 }
 
-/// The crate's atoms and bonds as this library's.
-fn convert(molecule: &Molecule) -> Result<(Vec<Atom>, Vec<Bond>), LigandFault> {
+/// The crate's atoms and bonds as this library's; an error with the atom that it is of.
+fn convert(molecule: &Molecule) -> Result<(Vec<Atom>, Vec<Bond>), (usize, LigandFault)> {
     let mut atoms = Vec::with_capacity(molecule.atoms.len());
     for (index, atom) in molecule.atoms.iter().enumerate() {
         let element = Element::of_symbol(&atom.element).ok_or_else(|| {
             let found = atom.element.clone();
-            LigandFault::UnknownElement { found, atom: (index + 1).to_string() }
+            (index, LigandFault::UnknownElement { found, atom: (index + 1).to_string() })
         })?;
+        let position = Point::new(atom.x, atom.y, atom.z);
+        check::check_position(&position, index).map_err(|fault| (index, fault))?;
         atoms.push(Atom {
             name: String::new(),
             element,
-            position: Some(Point::new(atom.x, atom.y, atom.z)),
+            position: Some(position),
             formal_charge: Some(atom.formal_charge),
             partial_charge: None,
         });

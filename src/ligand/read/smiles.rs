@@ -61,6 +61,9 @@ impl Reading<'_> {
                 ':' => Some(BondOrder::Aromatic),
                 _ => None,
             };
+            if self.text[..self.at].ends_with('(') && matches!(c, '(' | ')') {
+                return Err(self.found("an atom that a branch begins with"));
+            }
             match c {
                 _ if symbol.is_some() => {
                     if self.bond.is_some() || self.last.is_none() {

@@ -101,8 +101,11 @@ fn groups_of_pdb_files_have_the_links_of_their_molecules() {
         ("1A28", "STR", "B", 23, 26, (1, 1)),
     ] {
         let path = data.join("structures").join(format!("{file}.pdb"));
-        let group =
-            Group { residue: residue.to_owned(), chain: Some(chain.to_owned()), number: None };
+        let group = Group {
+            residue: residue.to_owned(),
+            chain: Some(chain.to_owned()),
+            ..Group::default()
+        };
         let ligand = read_group(&path, &group).unwrap();
         assert_eq!((ligand.heavy_atoms(), ligand.bonds().len()), (heavy, bonds), "{file} {chain}");
         assert_eq!(links(&ligand), expected, "{file} {chain}");

@@ -1,11 +1,7 @@
 //! What is taken from files of each format.
 
 use super::super::{BondOrder, BondSource, Element, Group, read, read_all, read_bytes, read_group};
-use super::{ACETAMIDE, ACETONE, ETHANOL, ETHANOL_V3000, ETHER, links, one, sorted_bonds};
-
-fn symbols(ligand: &super::Ligand) -> Vec<&'static str> {
-    ligand.atoms().iter().map(|atom| atom.element.symbol()).collect()
-}
+use super::{ACETAMIDE, ACETONE, ETHANOL, ETHANOL_V3000, ETHER, links, one, sorted_bonds, symbols};
 
 #[test]
 fn sdf_of_both_versions_is_read_alike() {
@@ -140,6 +136,7 @@ fn groups_are_chosen_by_name_chain_and_number() {
         residue: residue.to_owned(),
         chain: chain.map(str::to_owned),
         number,
+        insertion: None,
     };
     let error = read(&path).unwrap_err().to_string();
     assert!(
@@ -190,4 +187,33 @@ fn elements_have_symbols_numbers_and_radii() {
     for symbol in ["", "Du", "LP", "R#", "*", "Bk", "X"] {
         assert_eq!(Element::of_symbol(symbol), None, "{symbol}");
     }
+}
+
+#[test]
+fn models_of_pdbqt_have_names_of_their_own() {
+    let names = |text: &str| -> Vec<String> {
+        read_bytes(text.as_bytes()).unwrap().iter().map(|ligand| ligand.name().to_owned()).collect()
+    };
+    let unnamed = ETHER.replace("REMARK  Name = ether\n", "");
+    let other = unnamed.replace("UNL", "BBB");
+    let models = |first: &str| format!("MODEL 1\n{first}ENDMDL\nMODEL 2\n{other}ENDMDL\n");
+    assert_eq!(names(&models(&unnamed)), ["UNL", "BBB"]);
+    assert_eq!(names(&models(ETHER)), ["ether", "BBB"]);
+    // A name before the first model is that of all that have none.
+    assert_eq!(names(&format!("REMARK  Name = all\n{}", models(ETHER))), ["ether", "all"]);
+}
+
+#[test]
+fn names_of_mol2_may_begin_with_the_sign_of_comments() {
+    assert_eq!(one(&ACETAMIDE.replace("acet amide", "#12 lead")).name(), "#12 lead");
+}
+
+#[test]
+fn single_lines_do_not_hide_the_format() {
+    // A data item like a record of PDBQT, in a file that does not tell its version.
+    let text = ETHANOL.replace("0999 V2000", "").replace("$$ no end", "ROOT of plants");
+    assert_eq!(one(&text).name(), "ethanol");
+    // A remark with the word of an SDF file's fourth line.
+    let remarks = "HEADER    X\nTITLE     A\nREMARK  1\nREMARK  V2000 converted\n";
+    assert_eq!(one(&format!("{remarks}{ACETONE}")).name(), "ACN");
 }

@@ -3,6 +3,7 @@
 mod files;
 mod formats;
 mod fuzz;
+mod pdb;
 mod refusals;
 mod rules;
 
@@ -40,6 +41,11 @@ fn error(text: &str) -> LigandError {
 fn links(ligand: &Ligand) -> (usize, usize) {
     let count = |amides| ligand.torsion_links(LinkRule { amides }).len();
     (count(true), count(false))
+}
+
+/// The symbols of its atoms' elements.
+fn symbols(ligand: &Ligand) -> Vec<&'static str> {
+    ligand.atoms().iter().map(|atom| atom.element.symbol()).collect()
 }
 
 /// The atoms of every bond, the lower one first, in rising order.

@@ -1,19 +1,19 @@
 //! What is refused, with the line and the words.
 
 use super::super::{Atom, Bond, BondOrder, Element, Ligand, LigandFault, Point, read, read_bytes};
-use super::{ACETAMIDE, ACETONE, ETHANOL, ETHANOL_V3000, ETHER, error};
+use super::{ACETAMIDE, ACETONE, ETHANOL, ETHANOL_V3000, ETHER, error, one};
 
 #[test]
 fn what_is_wrong_in_sdf_is_named_with_its_line() {
     for (from, to, expected) in [
-        ("O   0  5", "Xx  0  5", "line 1: `Xx` as the element of atom 3 found; a chemical element"),
-        ("O   0  5", "Du  0  5", "line 1: `Du` as the element of atom 3"),
+        ("O   0  5", "Xx  0  5", "line 7: `Xx` as the element of atom 3 found; a chemical element"),
+        ("O   0  5", "Du  0  5", "line 7: `Du` as the element of atom 3"),
         (
             "    1.5200",
             "       nan",
-            "line 1: `NaN` found; a number of at most 99999 Å as a coordinate of atom 2",
+            "line 6: `NaN` found; a number of at most 99999 Å as a coordinate of atom 2",
         ),
-        ("    1.5200", "  1e300   ", "line 1: `1"),
+        ("    1.5200", "  1e300   ", "line 6: `1"),
         ("    1.5200", "   one    ", "line 6: `one` found; a coordinate in Å expected"),
         ("  1  2  1  0\n  2  3  1  0\n", "", "line 8: "),
         (
@@ -84,7 +84,12 @@ fn what_is_wrong_in_v3000_is_named_with_its_line() {
             "COUNTS 3 1",
             "line 15: a line that is no part of an SDF record (Expected END BOND",
         ),
-        ("30 O", "30 R#", "line 1: `R#` as the element of atom 3"),
+        ("30 O", "30 R#", "line 11: `R#` as the element of atom 3"),
+        (
+            "20 C 1.52",
+            "20 C nan",
+            "line 9: `NaN` found; a number of at most 99999 Å as a coordinate of atom 2",
+        ),
     ] {
         let found = error(&ETHANOL_V3000.replacen(from, to, 1)).to_string();
         assert!(found.starts_with(expected), "{from} -> {to}: {found}");
@@ -260,4 +265,41 @@ fn ligands_of_programs_are_checked_as_well() {
     assert_eq!(fails(longer, bonds), "1001 atoms found; at most 1000 expected");
     let many: Vec<Bond> = (0..4001).map(|_| bond(0, 1)).collect();
     assert_eq!(fails(atoms(), many), "4001 bonds found; at most 4000 expected");
+}
+
+#[test]
+fn charges_of_sdf_that_are_none_are_named_with_their_lines() {
+    for (text, from, to, expected) in [
+        (
+            ETHANOL,
+            "O   0  5",
+            "O   0  a",
+            "line 7: `a` found; the charge of an atom, 0 to 7 in columns 37 to 39, expected",
+        ),
+        (ETHANOL, "O   0  5", "O   0  8", "line 7: `8` found; the charge of an atom, 0 to 7"),
+        (ETHANOL, "O   0  5", "O   0 -1", "line 7: `-1` found; the charge of an atom, 0 to 7"),
+        (
+            ETHANOL,
+            "M  END",
+            "M  CHG  2   1   1   3  16\nM  END",
+            "line 10: `16` found; a charge of -15 to 15 expected",
+        ),
+        (
+            ETHANOL_V3000,
+            "CHG=-1",
+            "CHG=-999",
+            "line 11: `-999` found; a charge of -15 to 15 expected",
+        ),
+        (ETHANOL_V3000, "CHG=-1", "chg=x", "line 11: `x` found; a charge of -15 to 15"),
+        (ETHANOL_V3000, "CHG=-1", "CHG=-1.0", "line 11: `-1.0` found; a charge"),
+        (ETHANOL_V3000, "CHG=-1", "-\nM  V30 CHG=16", "line 11: `16` found; a charge"),
+    ] {
+        let found = error(&text.replacen(from, to, 1)).to_string();
+        assert!(found.starts_with(expected), "{from} -> {to}: {found}");
+    }
+    assert_eq!(
+        one(&ETHANOL_V3000.replace("CHG=-1", "CHG=-15")).atoms()[2].formal_charge,
+        Some(-15)
+    );
+    assert_eq!(one(&ETHANOL.replace("O   0  5", "O")).atoms()[2].formal_charge, Some(0));
 }

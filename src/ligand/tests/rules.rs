@@ -129,6 +129,8 @@ fn broken_smiles_are_refused_where_they_break() {
         ("C[N+99]", "a charge of at most 15"),
         ("Cé", "`é` as character 2"),
         ("C[CH4:]", "the number of an atom's class"),
+        ("C((C))C", "`(` as character 3 of the SMILES found; an atom that a branch"),
+        ("C()C", "`)` as character 3 of the SMILES found; an atom that a branch"),
     ] {
         let error = from_smiles(smiles).unwrap_err().to_string();
         assert!(error.contains(expected), "{smiles}: {error}");
