@@ -1,27 +1,13 @@
 //! The law of medial axis sampling: equally far from two witnesses, and on axes that are known.
 
+use super::medial_axis::{TOLERANCE, among_balls, milestones, on_axis};
 use super::statistics::{fits, follows};
-use super::{context, plane, points, sampler, sets};
-use crate::context::Context;
+use super::{context, plane, points};
 use crate::math;
-use crate::model::Scratch;
-use crate::roadmap::Configs;
 use std::f64::consts::TAU;
 
-/// The tolerance of the samplers below, with a little more for rounding.
-const TOLERANCE: f64 = 0.01 * (1.0 + 1e-9);
 const MAPRM: &str = "maprm = { step = 0.1, tolerance = 0.01 }";
 const BOUNDED: &str = "maprm = { step = 0.1, tolerance = 0.01, bounds = true }";
-
-fn milestones(cx: &Context, text: &str, count: usize) -> Configs {
-    sets(cx, &sampler(text), 0..1, count, &mut Scratch::new())
-}
-
-/// The two least distances, which are from two different obstacles or sides, are equal within the tolerance.
-fn on_axis(mut distances: Vec<f64>) {
-    distances.sort_by(f64::total_cmp);
-    assert!(distances[0] > 0.0 && distances[1] - distances[0] <= TOLERANCE, "{distances:?}");
-}
 
 /// A passage of width 1 between two half spaces. Configurations drawn inside a half space are moved out by its side;
 /// then all are pushed straight to the middle of the passage, so that along the passage milestones are uniform.
@@ -62,7 +48,7 @@ fn in_a_room_milestones_are_as_far_from_two_walls() {
     );
     let mut planes = [0; 2];
     for q in milestones(&cx, BOUNDED, 2000).iter() {
-        on_axis(vec![q[0], 4.0 - q[0], q[1], 3.0 - q[1], q[2], 2.0 - q[2]]);
+        on_axis(vec![q[0], 4.0 - q[0], q[1], 3.0 - q[1], q[2], 2.0 - q[2]], 1.0);
         planes[usize::from((q[2] - 1.0).abs() > TOLERANCE / 2.0)] += 1;
     }
     fits(&planes, &[4.0, 20.0]);
@@ -79,7 +65,7 @@ fn a_rod_that_turns_is_as_far_from_two_walls() {
     for q in milestones(&cx, BOUNDED, 300).iter() {
         let (sin, cos) = (math::sin(q[2]).abs(), math::cos(q[2]).abs());
         let (x, y) = (0.5 * cos + 0.1 * sin, 0.5 * sin + 0.1 * cos);
-        on_axis(vec![q[0] + 1.0 - x, 2.5 - q[0] - x, q[1] - y, 3.0 - q[1] - y]);
+        on_axis(vec![q[0] + 1.0 - x, 2.5 - q[0] - x, q[1] - y, 3.0 - q[1] - y], 1.0);
     }
 }
 
@@ -87,39 +73,7 @@ fn a_rod_that_turns_is_as_far_from_two_walls() {
 /// bounds.
 #[test]
 fn among_balls_milestones_have_two_witnesses() {
-    let balls =
-        [[1.0, 1.0, 1.0, 0.8], [3.0, 1.2, 0.5, 0.6], [2.0, 3.0, 2.0, 0.9], [1.0, 2.5, 3.5, 0.4]];
-    for (motion, body, radius) in
-        [("rigid-3d", "sphere = { radius = 0.15 }", 0.15), ("translation-3d", "point = {}", 0.0)]
-    {
-        let mut scene = format!(
-            "[space]\nmotion = \"{motion}\"\nmin = [0, 0, 0]\nmax = [4, 4, 4]\nbounds = \"body\"\n\
-             [robot]\nbodies = [{{ shape = {{ {body} }} }}]\n"
-        );
-        for [x, y, z, radius] in balls {
-            scene += &format!(
-                "[[obstacles]]\nshape = {{ sphere = {{ radius = {radius} }} }}\n\
-                 position = [{x}, {y}, {z}]\n"
-            );
-        }
-        let cx = context(&scene);
-        for (text, bounds) in [(MAPRM, false), (BOUNDED, true)] {
-            for q in milestones(&cx, text, 300).iter() {
-                let mut distances: Vec<f64> = balls
-                    .iter()
-                    .map(|ball| {
-                        let way = [0, 1, 2].map(|i| q[i] - ball[i]);
-                        let far = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-                        far.sqrt() - ball[3] - radius
-                    })
-                    .collect();
-                if bounds {
-                    distances.extend(q[..3].iter().flat_map(|x| [x - radius, 4.0 - x - radius]));
-                }
-                on_axis(distances);
-            }
-        }
-    }
+    among_balls([MAPRM, BOUNDED], 300);
 }
 
 /// A ball on a turning arm among three other balls. The space is a circle, on which random directions find the nearest

@@ -4,6 +4,7 @@ mod energy;
 mod gaps;
 mod laws;
 mod maprm;
+mod medial_axis;
 mod mix;
 mod obprm;
 mod pairs;

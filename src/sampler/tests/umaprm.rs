@@ -1,7 +1,8 @@
 //! The law of uniform medial axis sampling: equally far from two witnesses, and uniform along axes that are known.
 
+use super::medial_axis::{TOLERANCE, among_balls, milestones, on_axis};
 use super::statistics::{fits, follows};
-use super::{context, plane, points, sampler, sets};
+use super::{context, plane, points, sampler};
 use crate::context::Context;
 use crate::math;
 use crate::model::Scratch;
@@ -13,21 +14,8 @@ use crate::scene::{Mesh, Shape};
 use crate::seed::Seed;
 use crate::space::FactorKind;
 
-/// The tolerance of the samplers below, with a little more for rounding.
-const TOLERANCE: f64 = 0.01 * (1.0 + 1e-9);
 const UMAPRM: &str = "umaprm = { length = 2.0, step = 0.2, tolerance = 0.01 }";
 const BOUNDED: &str = "umaprm = { length = 1.0, step = 0.05, tolerance = 0.01, bounds = true }";
-
-fn milestones(cx: &Context, text: &str, count: usize) -> Configs {
-    sets(cx, &sampler(text), 0..1, count, &mut Scratch::new())
-}
-
-/// The two least distances, which are from two different obstacles or sides, differ by no more than some tolerances.
-fn on_axis(mut distances: Vec<f64>, tolerances: f64) {
-    distances.sort_by(f64::total_cmp);
-    let gap = distances[1] - distances[0];
-    assert!(distances[0] > 0.0 && gap <= tolerances * TOLERANCE, "{distances:?}");
-}
 
 /// The scene with the shape of its first obstacle, and perhaps that of its robot, as a mesh.
 fn with_mesh(scene: &str, obstacle: Mesh, robot: Option<Mesh>) -> Context {
@@ -158,39 +146,7 @@ fn in_a_room_the_pieces_of_the_axis_are_hit_by_their_lengths() {
 /// A ball that could also turn, and a point, among balls: two balls are equally near, or a ball and a side.
 #[test]
 fn among_balls_milestones_have_two_witnesses() {
-    let balls =
-        [[1.0, 1.0, 1.0, 0.8], [3.0, 1.2, 0.5, 0.6], [2.0, 3.0, 2.0, 0.9], [1.0, 2.5, 3.5, 0.4]];
-    for (motion, body, radius) in
-        [("rigid-3d", "sphere = { radius = 0.15 }", 0.15), ("translation-3d", "point = {}", 0.0)]
-    {
-        let mut scene = format!(
-            "[space]\nmotion = \"{motion}\"\nmin = [0, 0, 0]\nmax = [4, 4, 4]\nbounds = \"body\"\n\
-             [robot]\nbodies = [{{ shape = {{ {body} }} }}]\n"
-        );
-        for [x, y, z, radius] in balls {
-            scene += &format!(
-                "[[obstacles]]\nshape = {{ sphere = {{ radius = {radius} }} }}\n\
-                 position = [{x}, {y}, {z}]\n"
-            );
-        }
-        let cx = context(&scene);
-        for (text, bounds) in [(UMAPRM, false), (BOUNDED, true)] {
-            for q in milestones(&cx, text, 100).iter() {
-                let mut distances: Vec<f64> = balls
-                    .iter()
-                    .map(|ball| {
-                        let way = [0, 1, 2].map(|i| q[i] - ball[i]);
-                        let far = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-                        far.sqrt() - ball[3] - radius
-                    })
-                    .collect();
-                if bounds {
-                    distances.extend(q[..3].iter().flat_map(|x| [x - radius, 4.0 - x - radius]));
-                }
-                on_axis(distances, 1.0);
-            }
-        }
-    }
+    among_balls([UMAPRM, BOUNDED], 100);
 }
 
 /// A rod that turns in the plane, in a room of three bounds and a wall: its distances from them follow from its angle.
