@@ -37,8 +37,10 @@ mod context;
 mod digest;
 mod lanes;
 
+pub mod binding;
 pub mod clearance;
 pub mod connect;
+pub mod descent;
 pub mod device_rate;
 pub mod evaluate;
 pub mod export;

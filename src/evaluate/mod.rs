@@ -24,6 +24,7 @@ mod connectivity;
 mod coverage;
 mod disjoint_paths;
 mod expansion;
+mod exposed_surface;
 mod flow;
 mod flow_ratio;
 mod formation_order;
@@ -53,6 +54,7 @@ methods! {
         BarrierTrend(barrier_trend::BarrierTrend),
         DisjointPaths(disjoint_paths::DisjointPaths),
         FormationOrder(formation_order::FormationOrder),
+        ExposedSurface(exposed_surface::ExposedSurface),
     }
 }
 
@@ -63,6 +65,7 @@ pub use connectivity::Connectivity;
 pub use coverage::Coverage;
 pub use disjoint_paths::DisjointPaths;
 pub use expansion::Expansion;
+pub use exposed_surface::ExposedSurface;
 pub use flow_ratio::FlowRatio;
 pub use formation_order::FormationOrder;
 pub use information_gain::InformationGain;

@@ -31,6 +31,7 @@ mod hinting;
 mod hints;
 mod interpolation;
 mod local_trees;
+mod minima;
 mod mrrg;
 mod parent;
 mod retraction_trees;
@@ -62,7 +63,8 @@ methods! {
         Hints(hints::Hints),
         ContactTrees(contact_trees::ContactTrees),
         SlidingTrees(sliding_trees::SlidingTrees),
-        LocalTrees(local_trees::LocalTrees), // new ones at the end, since ledgers know methods by number
+        LocalTrees(local_trees::LocalTrees),
+        Minima(minima::Minima), // new ones at the end, since ledgers know methods by number
     }
 }
 
@@ -78,6 +80,7 @@ pub(crate) use hint_path::{CONFIGURATIONS_MAX, too_long};
 pub use hints::Hints;
 pub use interpolation::Interpolation;
 pub use local_trees::LocalTrees;
+pub use minima::Minima;
 pub use mrrg::Mrrg;
 pub use parent::{NoRuns, Parent, ParentRoadmap, ParentRun, Runs};
 pub use retraction_trees::RetractionTrees;
@@ -187,6 +190,7 @@ impl GeneratorKind {
         match self {
             GeneratorKind::Sample(sample) => Some(&sample.sampler),
             GeneratorKind::Tree(tree) => Some(&tree.sampler),
+            GeneratorKind::Minima(minima) => Some(&minima.sampler),
             _ => None,
         }
     }

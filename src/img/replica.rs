@@ -69,6 +69,7 @@ impl Replica {
     /// the whole roadmap, an evaluator or a strategy that grows it),
     /// and on a shelf what all of them have.
     pub fn of_worker(setup: &Setup, shelf: Arc<dyn Shelf>) -> Replica {
+        setup.cx.model.keep_on(&shelf);
         let grows = setup.problem.strategies.iter().any(|strategy| strategy.generator.grows());
         let keeps_edges = grows || !setup.problem.evaluators.is_empty();
         let roadmap = Roadmap::of_worker(&setup.cx.space, shelf, keeps_edges);

@@ -25,6 +25,8 @@ pub enum BlockName {
         /// Its number within the level.
         number: u32,
     },
+    /// The numbers of a model's grid of energies.
+    Energies,
 }
 
 impl fmt::Display for BlockName {
@@ -33,6 +35,7 @@ impl fmt::Display for BlockName {
             BlockName::Configs(number) => write!(f, "configs-{number}"),
             BlockName::Edges(number) => write!(f, "edges-{number}"),
             BlockName::Segment { level, number } => write!(f, "segment-{level}-{number}"),
+            BlockName::Energies => f.write_str("energies"),
         }
     }
 }

@@ -8,11 +8,13 @@
 //! All lengths are in ångströms (Å), charges in elementary charges, positions in the frame of the file. Atoms and bonds
 //! are numbered from 0 here, and from 1 in messages, as in files.
 
+mod bytes;
 mod check;
 mod element;
 mod error;
 mod graph;
 mod links;
+mod names;
 mod perceive;
 mod read;
 #[cfg(test)]
@@ -23,11 +25,16 @@ pub use check::{ATOMS_MAX, BONDS_MAX};
 pub use element::Element;
 pub use error::{LigandError, LigandFault};
 pub use links::LinkRule;
+pub use names::{atom_names, residue_name};
 pub use perceive::{BOND_TOLERANCE, SAME_PLACE};
 pub use read::{Group, from_smiles, read, read_all, read_bytes, read_group};
 pub use tree::{Link, RigidTree};
 
+pub(crate) use bytes::LigandTable;
+
 use crate::structure::Point;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
 
 /// An atom of a small molecule.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +61,8 @@ pub struct Bond {
 }
 
 /// The order of a bond, as far as the file tells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
+#[serde(rename_all = "kebab-case")]
 pub enum BondOrder {
     /// One pair of electrons.
     Single,

@@ -1,3 +1,6 @@
+/// kT at 298 K, kJ/mol: the unit of the costs of molecules' motions.
+pub(crate) const KT: f64 = 2.479;
+
 /// What a valid motion costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cost {

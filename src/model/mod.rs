@@ -29,6 +29,7 @@ mod elasticity;
 mod figure;
 mod function;
 mod gap;
+mod ligand_at_protein;
 mod molecule;
 mod pose_goal;
 mod reason;
@@ -37,6 +38,7 @@ mod scene_change;
 mod scratch;
 
 pub mod bodies;
+pub mod docking;
 pub mod landscape;
 pub mod protein;
 
@@ -49,6 +51,7 @@ pub use elasticity::{Draw, Elastic};
 pub use figure::{Figure, Placement};
 pub use function::{FunctionFailed, JudgeConfigurations, ValidityFunction, with_functions};
 pub use gap::Gaps;
+pub use ligand_at_protein::{CellLimits, EnergyParts, ExposedResidue, LigandAtProtein, LowCells};
 pub use molecule::{Energies, Molecule};
 pub use pose_goal::{PoseFound, PoseGoal};
 pub use reason::{BodyName, Reason};
@@ -64,12 +67,14 @@ pub(crate) use description::{Resolve, import};
 pub(crate) use reason::{SOLE_LINK, link_named, out_of_range};
 
 use crate::scene::Body;
+use crate::shelf::Shelf;
 use crate::source::{ProblemError, Source};
 use crate::space::Space;
 use crate::structure::Point;
 use crate::structure::measure::Element;
 use bincode::{Decode, Encode};
 use std::any::Any;
+use std::sync::Arc;
 
 /// The models' enums, with what follows from their list: each model's description and its spec, what is asked for.
 macro_rules! models {
@@ -152,7 +157,8 @@ macro_rules! models {
 models! {
     Bodies(bodies::Bodies, bodies::BodiesSpec),
     Landscape(landscape::Landscape, landscape::LandscapeSpec),
-    Protein(protein::Protein, protein::ProteinSpec), // new ones at the end, since ledgers know models by number
+    Protein(protein::Protein, protein::ProteinSpec),
+    Docking(docking::Docking, docking::DockingSpec), // new ones at the end, since ledgers know models by number
 }
 
 impl ModelKind {
@@ -245,6 +251,20 @@ pub trait Model: Any + Send + Sync {
     fn energy(&self, _q: &[f64], _scratch: &mut Scratch) -> Option<f64> {
         None
     }
+
+    /// The energy at `q`, and to `out` its derivatives by the numbers of [`Space::moved`], of a model whose energy has derivatives: per
+    /// unit of each number, so that of a rotation they are per radian.
+    fn gradient(&self, _q: &[f64], _out: &mut [f64], _scratch: &mut Scratch) -> Option<f64> {
+        None
+    }
+
+    /// The model as a ligand at a protein, of a model that is one.
+    fn ligand(&self) -> Option<&dyn LigandAtProtein> {
+        None
+    }
+
+    /// Says where the model may keep large tables that all processes with the same problem have in common.
+    fn keep_on(&self, _shelf: &Arc<dyn Shelf>) {}
 
     /// The positions of all Cα at `q`, Å, in their order along the chain, of a model that has them; as many at every
     /// configuration.

@@ -21,11 +21,14 @@ mod bridge;
 mod energy;
 mod gaps;
 mod gaussian;
+mod given;
 mod grid;
 mod halton;
+mod low_energy_cells;
 mod maprm;
 mod mix;
 mod obprm;
+mod protein_surface;
 mod retraction;
 mod segments;
 mod shares;
@@ -51,6 +54,9 @@ methods! {
         Retraction(retraction::Retraction),
         Umaprm(umaprm::Umaprm),
         Gaps(gaps::Gaps),
+        ProteinSurface(protein_surface::ProteinSurface),
+        LowEnergyCells(low_energy_cells::LowEnergyCells),
+        Given(given::Given),
     }
 }
 
@@ -65,11 +71,14 @@ pub use bridge::Bridge;
 pub use energy::Energy;
 pub use gaps::Gaps;
 pub use gaussian::Gaussian;
+pub use given::Given;
 pub use grid::Grid;
 pub use halton::Halton;
+pub use low_energy_cells::LowEnergyCells;
 pub use maprm::Maprm;
 pub use mix::{Mix, Share};
 pub use obprm::{Obprm, Start};
+pub use protein_surface::ProteinSurface;
 pub use retraction::Retraction;
 pub use torsion_noise::{About, CALIBRATED, FEASIBLE, TorsionNoise, WIDTHS};
 pub use umaprm::Umaprm;
@@ -183,6 +192,16 @@ fn obstructed(cx: &Context, bounds: bool) -> Result<(), String> {
     }
     let expected = "obstacles, links that must not touch, or `bounds = true` expected";
     Err(format!("a sampler near obstacles found, but nothing to collide with; {expected}"))
+}
+
+/// Whether a problem suits samplers that place a ligand at a protein.
+fn at_a_protein(cx: &Context) -> Result<(), String> {
+    match cx.model.ligand() {
+        Some(_) => Ok(()),
+        None => {
+            Err("a sampler that places ligands found; a ligand at a protein expected".to_owned())
+        }
+    }
 }
 
 /// A sampler or a generator that could not find a milestone.

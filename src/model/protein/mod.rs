@@ -43,8 +43,7 @@ use linkage::{Linkage, TorsionKind};
 use motion::EnergySteps;
 use validity::Rules;
 
-/// kT at 298 K, kJ/mol: the unit of costs.
-pub(crate) const KT: f64 = 2.479;
+pub(crate) use super::cost::KT;
 
 pub(super) const ENERGY: &[NodeValue] = &[NodeValue { name: "energy", unit: "kJ/mol" }];
 

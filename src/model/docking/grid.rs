@@ -1,0 +1,137 @@
+//! How the energy of the protein's field is looked up, and where the numbers of its grid are.
+
+use super::energy::{Grid, Lookup, PairSum};
+use crate::shelf::{self, Block, BlockName, Shelf};
+use crate::structure::Point;
+use bincode::{Decode, Encode};
+use serde::{Deserialize, Serialize};
+use std::sync::{Arc, OnceLock};
+
+/// How the energy of the protein's field is looked up.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields, default)]
+pub struct GridSpec {
+    /// How values at points of the grid become energies in between; or that there is no grid.
+    pub lookup: EnergyLookup,
+    /// The distance of neighbouring points of the grid, Å.
+    pub spacing: f64,
+}
+
+/// How the energy of an atom in the protein's field is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
+#[serde(rename_all = "kebab-case")]
+pub enum EnergyLookup {
+    /// By the sum over all atoms of the protein.
+    Exact,
+    /// That of the nearest point of the grid (Bayazit 2003, chapter V B, with points 0.5 Å apart).
+    Nearest,
+    /// Between the eight points around, each coordinate in a straight line.
+    Trilinear,
+    /// Between the eight points around, repulsion and attraction each by a root that is nearly linear near an atom.
+    #[default]
+    Roots,
+}
+
+impl Default for GridSpec {
+    fn default() -> GridSpec {
+        GridSpec { lookup: EnergyLookup::default(), spacing: 0.375 }
+    }
+}
+
+/// The finest grid, Å.
+const SPACING_MIN: f64 = 0.05;
+/// The coarsest grid, Å.
+const SPACING_MAX: f64 = 2.0;
+/// The most numbers of a grid: 4 GiB.
+const VALUES_MAX: usize = 1 << 30;
+
+impl GridSpec {
+    /// What is wrong with it, if anything: what was found and what is expected.
+    pub fn complaint(&self) -> Option<String> {
+        // Written so that NaN fails it.
+        let fits = (SPACING_MIN..=SPACING_MAX).contains(&self.spacing);
+        (!fits).then(|| {
+            format!("spacing {} found; {SPACING_MIN} to {SPACING_MAX} Å expected", self.spacing)
+        })
+    }
+}
+
+/// The field of a protein: its exact sum, and a grid of it if the problem has one. The grid's numbers are found when one of them is
+/// first asked for, and once for all processes that have a shelf in common.
+pub(super) struct Field {
+    sum: PairSum,
+    grid: Grid,
+    is_exact: bool,
+    values: OnceLock<Block>,
+    shelf: OnceLock<Arc<dyn Shelf>>,
+}
+
+impl Field {
+    /// The field within a box, given by its least and largest corner.
+    pub fn new(sum: PairSum, corners: [Point; 2], spec: GridSpec) -> Field {
+        let lookup = match spec.lookup {
+            EnergyLookup::Nearest => Lookup::Nearest,
+            EnergyLookup::Trilinear => Lookup::Trilinear,
+            EnergyLookup::Roots | EnergyLookup::Exact => Lookup::Roots,
+        };
+        let grid = Grid::new(&sum, corners, spec.spacing, lookup);
+        let is_exact = spec.lookup == EnergyLookup::Exact;
+        Field { sum, grid, is_exact, values: OnceLock::new(), shelf: OnceLock::new() }
+    }
+
+    /// Whether the grid has no more numbers than are taken: what was found and what is expected.
+    pub fn complaint(&self) -> Option<String> {
+        let found = self.grid.values_len();
+        (found > VALUES_MAX).then(|| {
+            format!("a grid of {found} numbers found; at most {VALUES_MAX} expected, by a smaller box or a larger spacing")
+        })
+    }
+
+    /// The exact sum.
+    pub fn sum(&self) -> &PairSum {
+        &self.sum
+    }
+
+    /// The grid.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Where the grid's numbers are kept, once for all.
+    pub fn keep_on(&self, shelf: Arc<dyn Shelf>) {
+        // Whoever comes second has a shelf already.
+        let _ = self.shelf.set(shelf);
+    }
+
+    /// The grid's numbers.
+    pub fn values(&self) -> &[f32] {
+        let block = self.values.get_or_init(|| {
+            let bytes = self.grid.values_len() * size_of::<f32>();
+            let fill = &mut |out: &mut [u8]| {
+                self.grid.fill(&self.sum, bytemuck::cast_slice_mut(out));
+            };
+            match self.shelf.get() {
+                Some(shelf) => shelf::kept(&**shelf, BlockName::Energies, bytes, fill),
+                None => shelf::private(bytes, fill),
+            }
+        });
+        bytemuck::cast_slice(block)
+    }
+
+    /// The energy of the ligand's atoms, kJ/mol.
+    #[inline]
+    pub fn energy(&self, positions: &[Point]) -> f64 {
+        match self.is_exact {
+            true => self.sum.energy(positions),
+            false => self.grid.energy(self.values(), &self.sum, positions),
+        }
+    }
+
+    /// The energy, and to `out` its gradient by every atom's position, kJ/(mol Å).
+    pub fn gradient(&self, positions: &[Point], out: &mut [Point]) -> f64 {
+        match self.is_exact {
+            true => self.sum.gradient(positions, out),
+            false => self.grid.gradient(self.values(), &self.sum, positions, out),
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! Docking written out as the table of a problem file.
+
+use super::{Docking, receptor};
+use crate::ligand::LigandTable;
+use crate::model::Documents;
+use crate::source::value;
+
+/// Appends the table. The protein becomes an mmCIF file; the ligand stands in the table, since no format of molecules holds all of
+/// it to the last bit.
+pub(super) fn write(docking: &Docking, documents: &mut Documents) {
+    let Docking { chains, ligand, rigid, amides, bounds, energy, grid, highest, step } = docking;
+    let folder = &documents.folder;
+    let name = "protein.cif";
+    let path = if folder.is_empty() { name.to_owned() } else { format!("{folder}/{name}") };
+    documents.files.push((name.to_owned(), receptor::file(chains)));
+    let [min, max] = bounds;
+    documents.text += &format!(
+        "\n[docking]\n\
+         protein = {{ file = {}, waters = \"keep\", metals = \"keep\", others = \"keep\" }}\n\
+         hydrogens = \"keep\"\n\
+         rigid = {rigid}\n\
+         amides = {amides}\n\
+         box = {{ min = {min:?}, max = {max:?} }}\n\
+         energy = {}\n\
+         grid = {}\n\
+         highest = {highest:?}\n\
+         step = {step:?}\n\
+         ligand = {{ table = {} }}\n",
+        value(&path),
+        value(energy),
+        value(grid),
+        value(&LigandTable::of(ligand)),
+    );
+}
