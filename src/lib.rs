@@ -37,6 +37,7 @@ mod context;
 mod digest;
 mod lanes;
 
+pub mod binding;
 pub mod clearance;
 pub mod connect;
 pub mod device_rate;

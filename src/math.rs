@@ -45,6 +45,11 @@ pub fn ln_gamma(x: f64) -> f64 {
     libm::lgamma(x)
 }
 
+/// Complementary error function, 1 − erf(x).
+pub fn erfc(x: f64) -> f64 {
+    libm::erfc(x)
+}
+
 /// Angle of the vector `(x, y)` in radians, in `[-π, π]`.
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
