@@ -15,6 +15,7 @@ mod graph;
 mod links;
 mod perceive;
 mod read;
+mod symmetry;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -25,6 +26,7 @@ pub use error::{LigandError, LigandFault};
 pub use links::LinkRule;
 pub use perceive::{BOND_TOLERANCE, SAME_PLACE};
 pub use read::{Group, from_smiles, read, read_all, read_bytes, read_group};
+pub use symmetry::{LISTED_MAX, Symmetries, TooSymmetric};
 pub use tree::{Link, RigidTree};
 
 use crate::structure::Point;
