@@ -19,6 +19,7 @@ mod symmetry;
 #[cfg(test)]
 mod tests;
 mod tree;
+mod write;
 
 pub use check::{ATOMS_MAX, BONDS_MAX};
 pub use element::Element;
@@ -28,6 +29,7 @@ pub use perceive::{BOND_TOLERANCE, SAME_PLACE};
 pub use read::{Group, from_smiles, read, read_all, read_bytes, read_group};
 pub use symmetry::{LISTED_MAX, Symmetries, TooSymmetric};
 pub use tree::{Link, RigidTree};
+pub use write::{PdbPose, PdbResidue, SdfRecord, pdb, sdf};
 
 use crate::structure::Point;
 
