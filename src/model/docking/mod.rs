@@ -14,6 +14,7 @@ mod ligand_in_energy;
 mod low_cells;
 mod motion;
 mod near;
+mod placed;
 mod receptor;
 mod resolve;
 mod sound;
