@@ -1,0 +1,89 @@
+//! The energy of a ligand's atoms among themselves.
+
+use super::parameters::PairCoefficients;
+use super::particle::Particle;
+use super::spec::EnergySpec;
+use super::sum::Parts;
+use super::switch::Switch;
+use super::terms::{COULOMB, one_pair};
+use crate::structure::Point;
+
+/// The 12-6 terms, and Coulomb terms where charges count, of pairs of a ligand's own atoms. They have the parameters, the
+/// cut-off and the dielectric of the terms between ligand and protein; the hydrophobic term does not count here.
+#[derive(Clone, Debug)]
+pub struct OwnTerms {
+    switch: Switch,
+    pairs: Vec<Pair>,
+}
+
+/// A pair of atoms, and what its energy depends on.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    atoms: [usize; 2],
+    coefficients: PairCoefficients,
+    /// The product of the charges times the constant over the factor of the dielectric, in kJ/mol Å².
+    strength: f64,
+}
+
+impl OwnTerms {
+    /// Of a ligand's particles, for these pairs of them. Pairs of particles that are not there do not count.
+    pub fn new(spec: &EnergySpec, ligand: &[Particle], pairs: &[[usize; 2]]) -> OwnTerms {
+        let strength = spec.dielectric.map_or(0.0, |factor| COULOMB / factor);
+        let pair = |atoms: &[usize; 2]| {
+            let [one, other] = [ligand.get(atoms[0])?, ligand.get(atoms[1])?];
+            Some(Pair {
+                atoms: *atoms,
+                coefficients: spec.parameters.pair(one.element, other.element),
+                strength: one.charge * other.charge * strength,
+            })
+        };
+        OwnTerms { switch: Switch::new(spec.cutoff), pairs: pairs.iter().filter_map(pair).collect() }
+    }
+
+    /// The energy in kJ/mol with the ligand's atoms at these positions in Å.
+    pub fn energy(&self, positions: &[Point]) -> f64 {
+        self.parts(positions).total()
+    }
+
+    /// The same by its parts, whose sum is the energy to the last bit.
+    pub fn parts(&self, positions: &[Point]) -> Parts {
+        self.visit(positions, |_, _, _| ())
+    }
+
+    /// The energy, to the same bits; its derivative by the position of every atom of the ligand, in kJ/(mol Å), is added
+    /// to `out`.
+    pub fn gradient(&self, positions: &[Point], out: &mut [Point]) -> f64 {
+        let parts = self.visit(positions, |[one, other], apart, derivative| {
+            let step = apart * (2.0 * derivative);
+            if let Some(out) = out.get_mut(one) {
+                *out += step;
+            }
+            if let Some(out) = out.get_mut(other) {
+                *out -= step;
+            }
+        });
+        parts.total()
+    }
+
+    /// Sums the pairs, and says of each its atoms, the vector from the second to the first, and the derivative of its
+    /// energy by the squared distance.
+    fn visit(
+        &self,
+        positions: &[Point],
+        mut visit: impl FnMut([usize; 2], Point, f64),
+    ) -> Parts {
+        let mut parts = Parts::default();
+        for Pair { atoms, coefficients, strength } in &self.pairs {
+            let (Some(one), Some(other)) = (positions.get(atoms[0]), positions.get(atoms[1])) else {
+                continue;
+            };
+            let apart = one - other;
+            let squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
+            let (energies, derivative) = one_pair(self.switch, *coefficients, *strength, squared);
+            parts.van_der_waals += energies[0];
+            parts.coulomb += energies[1];
+            visit(*atoms, apart, derivative);
+        }
+        parts
+    }
+}
