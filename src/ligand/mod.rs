@@ -17,9 +17,11 @@ mod links;
 mod names;
 mod perceive;
 mod read;
+mod symmetry;
 #[cfg(test)]
 mod tests;
 mod tree;
+mod write;
 
 pub use check::{ATOMS_MAX, BONDS_MAX};
 pub use element::Element;
@@ -28,7 +30,9 @@ pub use links::LinkRule;
 pub use names::{atom_names, residue_name};
 pub use perceive::{BOND_TOLERANCE, SAME_PLACE};
 pub use read::{Group, from_smiles, read, read_all, read_bytes, read_group};
+pub use symmetry::{LISTED_MAX, Symmetries, TooSymmetric};
 pub use tree::{Link, RigidTree};
+pub use write::{PdbPose, PdbResidue, SdfRecord, pdb, sdf};
 
 pub(crate) use bytes::LigandTable;
 

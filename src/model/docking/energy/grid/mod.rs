@@ -3,6 +3,7 @@
 mod encode;
 mod fill;
 mod interpolate;
+mod points;
 
 use super::sum::PairSum;
 use crate::structure::Point;
