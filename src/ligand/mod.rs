@@ -14,7 +14,6 @@ mod element;
 mod error;
 mod graph;
 mod links;
-mod names;
 mod perceive;
 mod read;
 mod symmetry;
@@ -27,12 +26,11 @@ pub use check::{ATOMS_MAX, BONDS_MAX};
 pub use element::Element;
 pub use error::{LigandError, LigandFault};
 pub use links::LinkRule;
-pub use names::{atom_names, residue_name};
 pub use perceive::{BOND_TOLERANCE, SAME_PLACE};
 pub use read::{Group, from_smiles, read, read_all, read_bytes, read_group};
 pub use symmetry::{LISTED_MAX, Symmetries, TooSymmetric};
 pub use tree::{Link, RigidTree};
-pub use write::{PdbPose, PdbResidue, SdfRecord, pdb, sdf};
+pub use write::{PdbPose, PdbResidue, SdfRecord, atom_names, pdb, residue_name, sdf};
 
 pub(crate) use bytes::LigandTable;
 

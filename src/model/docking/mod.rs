@@ -124,7 +124,7 @@ impl Docking {
         };
         Residue {
             number: ResidueNumber { number: 1, insertion: None },
-            name: crate::ligand::residue_name(&self.ligand),
+            name: crate::ligand::residue_name(&self.ligand).to_owned(),
             amino_acid: None,
             atoms: atoms.map(atom).collect(),
         }
