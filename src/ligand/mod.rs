@@ -15,7 +15,6 @@ mod error;
 mod graph;
 mod links;
 mod matching;
-mod names;
 mod perceive;
 mod read;
 mod symmetry;
@@ -29,12 +28,11 @@ pub use element::Element;
 pub use error::{LigandError, LigandFault};
 pub use links::LinkRule;
 pub use matching::matching;
-pub use names::{atom_names, residue_name};
 pub use perceive::{BOND_TOLERANCE, SAME_PLACE};
 pub use read::{Group, from_smiles, read, read_all, read_bytes, read_group};
 pub use symmetry::{LISTED_MAX, Symmetries, TooSymmetric};
 pub use tree::{Link, RigidTree};
-pub use write::{PdbPose, PdbResidue, SdfRecord, pdb, sdf};
+pub use write::{PdbPose, PdbResidue, SdfRecord, atom_names, pdb, residue_name, sdf};
 
 pub(crate) use bytes::LigandTable;
 

@@ -9,6 +9,7 @@ mod sdf;
 #[cfg(test)]
 mod tests;
 
+pub use names::{atom_names, residue_name};
 pub use pdb::{PdbPose, PdbResidue, pdb};
 pub use sdf::{SdfRecord, sdf};
 

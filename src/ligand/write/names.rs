@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// A name for every atom, each once, of at most four characters: those of the file if all atoms have one that fits and no
 /// two have the same; otherwise the element's symbol with the atom's number among those of its element, as `C12`. Where the number is
 /// too long for the columns, a letter and further letters and digits follow the symbol.
-pub(super) fn names(ligand: &Ligand) -> Vec<String> {
+pub fn atom_names(ligand: &Ligand) -> Vec<String> {
     let fits = |atom: &Atom| {
         (1..=4).contains(&atom.name.len()) && atom.name.bytes().all(|byte| byte.is_ascii_graphic())
     };
@@ -22,6 +22,14 @@ pub(super) fn names(ligand: &Ligand) -> Vec<String> {
         format!("{}{}", atom.element.symbol().to_ascii_uppercase(), number(*count, atom.element))
     };
     ligand.atoms().iter().map(&mut name).collect()
+}
+
+/// What the ligand is called as a residue: its own name where that is one to three letters or digits, and else `UNL`, as the PDB calls
+/// unknown ligands.
+pub fn residue_name(ligand: &Ligand) -> &str {
+    let name = ligand.name();
+    let fits = (1..=3).contains(&name.len()) && name.bytes().all(|b| b.is_ascii_alphanumeric());
+    if fits { name } else { "UNL" }
 }
 
 /// A number from 1 on in the columns beside an element's symbol: three, or two.

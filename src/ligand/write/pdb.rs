@@ -2,7 +2,7 @@
 
 use super::super::error::{LigandError, LigandFault};
 use super::super::{Atom, BondOrder, Ligand};
-use super::names::names;
+use super::names::atom_names;
 use super::{check_positions, cut, too_wide};
 use crate::internal::plain::plain;
 use crate::structure::Point;
@@ -75,7 +75,7 @@ pub fn pdb(
             expected: "one ASCII letter or digit".to_owned(),
         }));
     }
-    let names = names(ligand);
+    let names = atom_names(ligand);
     let mut out = String::new();
     for (index, pose) in poses.iter().enumerate() {
         check_positions(ligand, &pose.positions)?;

@@ -205,7 +205,7 @@ fn names_of_atoms_are_the_files_or_made_and_each_is_there_once() {
         for (atom, name) in ligand.atoms.iter_mut().zip(names) {
             name.clone_into(&mut atom.name);
         }
-        names::names(ligand)
+        names::atom_names(ligand)
     };
     assert_eq!(give(&mut ligand, ["CA", "CL", "C2", "HX11"]), ["CA", "CL", "C2", "HX11"]);
     let made = ["C1", "CL1", "C2", "H1"];
@@ -220,7 +220,7 @@ fn names_of_atoms_are_the_files_or_made_and_each_is_there_once() {
     }
     for symbol in ["Cl", "C"] {
         let many = chain(&vec![symbol; 1000], &[], &vec![BondOrder::Single; 999]);
-        let mut names = names::names(&many);
+        let mut names = names::atom_names(&many);
         assert!(names.iter().all(|name| name.len() <= 4));
         names.sort();
         names.dedup();

@@ -114,13 +114,6 @@ impl Docking {
             .expect("a sound ligand has positions")
     }
 
-    /// The protein's residues, each with the name of its chain.
-    fn residues(&self) -> impl Iterator<Item = (&str, &Residue)> {
-        self.chains
-            .iter()
-            .flat_map(|chain| chain.residues.iter().map(|residue| (chain.name.as_str(), residue)))
-    }
-
     /// The ligand at a configuration, as a residue of a structure.
     fn ligand_residue(&self, positions: &[crate::structure::Point]) -> Residue {
         let names = crate::ligand::atom_names(&self.ligand);
@@ -132,7 +125,7 @@ impl Docking {
         };
         Residue {
             number: ResidueNumber { number: 1, insertion: None },
-            name: crate::ligand::residue_name(&self.ligand),
+            name: crate::ligand::residue_name(&self.ligand).to_owned(),
             amino_acid: None,
             atoms: atoms.map(atom).collect(),
         }

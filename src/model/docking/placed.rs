@@ -118,27 +118,6 @@ fn quaternion(m: &Matrix3<f64>) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::docking::tests::complex;
-    use crate::structure::measure::rmsd_in_place;
-
-    #[test]
-    fn positions_of_a_configuration_give_it_back() {
-        let docking = complex();
-        let mut q = docking.given();
-        q[..BASE].copy_from_slice(&[1.0, -2.0, 0.5, 0.1, -0.7, 0.5, 0.5]);
-        for (number, angle) in q[BASE..].iter_mut().enumerate() {
-            *angle = 1.0 + number as f64;
-        }
-        docking.space().canonicalize(&mut q).unwrap();
-        let positions = docking.positions_at(&q);
-        let again = docking.shaped(&positions).unwrap();
-        assert!(rmsd_in_place(&positions, &docking.positions_at(&again)) < 1e-9, "{again:?}");
-        // The given shape alone comes as near as its torsions allow, no nearer.
-        let rigid = docking.placed(&positions).unwrap();
-        assert!(rigid[BASE..].iter().all(|angle| *angle == 0.0));
-        assert!(rmsd_in_place(&positions, &docking.positions_at(&rigid)) > 0.1);
-        assert_eq!(docking.placed(&positions[1..]), None);
-    }
 
     #[test]
     fn quaternions_are_those_of_rotations_about_any_axis() {

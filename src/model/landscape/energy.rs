@@ -60,3 +60,15 @@ impl Term {
 pub(super) fn energy(terms: &[Term], point: [f64; 2]) -> f64 {
     terms.iter().map(|term| term.height * math::exp(term.exponent(point))).sum()
 }
+
+/// The energy's derivatives by x and y at a point.
+pub(super) fn gradient(terms: &[Term], point: [f64; 2]) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    for term in terms {
+        let value = term.height * math::exp(term.exponent(point));
+        let (u, v) = (point[0] - term.centre[0], point[1] - term.centre[1]);
+        sum[0] += value * (2.0 * term.xx * u + term.xy * v);
+        sum[1] += value * (term.xy * u + 2.0 * term.yy * v);
+    }
+    sum
+}

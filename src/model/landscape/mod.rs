@@ -262,6 +262,11 @@ impl Model for PointInEnergy {
         Some(self.energy_at(q))
     }
 
+    fn gradient(&self, q: &[f64], out: &mut [f64], _scratch: &mut Scratch) -> Option<f64> {
+        out.copy_from_slice(&energy::gradient(&self.terms, [q[0], q[1]]));
+        Some(self.energy_at(q))
+    }
+
     fn reasons(&self, q: &[f64], _depths: bool) -> Vec<Reason> {
         let mut reasons = out_of_range(&self.space, q);
         let energy = self.energy_at(q);

@@ -47,14 +47,8 @@ impl Cells {
                 counts[axis] = cell_of(most - least, edges[axis]) + 1;
             }
         }
-        let mut cells = Cells {
-            low,
-            edges,
-            counts,
-            begins: Vec::new(),
-            order: Vec::new(),
-            at: Default::default(),
-        };
+        let mut cells =
+            Cells { low, edges, counts, begins: Vec::new(), order: Vec::new(), at: Default::default() };
         cells.fill(points);
         cells
     }

@@ -134,8 +134,7 @@ pub(super) fn sum<S: Simd>(
             sums[3] += derivative * z;
         }
     });
-    let [energy, x, y, z] =
-        sums.map(|lanes| lanes.as_slice().iter().fold(0.0, |sum, lane| sum + lane));
+    let [energy, x, y, z] = sums.map(|lanes| lanes.as_slice().iter().fold(0.0, |sum, lane| sum + lane));
     (energy, Point::new(x, y, z))
 }
 
@@ -154,7 +153,6 @@ pub(super) fn one_pair(
     let energies = [repulsion - attraction, strength * inverse];
     let together = energies[0] + energies[1];
     let derivative = (3.0 * attraction - 6.0 * repulsion - energies[1]) * inverse;
-    let derivative =
-        if squared > NEAREST_SQUARED { derivative * factor + together * slope } else { 0.0 };
+    let derivative = if squared > NEAREST_SQUARED { derivative * factor + together * slope } else { 0.0 };
     (energies.map(|energy| energy * factor), derivative)
 }

@@ -5,8 +5,8 @@ use super::super::parameters::hydrophobic_radius;
 use super::super::sum::{CoulombField, HydrophobicField, PairSum};
 use super::super::switch::NEAREST_SQUARED;
 use super::super::terms::{HYDROPHOBIC_DEPTH, HYDROPHOBIC_FAR, HYDROPHOBIC_NEAR};
-use super::Grid;
 use super::encode::encode;
+use super::Grid;
 use crate::lanes::with_lanes;
 use crate::structure::Point;
 use fearless_simd::f64x8;
@@ -112,21 +112,14 @@ impl Grid {
                     let (y, z) = (from.y - at_y[atom], from.z - at_z[atom]);
                     let distance = (x * x + number(y * y + z * z)).sqrt();
                     let left = number(HYDROPHOBIC_FAR + radius + radii[atom]) - distance;
-                    *total += left.max(number(0.0)).min(number(width))
-                        * number(-HYDROPHOBIC_DEPTH / width);
+                    *total += left.max(number(0.0)).min(number(width)) * number(-HYDROPHOBIC_DEPTH / width);
                 }
             });
         }
     }
 
     #[inline(always)]
-    fn potential<S: Simd>(
-        &self,
-        simd: S,
-        sum: &PairSum,
-        field: &CoulombField,
-        from: Point,
-    ) -> f64x8<S> {
+    fn potential<S: Simd>(&self, simd: S, sum: &PairSum, field: &CoulombField, from: Point) -> f64x8<S> {
         let number = |value: f64| f64x8::splat(simd, value);
         let xs = self.xs(simd, from);
         let [at_x, at_y, at_z] = &field.cells.at;

@@ -15,12 +15,7 @@ pub(super) struct Shape {
 }
 
 #[inline(always)]
-fn at<const N: usize>(
-    values: &[f32],
-    shape: &Shape,
-    begin: usize,
-    [x, y, z]: [usize; 3],
-) -> [f64; N] {
+fn at<const N: usize>(values: &[f32], shape: &Shape, begin: usize, [x, y, z]: [usize; 3]) -> [f64; N] {
     let first = z * shape.layer + begin + (y * shape.counts[0] + x) * N;
     let values = &values[first..first + N];
     std::array::from_fn(|channel| f64::from(values[channel]))
@@ -54,8 +49,7 @@ pub(super) fn linear<const N: usize>(
         let first = z * shape.layer + begin + (y * shape.counts[0] + x) * N;
         let values = &values[first..first + 2 * N];
         let low: [f64; N] = std::array::from_fn(|c| f64::from(values[c]));
-        let step: [f64; N] =
-            std::array::from_fn(|c| f64::from(values[N + c]) - f64::from(values[c]));
+        let step: [f64; N] = std::array::from_fn(|c| f64::from(values[N + c]) - f64::from(values[c]));
         (low, step)
     };
     let (r00, r10, r01, r11) = (row(y, z), row(y + 1, z), row(y, z + 1), row(y + 1, z + 1));
@@ -129,8 +123,7 @@ pub(super) fn cubic<const N: usize>(
         }
         for c in 0..N {
             out.0[c] += wz.0[k] * plane[c];
-            out.1[c] += Point::new(wz.0[k] * plane_x[c], wz.0[k] * plane_y[c], wz.1[k] * plane[c])
-                * shape.per;
+            out.1[c] += Point::new(wz.0[k] * plane_x[c], wz.0[k] * plane_y[c], wz.1[k] * plane[c]) * shape.per;
         }
     }
     out

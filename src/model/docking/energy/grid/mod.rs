@@ -3,11 +3,12 @@
 mod encode;
 mod fill;
 mod interpolate;
+mod points;
 
 use super::sum::PairSum;
 use crate::structure::Point;
 use bincode::{Decode, Encode};
-use interpolate::{Cell, cubic, linear};
+use interpolate::{Cell, linear, cubic};
 use serde::{Deserialize, Serialize};
 
 /// How the energy at a place is made of the values of a grid.
@@ -157,13 +158,7 @@ impl Grid {
         energy
     }
 
-    pub fn gradient(
-        &self,
-        values: &[f32],
-        sum: &PairSum,
-        positions: &[Point],
-        out: &mut [Point],
-    ) -> f64 {
+    pub fn gradient(&self, values: &[f32], sum: &PairSum, positions: &[Point], out: &mut [Point]) -> f64 {
         let mut energy = 0.0;
         for (atom, (at, out)) in positions.iter().zip(out).enumerate().take(sum.ligand_atoms()) {
             let (of_atom, gradient) = self.of_atom(values, sum, atom, *at);
@@ -171,33 +166,5 @@ impl Grid {
             *out = gradient;
         }
         energy
-    }
-}
-
-impl Grid {
-    pub fn spacing(&self) -> f64 {
-        self.spacing
-    }
-
-    pub fn point_energy(
-        &self,
-        values: &[f32],
-        sum: &PairSum,
-        atom: usize,
-        place: [usize; 3],
-    ) -> f64 {
-        self.of_atom(values, sum, atom, self.point(place)).0
-    }
-
-    pub fn nearest_energy(&self, values: &[f32], sum: &PairSum, atom: usize, at: &Point) -> f64 {
-        let mut place = [0; 3];
-        for axis in 0..3 {
-            let there = (at[axis] - self.low[axis]) / self.spacing + 0.5;
-            if !(there >= 0.0 && there < self.counts[axis] as f64) {
-                return sum.of_atom(atom, *at).0.total();
-            }
-            place[axis] = there as usize;
-        }
-        self.point_energy(values, sum, atom, place)
     }
 }
