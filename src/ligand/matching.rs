@@ -1,7 +1,7 @@
 //! Which atoms of two files of one molecule are the same.
 
 use super::graph::{Neighbour, neighbours};
-use super::{Bond, Ligand};
+use super::Ligand;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// So many atoms are tried at most: a molecule of a few hundred atoms takes about as many.
@@ -141,7 +141,7 @@ impl Search<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ligand::{Atom, from_smiles};
+    use crate::ligand::{Atom, Bond, from_smiles};
 
     /// The molecule with its atoms in another order: atom `k` becomes atom `k * by + 1`, modulo their number.
     fn shuffled(ligand: &Ligand, by: usize) -> Ligand {
