@@ -1,7 +1,7 @@
 //! Which atoms of two files of one molecule are the same.
 
-use super::graph::{Neighbour, neighbours};
 use super::Ligand;
+use super::graph::{Neighbour, neighbours};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// So many atoms are tried at most: a molecule of a few hundred atoms takes about as many.
@@ -15,7 +15,8 @@ const TRIES_MAX: usize = 1_000_000;
 /// several maps, as symmetric molecules have them, it is the first that the search comes to. `None` if there is none, or none is found in
 /// 10⁶ tries.
 pub fn matching(of: &Ligand, to: &Ligand) -> Option<Vec<usize>> {
-    let elements = |ligand: &Ligand| -> Vec<_> { ligand.atoms().iter().map(|a| a.element).collect() };
+    let elements =
+        |ligand: &Ligand| -> Vec<_> { ligand.atoms().iter().map(|a| a.element).collect() };
     let bonds = |ligand: &Ligand| -> BTreeSet<[usize; 2]> {
         ligand.bonds().iter().map(|bond| sorted(bond.atoms)).collect()
     };

@@ -136,8 +136,9 @@ pub fn affinity(
             vec![StrategySpec::sampled("surface", sampler).within(few).among(lone).nodes(NODES)]
         }
     };
-    let covered = percent
-        .map(|percent| EvaluatorKind::ExposedSurface(ExposedSurface { percent, ..Default::default() }));
+    let covered = percent.map(|percent| {
+        EvaluatorKind::ExposedSurface(ExposedSurface { percent, ..Default::default() })
+    });
     Problem::builder(fitting_name(name), spec.clone())
         .folder(folder)
         .strategies(strategies)
@@ -184,7 +185,8 @@ fn hinted(
         let positions = docking.positions_in(hint).map_err(refuse)?;
         let placed = docking.placed(&positions).filter(|q| space.within_bounds(q));
         let Some(q) = placed else {
-            let message = "a pose outside of the box found; one with its centre in the box expected";
+            let message =
+                "a pose outside of the box found; one with its centre in the box expected";
             return Err(refuse(message.to_owned()));
         };
         let energy = exact.energy(&q).sum();

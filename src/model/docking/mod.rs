@@ -88,6 +88,11 @@ impl Docking {
         self.bounds
     }
 
+    /// Which terms the energy has.
+    pub fn energy(&self) -> &EnergySpec {
+        &self.energy
+    }
+
     /// The highest energy that is valid, kJ/mol.
     pub fn highest(&self) -> f64 {
         self.highest

@@ -121,16 +121,30 @@ mod tests {
 
     #[test]
     fn quaternions_are_those_of_rotations_about_any_axis() {
-        for q in [[1.0, 0.0, 0.0, 0.0], [0.1, 0.9, 0.2, -0.3], [0.0, 0.2, -0.9, 0.1], [0.05, 0.1, 0.2, 0.9]] {
+        for q in [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.1, 0.9, 0.2, -0.3],
+            [0.0, 0.2, -0.9, 0.1],
+            [0.05, 0.1, 0.2, 0.9],
+        ] {
             let unit = canonical(q).unwrap();
             let [w, x, y, z] = unit;
             let matrix = Matrix3::new(
-                1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y),
-                2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x),
-                2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y),
+                1.0 - 2.0 * (y * y + z * z),
+                2.0 * (x * y - w * z),
+                2.0 * (x * z + w * y),
+                2.0 * (x * y + w * z),
+                1.0 - 2.0 * (x * x + z * z),
+                2.0 * (y * z - w * x),
+                2.0 * (x * z - w * y),
+                2.0 * (y * z + w * x),
+                1.0 - 2.0 * (x * x + y * y),
             );
             let found = canonical(quaternion(&matrix)).unwrap();
-            assert!(found.iter().zip(unit).all(|(a, b)| (a - b).abs() < 1e-14), "{found:?} {unit:?}");
+            assert!(
+                found.iter().zip(unit).all(|(a, b)| (a - b).abs() < 1e-14),
+                "{found:?} {unit:?}"
+            );
         }
     }
 }

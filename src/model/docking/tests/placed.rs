@@ -36,5 +36,8 @@ fn a_pose_of_another_file_is_the_same_molecule_or_an_error() {
     assert!(error.contains("no positions found"), "{error}");
     let other = ligand::from_smiles("NC(=[NH2+])c1ccccc1").unwrap();
     let error = docking.positions_in(&other).unwrap_err();
-    assert!(error.starts_with("9 atoms with 9 bonds found") && error.contains("16 atoms"), "{error}");
+    assert!(
+        error.starts_with("9 atoms with 9 bonds found") && error.contains("16 atoms"),
+        "{error}"
+    );
 }
