@@ -38,6 +38,7 @@ mod palette;
 mod parasol;
 mod path_csv;
 mod pdb;
+mod poses;
 mod pymol;
 mod report;
 mod solid;
@@ -58,6 +59,7 @@ pub use page::{Live, NamedPath, Viewer, animation};
 pub use parasol::{parasol_map, parasol_path};
 pub use path_csv::path_csv;
 pub use pdb::pdb;
+pub use poses::{Minimum, PosesPage, ShownPose, WayFrame, poses_page};
 pub use pymol::pymol;
 pub use report::{
     ComparedBuild, ComparedStrategy, Comparison, Folding, Report, RoundOutcome, RoundValue, report,

@@ -1,6 +1,7 @@
 //! Charts of numbers over numbers: SVG elements, the same bytes for the same numbers.
 
 use super::super::markup::escaped;
+use crate::math;
 use std::fmt::Write;
 
 /// Width and height of a chart, and the room around its frame: left, top, right, bottom. In pixels.
@@ -14,7 +15,7 @@ const RULES: f64 = 5.0;
 const POINTS_MAX: usize = 1500;
 
 /// A line through points.
-pub(super) struct Series {
+pub(in crate::export) struct Series {
     /// What it is; empty where the chart's title says so.
     pub name: String,
     pub colour: &'static str,
@@ -24,7 +25,7 @@ pub(super) struct Series {
 }
 
 /// A chart.
-pub(super) struct Chart {
+pub(in crate::export) struct Chart {
     pub title: String,
     /// What the horizontal axis is, and what the vertical.
     pub axes: [String; 2],
@@ -34,10 +35,12 @@ pub(super) struct Chart {
 }
 
 /// What an axis spans, and where its rules are.
-pub(super) struct Axis {
+pub(in crate::export) struct Axis {
     low: f64,
     high: f64,
     step: f64,
+    /// Whether `low` and `high` are [logarithms with a sign](signed_log).
+    is_log: bool,
 }
 
 impl Axis {
@@ -57,16 +60,26 @@ impl Axis {
             let room = if low == 0.0 { 1.0 } else { 0.5 * low.abs() };
             (low - room, high + room)
         };
-        Axis { low, high, step: round_step((high - low) / RULES) }
+        Axis { low, high, step: round_step((high - low) / RULES), is_log: false }
+    }
+
+    /// An axis on which a value beyond ±10 goes with its logarithm, and one near 0 with itself, so that both −50 and 10⁹ can be
+    /// read off.
+    pub fn signed_log_over(values: impl Iterator<Item = f64>) -> Axis {
+        Axis { is_log: true, ..Axis::over(values.map(signed_log)) }
     }
 
     /// Where a value is on the axis, from 0 to 1.
     pub fn share(&self, value: f64) -> f64 {
+        let value = if self.is_log { signed_log(value) } else { value };
         (value - self.low) / (self.high - self.low)
     }
 
     /// The rules: where they are, and what stands beside them.
     pub fn rules(&self) -> Vec<(f64, String)> {
+        if self.is_log {
+            return self.decades();
+        }
         let (first, last) = ((self.low / self.step).ceil(), (self.high / self.step).floor());
         if !(first <= last && last - first < 100.0) {
             return Vec::new();
@@ -74,6 +87,27 @@ impl Axis {
         let count = (last - first) as usize;
         let values = (0..=count).map(|index| (first + index as f64) * self.step);
         values.map(|value| (value, self.label(value))).collect()
+    }
+
+    /// The rules of an axis of logarithms: 0 and powers of ten on both sides; of many, every second power, every third, and so on.
+    fn decades(&self) -> Vec<(f64, String)> {
+        let mut values = vec![(0.0, "0".to_owned())];
+        let mut value = 10.0;
+        for power in 1..=300 {
+            let label = match power {
+                1..=3 => format!("{value}"),
+                _ => format!("1e{power}"),
+            };
+            values.push((-value, format!("-{label}")));
+            values.push((value, label));
+            value *= 10.0;
+        }
+        values.retain(|(value, _)| (0.0..=1.0).contains(&self.share(*value)));
+        let power = |value: f64| (math::ln(value.abs().max(1.0)) / std::f64::consts::LN_10).round();
+        let highest = values.iter().fold(1.0, |most: f64, (value, _)| most.max(power(*value)));
+        let every = (highest / RULES).ceil().max(1.0);
+        values.retain(|(value, _)| power(*value) % every == 0.0);
+        values
     }
 
     fn label(&self, value: f64) -> String {
@@ -93,6 +127,18 @@ impl Axis {
     }
 }
 
+/// The inverse hyperbolic sine of a fifth of a value: a logarithm with a sign where the value is large, proportional to the value
+/// where it is small.
+fn signed_log(value: f64) -> f64 {
+    let size = 0.2 * value.abs();
+    let log = if size < 1e100 {
+        math::ln(size + (size * size + 1.0).sqrt())
+    } else {
+        math::ln(size) + math::ln(2.0)
+    };
+    if value < 0.0 { -log } else { log }
+}
+
 /// 1, 2 or 5 times a power of ten, the first that is not below `least`, which is above 0.
 fn round_step(least: f64) -> f64 {
     let mut power = 1.0;
@@ -107,7 +153,7 @@ fn round_step(least: f64) -> f64 {
 }
 
 /// A frame in which something is drawn: the two axes, and the text of the SVG element so far.
-pub(super) struct Frame {
+pub(in crate::export) struct Frame {
     pub x: Axis,
     pub y: Axis,
     size: [f64; 2],
@@ -248,7 +294,9 @@ impl Chart {
 }
 
 /// What colours and dashes mean.
-pub(super) fn legend<'a>(entries: impl Iterator<Item = (&'a str, &'a str, bool)>) -> String {
+pub(in crate::export) fn legend<'a>(
+    entries: impl Iterator<Item = (&'a str, &'a str, bool)>,
+) -> String {
     let mut html = String::from(" <span class=\"legend\">");
     for (name, colour, dashed) in entries {
         let dashes = if dashed { " stroke-dasharray=\"5 4\"" } else { "" };
@@ -283,6 +331,19 @@ mod tests {
         // One value alone stands in the middle.
         let axis = Axis::over([3.0].into_iter());
         assert_eq!(axis.share(3.0), 0.5);
+    }
+
+    #[test]
+    fn logarithms_with_a_sign_have_zero_and_powers_of_ten() {
+        let axis = Axis::signed_log_over([-60.0, 4000.0, f64::NAN].into_iter());
+        let labels: Vec<String> = axis.rules().into_iter().map(|(_, label)| label).collect();
+        assert_eq!(labels, ["0", "-10", "10", "100", "1000"]);
+        let [low, zero, high] = [-60.0, 0.0, 4000.0].map(|value| axis.share(value));
+        assert!(0.0 < low && low < zero && zero < high && high < 1.0);
+        let wide = Axis::signed_log_over([-1e3, 1e12].into_iter());
+        assert!(wide.rules().len() < 8 && wide.rules().iter().any(|(_, label)| label == "1e6"));
+        assert!(signed_log(1e99) < signed_log(1e101) && signed_log(f64::NAN).is_nan());
+        assert!((signed_log(-1e100) + signed_log(1.000_001e100)).abs() < 1e-5);
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! 1322) as its package has it, 0.54 MB, under the BSD 3-clause licence in `3Dmol-LICENSE.txt`. It shows the structures.
 
 mod along;
-mod chart;
+pub(super) mod chart;
 mod comparison;
 mod folding;
 mod growth;
@@ -17,6 +17,7 @@ mod order;
 mod profiles;
 mod residues;
 mod rounds;
+pub(super) mod shell;
 mod structures;
 mod tables;
 
@@ -27,7 +28,6 @@ pub use comparison::{ComparedBuild, ComparedStrategy, Comparison};
 pub use folding::Folding;
 pub use rounds::{RoundOutcome, RoundValue};
 
-use super::markup::escaped;
 use crate::context::{Context, Ends};
 use crate::model::Scratch;
 use crate::pathways::{DomainAngle, Pathways};
@@ -36,15 +36,8 @@ use crate::roadmap::Roadmap;
 use along::Along;
 use residues::Motion;
 
-/// The page without its contents: styles, and a policy by which nothing is ever fetched.
-const PAGE: &str = include_str!("page.html");
-
 /// What plays the structures.
 const VIEWER: &str = include_str!("viewer.js");
-
-/// The library that draws them, with its licence.
-const MOLECULES: &str = include_str!("3Dmol-min.js");
-const LICENCE: &str = include_str!("3Dmol-LICENSE.txt");
 
 /// What a report is made of.
 pub struct Report<'a> {
@@ -117,7 +110,7 @@ pub fn report(report: &Report, scratch: &mut Scratch) -> String {
     {
         body += &html;
         if let Some(data) = data {
-            scripts = viewer(&data);
+            scripts = shell::viewer(&data, VIEWER);
         }
     }
     body += &map::section(report, scratch);
@@ -134,18 +127,5 @@ pub fn report(report: &Report, scratch: &mut Scratch) -> String {
 
 /// The page about a problem of this name, with a body.
 fn page(name: &str, body: &str) -> String {
-    // A text that comes from files is put in last, so that nothing is looked for in it.
-    let (before, rest) = PAGE.split_once("ROADMILL_NAME").expect("the page has a title");
-    let (between, after) = rest.split_once("ROADMILL_BODY").expect("the page has a body");
-    [before, &escaped(name), between, body, after].concat()
-}
-
-/// The scripts of the viewer: the library with its licence, the data, and what plays them.
-fn viewer(data: &str) -> String {
-    debug_assert!(!MOLECULES.contains("</script") && !MOLECULES.contains("<!--"));
-    let licence = LICENCE.replace("*/", "* /");
-    format!(
-        "<script type=\"application/json\" id=\"data\">{data}</script>\n\
-         <script>/*! 3Dmol.js 2.5.5\n{licence}*/\n{MOLECULES}</script>\n<script>{VIEWER}</script>\n"
-    )
+    shell::page(name, "", body)
 }

@@ -1,3 +1,4 @@
+use super::shell::{LICENCE, MOLECULES};
 use super::*;
 use crate::build::{Build, Built};
 use crate::model::ModelKind;
