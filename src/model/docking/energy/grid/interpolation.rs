@@ -63,12 +63,18 @@ pub(super) fn nearest(map: &Map, place: &Place) -> (f64, Point) {
 pub(super) fn linear<const N: usize>(map: &Map, place: &Place) -> ([f64; N], [Point; N]) {
     let [x, y, z] = place.point;
     let [along_x, along_y, along_z] = place.part;
-    let rows = [[x, y, z], [x, y + 1, z], [x, y, z + 1], [x, y + 1, z + 1]]
-        .map(|point| map.along_x::<N>(point));
+    let (low00, step00) = map.along_x::<N>([x, y, z]);
+    let (low10, step10) = map.along_x::<N>([x, y + 1, z]);
+    let (low01, step01) = map.along_x::<N>([x, y, z + 1]);
+    let (low11, step11) = map.along_x::<N>([x, y + 1, z + 1]);
     let (mut values, mut gradients) = ([0.0; N], [Point::zeros(); N]);
     for number in 0..N {
-        let [(v00, x00), (v10, x10), (v01, x01), (v11, x11)] =
-            rows.map(|(low, step)| (low[number] + along_x * step[number], step[number]));
+        let (x00, x10, x01, x11) =
+            (step00[number], step10[number], step01[number], step11[number]);
+        let v00 = low00[number] + along_x * x00;
+        let v10 = low10[number] + along_x * x10;
+        let v01 = low01[number] + along_x * x01;
+        let v11 = low11[number] + along_x * x11;
         let (y0, y1) = (v10 - v00, v11 - v01);
         let (v0, v1) = (v00 + along_y * y0, v01 + along_y * y1);
         let (x0, x1) = (x00 + along_y * (x10 - x00), x01 + along_y * (x11 - x01));

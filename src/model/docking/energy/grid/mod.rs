@@ -47,6 +47,8 @@ pub struct Grid {
     low: Point,
     /// The distance of neighbouring points in Å.
     spacing: f64,
+    /// One over it.
+    per: f64,
     /// How many points there are along each axis, at least two.
     counts: [usize; 3],
     lookup: Lookup,
@@ -65,8 +67,11 @@ impl Grid {
     /// If there are not `values_len()` values.
     pub fn energy(&self, values: &[f32], sum: &PairSum, ligand_positions: &[Point]) -> f64 {
         self.check(values);
-        let atoms = ligand_positions.iter().enumerate().take(sum.ligand_atoms());
-        atoms.fold(0.0, |energy, (atom, at)| energy + self.of_atom(values, sum, atom, *at).0)
+        let mut energy = 0.0;
+        for (atom, at) in ligand_positions.iter().enumerate().take(sum.ligand_atoms()) {
+            energy += self.of_atom(values, sum, atom, *at).0;
+        }
+        energy
     }
 
     /// The energy, to the same bits, and its derivative by the position of every atom of the ligand, in kJ/(mol Å), which

@@ -54,7 +54,8 @@ impl Grid {
         let numbers = kinds * lookup.numbers() + usize::from(has_potential);
         let values = counts.iter().fold(numbers, |all, count| all.saturating_mul(*count));
         let is_small = values <= VALUES_MAX;
-        is_small.then_some(Grid { low, spacing, counts, lookup, kinds, has_potential })
+        let per = 1.0 / spacing;
+        is_small.then_some(Grid { low, spacing, per, counts, lookup, kinds, has_potential })
     }
 
     /// How energies are looked up.
@@ -108,7 +109,7 @@ impl Grid {
     pub(super) fn place(&self, at: Point) -> Option<Place> {
         let mut place = Place { point: [0; 3], part: [0.0; 3] };
         for axis in 0..3 {
-            let steps = (at[axis] - self.low[axis]) / self.spacing;
+            let steps = (at[axis] - self.low[axis]) * self.per;
             let last = self.counts[axis] - 1;
             // Written so that NaN fails it.
             if !(steps >= 0.0 && steps <= last as f64) {
@@ -137,7 +138,7 @@ impl Grid {
     #[inline(always)]
     fn map<'a>(&self, values: &'a [f32], before: usize) -> Map<'a> {
         let begin = before * self.plane();
-        Map { values, begin, counts: self.counts, layer: self.layer_len(), per: 1.0 / self.spacing }
+        Map { values, begin, counts: self.counts, layer: self.layer_len(), per: self.per }
     }
 }
 
