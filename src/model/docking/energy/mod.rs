@@ -20,7 +20,7 @@ mod terms;
 #[cfg(test)]
 mod tests;
 
-pub use grid::{Grid, Lookup};
+pub use grid::{Grid, Lookup, SPACING_RANGE, VALUES_MAX, capped};
 pub use ligand::ligand_particles;
 pub use own::OwnTerms;
 pub use parameters::{KCAL, PairCoefficients, VanDerWaals, hydrophobic_radius};
