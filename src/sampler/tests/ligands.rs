@@ -2,7 +2,7 @@
 
 use super::sampler;
 use crate::context::Context;
-use crate::model::{CellLimits, Model, Scratch};
+use crate::model::{CellLimits, Scratch};
 use crate::numbers::Ordinal;
 use crate::problem::Problem;
 use crate::roadmap::Configs;

@@ -26,6 +26,6 @@ pub use own::OwnTerms;
 pub use parameters::{KCAL, PairCoefficients, VanDerWaals, hydrophobic_radius};
 pub use particle::Particle;
 pub use protein::{UnknownElement, protein_particles};
-pub use spec::{CUTOFF_MAX, CUTOFF_MIN, EnergySpec, ParameterSet, SWITCH_WIDTH};
+pub use spec::{CUTOFF_MAX, CUTOFF_MIN, EnergySpec, Own, ParameterSet, SWITCH_WIDTH};
 pub use sum::{AtomKind, PairSum, Parts};
 pub use terms::{COULOMB, HYDROPHOBIC_DEPTH, HYDROPHOBIC_FAR, HYDROPHOBIC_NEAR};
