@@ -5,6 +5,7 @@ mod compare;
 mod examples;
 mod fold;
 mod job;
+mod ligand;
 mod orders;
 mod paths;
 mod problem;
@@ -17,6 +18,10 @@ pub use agent::{AgentArguments, AgentsArguments};
 pub use compare::CompareArguments;
 pub use fold::FoldArguments;
 pub use job::JobArguments;
+pub use ligand::{
+    DockingArguments, Kept, LigandCommand, LigandProblemArguments, Lookup, PoseFormat,
+    PosesArguments, RankArguments, ReceptorArguments, RegionArguments, Samples,
+};
 pub use orders::{FormationArguments, OrdersArguments};
 pub use paths::{FrameFormat, PathsArguments, RankBy, ReportArguments, SearchArguments};
 pub use problem::{Bounds, Dh, Origin, ProblemArguments, Solid, Unit, Up};
@@ -100,6 +105,9 @@ pub enum Command {
     /// Look at structures of proteins
     #[command(subcommand)]
     Protein(ProteinCommand),
+    /// Find where ligands bind to proteins, and how strongly
+    #[command(subcommand)]
+    Ligand(LigandCommand),
     /// Print a script by which a shell completes commands, options and values
     Completions(CompletionsArguments),
     /// Print the manual page, or write one for each command

@@ -76,6 +76,7 @@ fn run(command: cli::Command) -> Result<Code, Failure> {
         cli::Command::Replan(arguments) => commands::replan(&arguments),
         cli::Command::Relax(arguments) => commands::relax(&arguments),
         cli::Command::Protein(command) => commands::protein(&command),
+        cli::Command::Ligand(command) => commands::ligand(&command),
         cli::Command::Completions(arguments) => commands::completions(&arguments),
         cli::Command::Man(arguments) => commands::man(&arguments),
         cli::Command::Worker(arguments) => commands::worker(&arguments),

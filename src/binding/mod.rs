@@ -5,14 +5,18 @@
 //! [`Kendall`] and [`interval`] compare a ranking with measured affinities. All are pure functions of numbers: the same
 //! bits for the same arguments on every machine.
 
+mod affinity;
 mod candidates;
 mod cluster;
 mod kendall;
 mod low;
+mod reference;
 mod way_out;
 
+pub use affinity::Affinity;
 pub use candidates::{Asked, Candidate, Candidates, Exact, Improved, Score, candidates};
 pub use cluster::{Cluster, RADIUS, clusters};
 pub use kendall::{Interval, Kendall, PValue, interval};
 pub use low::Low;
+pub use reference::{Comparison, Found, Reference, SAME_POSE};
 pub use way_out::WayOut;

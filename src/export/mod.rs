@@ -58,7 +58,7 @@ pub use npz::npz;
 pub use page::{Live, NamedPath, Viewer, animation};
 pub use parasol::{parasol_map, parasol_path};
 pub use path_csv::path_csv;
-pub use pdb::pdb;
+pub use pdb::{pdb, structure_pdb};
 pub use poses::{Minimum, PosesPage, ShownPose, WayFrame, poses_page};
 pub use pymol::pymol;
 pub use report::{

@@ -55,6 +55,14 @@ pub fn pdb<'a>(
     text(configs.map(|q| molecule.chains_at(q)))
 }
 
+/// A structure as a PDB file with one model, its chains lettered from A on, in Å.
+///
+/// # Errors
+/// Says what does not fit into the columns of the format.
+pub fn structure_pdb(chains: Vec<Vec<Residue>>) -> Result<String, CannotExport> {
+    text(std::iter::once(chains))
+}
+
 /// The text of a file with these models, each a list of chains.
 fn text(models: impl Iterator<Item = Vec<Vec<Residue>>>) -> Result<String, CannotExport> {
     let mut out = String::new();

@@ -209,6 +209,50 @@ const EXAMPLES: &[(&[&str], &[Example])] = &[
             "roadmill man --out ~/.local/share/man/man1",
         )],
     ),
+    (
+        &["ligand"],
+        &[(
+            "Where benzamidine binds to trypsin, as a problem for `build`",
+            "roadmill ligand problem 3PTB.pdb --ligand 3PTB_BEN.sdf --out trypsin.toml",
+        )],
+    ),
+    (
+        &["ligand", "problem"],
+        &[
+            (
+                "A ligand that stands in the protein's own file, anywhere at the protein",
+                "roadmill ligand problem 4DFR.pdb --ligand MTX --chain B --chains B --out dhfr.toml",
+            ),
+            (
+                "In a box about its given pose",
+                "roadmill ligand problem 1STP.pdb --ligand BTN --box-around-ligand --out biotin.toml",
+            ),
+            (
+                "With poses that may be near one, and charges",
+                "roadmill ligand problem 3PTB.pdb --ligand 3PTB_BEN.sdf --hints guesses.sdf --dielectric 4 --out trypsin.toml",
+            ),
+        ],
+    ),
+    (
+        &["ligand", "poses"],
+        &[
+            (
+                "Twenty poses, as a table and as files",
+                "roadmill ligand poses runs/trypsin --count 20 --format sdf,pdb,csv --out trypsin-poses",
+            ),
+            (
+                "Beside a known pose, as a page",
+                "roadmill ligand poses runs/trypsin --reference 3PTB_BEN.sdf --page trypsin.html",
+            ),
+        ],
+    ),
+    (
+        &["ligand", "rank"],
+        &[(
+            "Ligands of thrombin beside what was measured",
+            "roadmill ligand rank thrombin.pdb ligands.sdf --measured ki.csv --out runs/rank --workers 2",
+        )],
+    ),
     (&["protein"], &[("What a file holds", "roadmill protein info 1CLL.pdb")]),
     (
         &["protein", "info"],

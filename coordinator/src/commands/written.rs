@@ -83,7 +83,7 @@ const STRUCTURES: Companions = Companions { suffix: "structures", extension: "ci
 impl Companions {
     fn of(problem: &Problem) -> Companions {
         match problem.model() {
-            ModelKind::Protein(_) => STRUCTURES,
+            ModelKind::Protein(_) | ModelKind::Docking(_) => STRUCTURES,
             _ => MESHES,
         }
     }

@@ -14,6 +14,7 @@ mod ligand_in_energy;
 mod low_cells;
 mod motion;
 mod near;
+mod placed;
 mod receptor;
 mod resolve;
 mod sound;
@@ -88,6 +89,11 @@ impl Docking {
     /// Least and largest position of the ligand's centre, Å.
     pub fn bounds(&self) -> [[f64; 3]; 2] {
         self.bounds
+    }
+
+    /// Which terms the energy has.
+    pub fn energy(&self) -> &EnergySpec {
+        &self.energy
     }
 
     /// The highest energy that is valid, kJ/mol.

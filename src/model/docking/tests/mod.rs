@@ -3,6 +3,7 @@
 mod files;
 mod model;
 mod pieces;
+mod placed;
 mod policies;
 
 use super::Docking;
