@@ -3,7 +3,7 @@
 use super::Asked;
 use super::complexes::chosen;
 use super::rows::median;
-use super::run::run as build;
+use super::run::{parse, run as build};
 
 const HEAD: &str = "complex,generator,seed,rmsd,rmsd_rotated,cpu_s,rank,nodes";
 
@@ -28,11 +28,12 @@ pub fn run(mut asked: Asked) {
                 "{}{table}\n[limits]\nnodes = {nodes}\n[[strategies]]\nlabel = \"only\"\nnodes = 100\n{strategy}\n",
                 complex.table(false),
             );
+            let problem = parse(&text);
             let mut runs = Vec::new();
             for seed in asked.seeds.clone() {
                 let key = format!("{},{},{seed}", complex.name, name.replace(", ", " "));
                 let rows = asked.rows.of(HEAD, &key, || {
-                    let run = build(&text, seed);
+                    let run = build(&problem, seed);
                     let rotated =
                         run.improved.iter().map(|pose| pose.rotated).fold(f64::INFINITY, f64::min);
                     let (seconds, nodes) = (run.seconds[0], run.nodes as f64);

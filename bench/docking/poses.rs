@@ -3,7 +3,7 @@
 use super::Asked;
 use super::complexes::chosen;
 use super::rows::median;
-use super::run::{Run, STRATEGIES, run as build};
+use super::run::{Run, run as build, usual};
 
 /// The columns: what a run is, then a pose of it. Pose 0 is the known one, descended, with its RMSD to what it was; pose −1 has the least
 /// RMSD of all milestones and minima.
@@ -14,14 +14,14 @@ const NEAR: f64 = 2.0;
 
 pub fn run_all(asked: &mut Asked) -> Vec<(String, &'static str, Vec<Vec<Vec<f64>>>)> {
     let mut all = Vec::new();
-    for (mode, is_boxed, nodes) in [("boxed", true, 4000), ("blind", false, 8000)] {
+    for (mode, is_boxed, nodes) in [("boxed", true, 8000), ("blind", false, 20_000)] {
         for complex in chosen(&asked.complexes) {
             let nodes = asked.nodes.unwrap_or(nodes);
-            let text = format!("{}\n[limits]\nnodes = {nodes}\n{STRATEGIES}", complex.table(is_boxed));
+            let problem = usual(&complex.table(is_boxed), nodes);
             let mut runs = Vec::new();
             for seed in asked.seeds.clone() {
                 let key = format!("{},{mode},{seed}", complex.name);
-                let rows = asked.rows.of(HEAD, &key, || rows_of(&build(&text, seed)));
+                let rows = asked.rows.of(HEAD, &key, || rows_of(&build(&problem, seed)));
                 runs.push(rows);
             }
             all.push((complex.name.to_owned(), mode, runs));

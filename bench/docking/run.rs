@@ -4,8 +4,8 @@ use roadmill::binding::{Asked, Candidates, Exact, candidates};
 use roadmill::img::{Setup, build};
 use roadmill::ligand::Symmetries;
 use roadmill::model::docking::Docking;
-use roadmill::model::{ModelKind, Scratch};
-use roadmill::problem::Problem;
+use roadmill::model::{ModelKind, ModelSpec, Scratch};
+use roadmill::problem::{PoseSearch, Problem, docking as poses_of};
 use roadmill::structure::Point;
 use roadmill::Cancel;
 use std::path::Path;
@@ -40,23 +40,23 @@ pub struct Pose {
     pub rotated: f64,
 }
 
-/// The strategies of the problem that `roadmill ligand problem` makes.
-pub const STRATEGIES: &str = r#"
-[[strategies]]
-label = "cells"
-nodes = 100
-generator = { minima = { sampler = { low-energy-cells = {} } } }
-
-[[strategies]]
-label = "surface"
-nodes = 100
-generator = { minima = { sampler = { protein-surface = {} } } }
-"#;
-
-/// Builds the problem of a text, and compares.
-pub fn run(text: &str, seed: u64) -> Run {
+/// The problem of a text.
+pub fn parse(text: &str) -> Problem {
     let problem = Problem::parse(Path::new("complex.toml"), text);
-    let problem = problem.unwrap_or_else(|error| panic!("{error}\n{text}")).with_seed(seed);
+    problem.unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// The problem that `roadmill ligand problem` makes of this table `[docking]`.
+pub fn usual(table: &str, nodes: u64) -> Problem {
+    let ModelSpec::Docking(spec) = parse(table).model().to_spec() else { panic!("docking expected") };
+    let search = PoseSearch { nodes: Some(nodes), ..PoseSearch::default() };
+    let problem = poses_of("complex", Path::new(""), &spec, &search);
+    problem.unwrap_or_else(|error| panic!("{error}\n{table}"))
+}
+
+/// Builds a problem with a seed, and compares.
+pub fn run(problem: &Problem, seed: u64) -> Run {
+    let problem = problem.clone().with_seed(seed);
     let ModelKind::Docking(docking) = problem.model() else { panic!("docking expected") };
     let docking: Docking = docking.clone();
     let begun = cpu();
