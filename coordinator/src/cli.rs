@@ -19,7 +19,7 @@ pub use compare::CompareArguments;
 pub use fold::FoldArguments;
 pub use job::JobArguments;
 pub use ligand::{
-    DockingArguments, Kept, LigandCommand, LigandProblemArguments, Lookup, PoseFormat,
+    DockingArguments, Kept, LigandCommand, LigandProblemArguments, Lookup, OwnTerms, PoseFormat,
     PosesArguments, RankArguments, ReceptorArguments, RegionArguments, Samples,
 };
 pub use orders::{FormationArguments, OrdersArguments};

@@ -116,14 +116,14 @@ pub struct DockingArguments {
     /// Take the 12-6 terms of the Universal Force Field [default: AutoDock 4.1's]
     #[arg(long)]
     pub uff: bool,
-    /// Leave the terms among the ligand's own atoms out
-    #[arg(long)]
-    pub no_own: bool,
+    /// How the ligand's own atoms act upon one another
+    #[arg(long, value_enum, default_value_t = OwnTerms::Repulsion)]
+    pub own: OwnTerms,
     /// The distance from which on atoms do not act upon one another, Å [default: 12]
     #[arg(long, value_name = "LENGTH")]
     pub cutoff: Option<f64>,
     /// How the energy is looked up while the roadmap grows; poses are computed by exact sums in any case
-    #[arg(long, value_enum, default_value_t = Lookup::Roots)]
+    #[arg(long, value_enum, default_value_t = Lookup::Reciprocal)]
     pub grid: Lookup,
     /// The distance of neighbouring points of the grid, Å [default: 0.375]
     #[arg(long, value_name = "LENGTH")]
@@ -133,12 +133,25 @@ pub struct DockingArguments {
     pub highest: Option<f64>,
 }
 
+/// How the ligand's own atoms act upon one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum OwnTerms {
+    /// Not at all: the ligand may pass through itself
+    None,
+    /// They repel one another
+    Repulsion,
+    /// By all terms, as in vacuum
+    Whole,
+}
+
 /// How an energy is looked up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Lookup {
-    /// Between the eight points around, repulsion and attraction each by a root
-    Roots,
-    /// Between the eight points around
+    /// Between the eight points around, linearly in reciprocal roots of repulsion and attraction
+    Reciprocal,
+    /// These by splines between the 64 points around
+    Tricubic,
+    /// Between the eight points around, linearly in energies
     Trilinear,
     /// At the nearest point
     Nearest,

@@ -29,7 +29,7 @@ pub(super) fn ways(page: &PosesPage) -> String {
         let points: Vec<[f64; 2]> =
             pose.way_out.iter().map(|frame| [frame.along, frame.energy]).collect();
         let of = |axis: usize| points.iter().map(move |point| point[axis]);
-        let about = format!("energy along the way out of {}", pose.label);
+        let about = format!("Energy along the way out of {}", pose.label);
         let axes = ["way, Å", "energy, kJ/mol"].map(str::to_owned);
         let mut frame = Frame::new(&about, &axes, Axis::over(of(0)), Axis::over(of(1)), WIDE);
         let colour = colour(pose.cluster);
@@ -104,14 +104,6 @@ fn funnel(page: &PosesPage) -> String {
         write!(cloud, "M{x:.1} {y:.1}h0").expect("writing to memory cannot fail");
     }
     frame.put(format_args!("<path class=\"cloud\" d=\"{cloud}\"/>"));
-    if has_rmsd && let Some(energy) = page.reference_energy.filter(|energy| energy.is_finite()) {
-        let [x, y] = frame.place([0.0, energy]);
-        frame.put(format_args!(
-            "<path class=\"mark\" d=\"M{:.1} {y:.1}h10M{x:.1} {:.1}v10\"><title>the reference: {energy:.1} kJ/mol</title></path>",
-            x - 5.0,
-            y - 5.0
-        ));
-    }
     // The best pose is drawn last, above the others.
     let mut shown: Vec<([f64; 2], usize)> =
         points.iter().filter_map(|(point, pose)| Some((*point, (*pose)?))).collect();
@@ -123,6 +115,14 @@ fn funnel(page: &PosesPage) -> String {
             "<circle class=\"pose\" data-pose=\"{number}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5.5\" fill=\"{}\"><title>{}</title></circle>",
             colour(pose.cluster),
             escaped(&pose.label)
+        ));
+    }
+    if has_rmsd && let Some(energy) = page.reference_energy.filter(|energy| energy.is_finite()) {
+        let [x, y] = frame.place([0.0, energy]);
+        frame.put(format_args!(
+            "<path class=\"mark\" d=\"M{:.1} {y:.1}h10M{x:.1} {:.1}v10\"><title>the reference: {energy:.1} kJ/mol</title></path>",
+            x - 5.0,
+            y - 5.0
         ));
     }
     let mut note =

@@ -45,7 +45,7 @@ fn way(pose: &ShownPose) -> String {
     let told: Vec<String> = (pose.way_out.iter())
         .map(|frame| {
             let text = |value: f64| match value.is_finite() {
-                true => quoted(&format!("{value:.1}")),
+                true => quoted(&format!("{value:.1}").replace('-', "\u{2212}")),
                 false => quoted("unknown"),
             };
             format!("[{},{}]", text(frame.along), text(frame.energy))

@@ -70,11 +70,11 @@ fn data(page: &str) -> &str {
 fn every_pose_has_its_row_its_point_and_its_way() {
     let poses = [pose("one", 0, 3), pose("two", 1, 0), pose("three", 0, 2)];
     let page = page(&poses, None);
-    for number in 0..3 {
+    for (number, pose) in poses.iter().enumerate() {
         assert_eq!(page.matches(&format!("<tr data-pose=\"{number}\"")).count(), 1);
         assert_eq!(page.matches(&format!("class=\"pose\" data-pose=\"{number}\"")).count(), 1);
         let ways = page.matches(&format!("class=\"way\" data-pose=\"{number}\"")).count();
-        assert_eq!(ways, usize::from(!poses[number].way_out.is_empty()));
+        assert_eq!(ways, usize::from(!pose.way_out.is_empty()));
     }
     // As many places of the cursor as frames.
     let (_, places) = page.split_once("data-places=\"").unwrap();

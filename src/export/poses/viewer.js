@@ -56,7 +56,14 @@
   // The page's policy forbids threads.
   if (viewer) $3Dmol.setSyncSurface(true);
 
-  const protein = viewer?.addModel(data.protein, "pdb");
+  // Modified residues are part of the chain, and of its ribbon: those that have the backbone's atoms.
+  const lines = data.protein.split("\n");
+  const residueOf = (line) => line.slice(17, 27);
+  const residuesWith = (name) => new Set(lines.filter((line) => line.slice(12, 16) === name).map(residueOf));
+  const backbone = [" N  ", " CA ", " C  "].map(residuesWith);
+  const asChain = (line) =>
+    line.startsWith("HETATM") && backbone.every((residues) => residues.has(residueOf(line))) ? "ATOM  " + line.slice(6) : line;
+  const protein = viewer?.addModel(lines.map(asChain).join("\n"), "pdb");
   const models = viewer ? data.poses.map((pose) => viewer.addModel(pose.sdf, "sdf")) : [];
   const reference = viewer && data.reference !== null ? viewer.addModel(data.reference, "sdf") : null;
   element("has-reference").hidden = data.reference === null;
@@ -84,7 +91,7 @@
   const drawProtein = () => {
     const kind = element("protein").value;
     protein.setStyle({}, {});
-    const ribbon = { color: "#c6ccd2", opacity: 0.9, ...(kind === "trace" ? { style: "trace" } : { arrows: true }) };
+    const ribbon = { color: "#dfe4e8", opacity: 0.8, ...(kind === "trace" ? { style: "trace" } : { arrows: true, thickness: 0.25 }) };
     if (kind !== "none") protein.setStyle({ hetflag: false }, { cartoon: ribbon });
     protein.setStyle({ ...isMetal, not: { resn: waters } }, { sphere: { scale: 0.35 } });
     if (surface !== null) viewer.removeSurface(surface);
@@ -94,7 +101,7 @@
     const select = { serial: near(4.5), hetflag: false };
     if (select.serial.length === 0) return;
     // Hydrogens of the protein would hide the ligand.
-    protein.setStyle({ ...select, not: { elem: "H" } }, { ...(kind === "none" ? {} : { cartoon: ribbon }), ...sticks("#8f979e", 0.09, 1) });
+    protein.setStyle({ ...select, not: { elem: "H" } }, { ...(kind === "none" ? {} : { cartoon: ribbon }), ...sticks("#aab2b8", 0.11, 1) });
     if (pocket === "surface") {
       const wide = { serial: near(7), hetflag: false, model: protein };
       const made = viewer.addSurface($3Dmol.SurfaceType.VDW, { color: "#d5dade", opacity: 0.72 }, { ...select, model: protein }, wide);
@@ -108,8 +115,11 @@
     const hasOthers = element("others").checked;
     models.forEach((model, pose) => {
       const { colour } = data.poses[pose];
-      if (pose === chosen) model.setStyle({}, sticks(colour, 0.2, 1));
-      else model.setStyle({}, hasOthers ? sticks(colour, 0.06, 1) : {});
+      if (pose === chosen) model.setStyle({}, sticks(colour, 0.22, 1));
+      else {
+        model.setStyle({}, {});
+        if (hasOthers) model.setStyle({ not: { elem: "H" } }, sticks(colour, 0.06, 1));
+      }
     });
     reference?.setStyle({}, element("reference").checked ? sticks("#5d646b", 0.1, 1) : {});
   };
@@ -151,11 +161,36 @@
     drawPoses();
     viewer.render();
   };
+  // Looks at the pose from where its way leads or, without one, from outside of the protein, a little from the side.
+  const middleOf = (places) =>
+    [0, 1, 2].map((axis) => places.reduce((sum, place) => sum + place[axis], 0) / Math.max(1, places.length));
   const centre = () => {
     if (!viewer) return;
     const serial = near(4.5);
     viewer.zoomTo(serial.length > 0 ? { model: protein, serial, hetflag: false } : { model: models[chosen] });
-    viewer.zoom(1.25);
+    viewer.zoom(1.3);
+    const here = middleOf(home[chosen]);
+    const frames = framesOf(chosen);
+    let there = null;
+    if (frames > 1) {
+      const numbers = [...coordinates(chosen).slice(3 * home[chosen].length * (frames - 1))];
+      const last = [0, 1, 2].map((axis) => numbers.filter((_, at) => at % 3 === axis));
+      there = last.map((values) => (values.reduce((sum, value) => sum + value, 0) * data.poses[chosen].unit) / Math.max(1, values.length));
+    } else {
+      const inside = middleOf(placesOf(protein));
+      there = here.map((value, axis) => 2 * value - inside[axis]);
+    }
+    const unit = (vector) => {
+      const length = Math.hypot(...vector);
+      return length > 0 ? vector.map((value) => value / length) : [0, 0, 1];
+    };
+    const [from, to] = [unit(there.map((value, axis) => value - here[axis])), unit([0.45, 0.4, 0.8])];
+    // The quaternion of the shortest rotation of one direction to the other; opposite ones have none of their own.
+    const dot = from[0] * to[0] + from[1] * to[1] + from[2] * to[2];
+    const cross = [0, 1, 2].map((axis) => from[(axis + 1) % 3] * to[(axis + 2) % 3] - from[(axis + 2) % 3] * to[(axis + 1) % 3]);
+    const length = Math.hypot(...cross, 1 + dot);
+    const turn = length > 1e-6 ? [...cross, 1 + dot].map((value) => value / length) : [0, 1, 0, 0];
+    viewer.setView([...viewer.getView().slice(0, 4), ...turn]);
   };
 
   const pause = () => {

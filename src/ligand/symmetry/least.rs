@@ -128,8 +128,8 @@ impl<'a> Search<'a> {
 /// For every block those to which a symmetry may take it, in rising order.
 pub(super) fn images(tree: &Tree) -> Images {
     let mut images: Images = vec![Vec::new(); tree.blocks.len()];
-    for block in 0..tree.middle {
-        images[block] = if tree.can_swap() { vec![0, 1] } else { vec![block] };
+    for (block, images) in images.iter_mut().enumerate().take(tree.middle) {
+        *images = if tree.can_swap() { vec![0, 1] } else { vec![block] };
     }
     // From the middle to the leaves: blocks come after that on which they hang.
     for from in 0..tree.blocks.len() {

@@ -131,19 +131,23 @@ impl Symmetries {
         if let Some(listed) = &self.listed {
             return listed.iter().map(|to| shape(to).rmsd).fold(f64::INFINITY, f64::min);
         }
-        let mut least = f64::INFINITY;
-        let mut to: Vec<usize> = (0..self.atoms).collect();
-        for _ in 0..ROUNDS_MAX {
-            let motion = shape(&to);
-            // Not a number is not less than anything.
-            if least.is_finite() && !(motion.rmsd < least) {
-                break;
+        // From the best symmetry in place, so that the bound is never above `rmsd`, and from the identity.
+        let itself: Vec<usize> = (0..self.atoms).collect();
+        let starts = [least::symmetry(&self.tree, &self.images, a, b), itself];
+        let ends = starts.map(|start| {
+            let mut best = shape(&start);
+            for _ in 0..ROUNDS_MAX {
+                let moved: Vec<Point> = a.iter().map(|point| best.apply(point)).collect();
+                let next = shape(&least::symmetry(&self.tree, &self.images, &moved, b));
+                if next.rmsd < best.rmsd {
+                    best = next;
+                } else {
+                    break;
+                }
             }
-            least = motion.rmsd;
-            let moved: Vec<Point> = a.iter().map(|point| motion.apply(point)).collect();
-            to = least::symmetry(&self.tree, &self.images, &moved, b);
-        }
-        least
+            best.rmsd
+        });
+        ends[0].min(ends[1])
     }
 
     fn fits(&self, a: &[Point], b: &[Point]) -> bool {

@@ -43,8 +43,8 @@ const UNKNOWN: &str = "bonds_of_unknown_order";
 /// have four decimals.
 ///
 /// Bonds of unknown order are written as single, and a data item `bonds_of_unknown_order` lists them by their numbers from
-/// 1 on. The format's query types (`any` is 8) would be more honest, but RDKit makes a query of a molecule with such a bond, which then has
-/// no valences, and other programs draw eight lines or none.
+/// 1 on. The format's query type `any`, 8, would be more honest, but few programs take it: RDKit 2026.09 makes a query of the
+/// bond, Open Babel 3.1 leaves open valences at its atoms, and PyMOL 3.2 takes it for a bond of order 8.
 ///
 /// # Errors
 /// Not as many positions as atoms, one that is not finite or too far away, a charge that the format does not have.

@@ -1,6 +1,6 @@
 //! What `check` says of docking.
 
-use super::energy::{EnergySpec, ParameterSet};
+use super::energy::{EnergySpec, Own, ParameterSet};
 use super::exposed::exposed;
 use super::{Docking, EnergyLookup};
 use crate::model::Description;
@@ -57,13 +57,21 @@ pub(super) fn describe(docking: &Docking, out: &mut String) -> Result {
     let mut terms = vec![format!("12-6 terms of {set} up to {cutoff} Å")];
     terms.extend(dielectric.map(|factor| format!("Coulomb terms with a dielectric of {factor} r")));
     terms.extend(hydrophobic.then(|| "hydrophobic terms of AutoDock Vina".to_owned()));
-    terms.push(if *own { "the ligand's own" } else { "without the ligand's own" }.to_owned());
+    terms.push(
+        match own {
+            Own::None => "none within the ligand",
+            Own::Repulsion => "repulsion within the ligand",
+            Own::Whole => "the same within the ligand",
+        }
+        .to_owned(),
+    );
     writeln!(out, "energy           kJ/mol; {}; up to {highest} is valid", terms.join(", "))?;
     let lookup = match grid.lookup {
         EnergyLookup::Exact => "no grid: exact sums".to_owned(),
         EnergyLookup::Nearest => format!("the nearest point of a grid of {} Å", grid.spacing),
         EnergyLookup::Trilinear => format!("trilinear in a grid of {} Å", grid.spacing),
-        EnergyLookup::Roots => format!("trilinear by roots in a grid of {} Å", grid.spacing),
+        EnergyLookup::Reciprocal => format!("linear of reciprocals in a grid of {} Å", grid.spacing),
+        EnergyLookup::Tricubic => format!("splines of reciprocals in a grid of {} Å", grid.spacing),
     };
     writeln!(out, "looked up        {lookup}")?;
     writeln!(out, "motions          an energy wherever an atom has moved by {step} Å at most")?;

@@ -1,6 +1,6 @@
 //! How the energy of the protein's field is looked up, and where the numbers of its grid are.
 
-use super::energy::{Grid, Lookup, PairSum};
+use super::energy::{Grid, Lookup, PairSum, SPACING_RANGE, VALUES_MAX};
 use crate::shelf::{self, Block, BlockName, Shelf};
 use crate::structure::Point;
 use bincode::{Decode, Encode};
@@ -25,11 +25,13 @@ pub enum EnergyLookup {
     Exact,
     /// That of the nearest point of the grid (Bayazit 2003, chapter V B, with points 0.5 Å apart).
     Nearest,
-    /// Between the eight points around, each coordinate in a straight line.
+    /// Energies between the eight points around, linearly along each axis, as AutoDock does.
     Trilinear,
-    /// Between the eight points around, repulsion and attraction each by a root that is nearly linear near an atom.
+    /// The same of reciprocal roots of repulsion and attraction, which bend far less beside an atom than energies do.
     #[default]
-    Roots,
+    Reciprocal,
+    /// These reciprocals by splines between the 64 points around.
+    Tricubic,
 }
 
 impl Default for GridSpec {
@@ -38,21 +40,13 @@ impl Default for GridSpec {
     }
 }
 
-/// The finest grid, Å.
-const SPACING_MIN: f64 = 0.05;
-/// The coarsest grid, Å.
-const SPACING_MAX: f64 = 2.0;
-/// The most numbers of a grid: 4 GiB.
-const VALUES_MAX: usize = 1 << 30;
-
 impl GridSpec {
     /// What is wrong with it, if anything: what was found and what is expected.
     pub fn complaint(&self) -> Option<String> {
+        let [least, most] = SPACING_RANGE;
         // Written so that NaN fails it.
-        let fits = (SPACING_MIN..=SPACING_MAX).contains(&self.spacing);
-        (!fits).then(|| {
-            format!("spacing {} found; {SPACING_MIN} to {SPACING_MAX} Å expected", self.spacing)
-        })
+        let fits = (least..=most).contains(&self.spacing);
+        (!fits).then(|| format!("spacing {} found; {least} to {most} Å expected", self.spacing))
     }
 }
 
@@ -68,23 +62,23 @@ pub(super) struct Field {
 
 impl Field {
     /// The field within a box, given by its least and largest corner.
-    pub fn new(sum: PairSum, corners: [Point; 2], spec: GridSpec) -> Field {
+    ///
+    /// # Errors
+    /// The grid would have too many numbers: what was found and what is expected.
+    pub fn new(sum: PairSum, corners: [Point; 2], spec: GridSpec) -> Result<Field, String> {
         let lookup = match spec.lookup {
             EnergyLookup::Nearest => Lookup::Nearest,
             EnergyLookup::Trilinear => Lookup::Trilinear,
-            EnergyLookup::Roots | EnergyLookup::Exact => Lookup::Roots,
+            EnergyLookup::Reciprocal | EnergyLookup::Exact => Lookup::Reciprocal,
+            EnergyLookup::Tricubic => Lookup::Tricubic,
         };
-        let grid = Grid::new(&sum, corners, spec.spacing, lookup);
+        let Some(grid) = Grid::new(&sum, corners, spec.spacing, lookup) else {
+            return Err(format!(
+                "a grid of more than {VALUES_MAX} numbers found; fewer expected, by a smaller box or a larger spacing"
+            ));
+        };
         let is_exact = spec.lookup == EnergyLookup::Exact;
-        Field { sum, grid, is_exact, values: OnceLock::new(), shelf: OnceLock::new() }
-    }
-
-    /// Whether the grid has no more numbers than are taken: what was found and what is expected.
-    pub fn complaint(&self) -> Option<String> {
-        let found = self.grid.values_len();
-        (found > VALUES_MAX).then(|| {
-            format!("a grid of {found} numbers found; at most {VALUES_MAX} expected, by a smaller box or a larger spacing")
-        })
+        Ok(Field { sum, grid, is_exact, values: OnceLock::new(), shelf: OnceLock::new() })
     }
 
     /// The exact sum.

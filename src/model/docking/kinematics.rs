@@ -7,7 +7,6 @@
 use crate::ligand::{Ligand, LinkRule, RigidTree};
 use crate::math;
 use crate::structure::Point;
-use nalgebra::Matrix3;
 
 /// The configuration's values before its angles: a position and a quaternion.
 pub(super) const BASE: usize = 7;
@@ -43,7 +42,7 @@ struct Link {
 /// The place of a rigid piece: a point p of the given shape is at `turn * p + shift`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement {
-    turn: Matrix3<f64>,
+    turn: Rotation,
     shift: Point,
 }
 
@@ -144,7 +143,7 @@ impl Linkage {
 
     /// Places the pieces at a configuration.
     pub fn place_pieces(&self, q: &[f64], pieces: &mut Vec<Placement>) {
-        let turn = rotation([q[3], q[4], q[5], q[6]]);
+        let turn = Rotation::of_quaternion([q[3], q[4], q[5], q[6]]);
         pieces.clear();
         pieces.push(Placement { turn, shift: Point::new(q[0], q[1], q[2]) });
         for (link, angle) in self.links.iter().zip(&q[BASE..]) {
@@ -156,7 +155,7 @@ impl Linkage {
     /// The positions of a piece's atoms, written to `out` by the numbers of the atoms, Å.
     pub fn place_atoms(&self, piece: usize, placed: &Placement, out: &mut [Point]) {
         for atom in &self.pieces[piece] {
-            out[*atom] = placed.turn * self.shape[*atom] + placed.shift;
+            out[*atom] = placed.turn.of(&self.shape[*atom]) + placed.shift;
         }
     }
 
@@ -192,14 +191,15 @@ impl Linkage {
         for (number, link) in self.links.iter().enumerate().rev() {
             let [force, torque] = sums[number + 1];
             let parent = &pieces[link.parent];
-            let (axis, point) = (parent.turn * link.axis, parent.turn * link.point + parent.shift);
+            let axis = parent.turn.of(&link.axis);
+            let point = parent.turn.of(&link.point) + parent.shift;
             out[6 + number] = axis.dot(&(torque - point.cross(&force)));
             let [of_parent, torque_of_parent] = &mut sums[link.parent];
             *of_parent += force;
             *torque_of_parent += torque;
         }
         let ([force, torque], base) = (sums[0], &pieces[0]);
-        let turning = base.turn.transpose() * (torque - base.shift.cross(&force));
+        let turning = base.turn.back(&(torque - base.shift.cross(&force)));
         for axis in 0..3 {
             out[axis] = force[axis];
             out[3 + axis] = turning[axis];
@@ -217,19 +217,13 @@ impl Placement {
         let ([x, y, z], point): ([f64; 3], _) = (link.axis.into(), link.point);
         // Rodrigues' formula.
         let rest = 1.0 - cos;
-        let turn = Matrix3::new(
-            cos + x * x * rest,
-            x * y * rest - z * sin,
-            x * z * rest + y * sin,
-            y * x * rest + z * sin,
-            cos + y * y * rest,
-            y * z * rest - x * sin,
-            z * x * rest - y * sin,
-            z * y * rest + x * sin,
-            cos + z * z * rest,
-        );
-        let shift = self.turn * (point - turn * point) + self.shift;
-        Placement { turn: self.turn * turn, shift }
+        let turn = Rotation([
+            [cos + x * x * rest, x * y * rest - z * sin, x * z * rest + y * sin],
+            [y * x * rest + z * sin, cos + y * y * rest, y * z * rest - x * sin],
+            [z * x * rest - y * sin, z * y * rest + x * sin, cos + z * z * rest],
+        ]);
+        let shift = self.turn.of(&(point - turn.of(&point))) + self.shift;
+        Placement { turn: self.turn.after(&turn), shift }
     }
 }
 
@@ -258,17 +252,56 @@ fn ways_along_bonds(ligand: &Ligand, shape: &[Point], from: usize) -> Vec<f64> {
     ways
 }
 
-/// The matrix of a unit quaternion w x y z.
-fn rotation([w, x, y, z]: [f64; 4]) -> Matrix3<f64> {
-    Matrix3::new(
-        1.0 - 2.0 * (y * y + z * z),
-        2.0 * (x * y - w * z),
-        2.0 * (x * z + w * y),
-        2.0 * (x * y + w * z),
-        1.0 - 2.0 * (x * x + z * z),
-        2.0 * (y * z - w * x),
-        2.0 * (x * z - w * y),
-        2.0 * (y * z + w * x),
-        1.0 - 2.0 * (x * x + y * y),
-    )
+/// A rotation as a matrix, row by row. The products are written out: they are most of what placing atoms takes.
+#[derive(Clone, Copy, Debug)]
+struct Rotation([[f64; 3]; 3]);
+
+impl Rotation {
+    /// That of a unit quaternion w x y z.
+    fn of_quaternion([w, x, y, z]: [f64; 4]) -> Rotation {
+        Rotation([
+            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+        ])
+    }
+
+    /// A vector, rotated.
+    #[inline]
+    fn of(&self, vector: &Point) -> Point {
+        let [a, b, c] = &self.0;
+        let (x, y, z) = (vector.x, vector.y, vector.z);
+        Point::new(
+            a[0] * x + a[1] * y + a[2] * z,
+            b[0] * x + b[1] * y + b[2] * z,
+            c[0] * x + c[1] * y + c[2] * z,
+        )
+    }
+
+    /// A vector, rotated the other way.
+    #[inline]
+    fn back(&self, vector: &Point) -> Point {
+        let [a, b, c] = &self.0;
+        let (x, y, z) = (vector.x, vector.y, vector.z);
+        Point::new(
+            a[0] * x + b[0] * y + c[0] * z,
+            a[1] * x + b[1] * y + c[1] * z,
+            a[2] * x + b[2] * y + c[2] * z,
+        )
+    }
+
+    /// This rotation after another one.
+    #[inline]
+    fn after(&self, first: &Rotation) -> Rotation {
+        let [p, q, r] = &first.0;
+        let row = |of: &[f64; 3]| {
+            [
+                of[0] * p[0] + of[1] * q[0] + of[2] * r[0],
+                of[0] * p[1] + of[1] * q[1] + of[2] * r[1],
+                of[0] * p[2] + of[1] * q[2] + of[2] * r[2],
+            ]
+        };
+        let [a, b, c] = &self.0;
+        Rotation([row(a), row(b), row(c)])
+    }
 }

@@ -1,11 +1,11 @@
 //! The model: a ligand in the energy of a protein and its own.
 
-use super::energy::{OwnTerms, PairSum, ligand_particles, protein_particles};
+use super::energy::{OwnTerms, PairSum, capped, ligand_particles, protein_particles};
 use super::exposed::exposed;
 use super::grid::Field;
 use super::kinematics::{BASE, Linkage, Placement};
 use super::low_cells::low_cells;
-use super::motion::{cost, steps};
+use super::motion::{Between, cost, steps};
 use super::near::NearAtoms;
 use super::{Docking, ENERGY, StillChain, space_of};
 use crate::ligand::Ligand;
@@ -46,7 +46,7 @@ struct DockingScratch {
     positions: Vec<Point>,
     by_atoms: Vec<Point>,
     sums: Vec<[Point; 2]>,
-    between: Vec<f64>,
+    between: Between,
 }
 
 impl ModelScratch for DockingScratch {
@@ -57,13 +57,16 @@ impl ModelScratch for DockingScratch {
         self.positions = vec![Point::new(number, -number, f64::NAN); many];
         self.by_atoms = vec![Point::new(f64::INFINITY, number, number); many];
         self.sums = vec![[Point::new(number, number, number); 2]; many % 7];
-        self.between = vec![number; many % 5];
+        self.between = Between { q: vec![number; many % 5], energies: vec![-number; many] };
     }
 }
 
 impl LigandInEnergy {
-    /// Prepares the model of a sound description.
-    pub fn of(docking: &Docking) -> LigandInEnergy {
+    /// Prepares the model of a description that is sound but for its grid.
+    ///
+    /// # Errors
+    /// What is wrong with the grid: what was found and what is expected.
+    pub fn of(docking: &Docking) -> Result<LigandInEnergy, String> {
         let Docking { chains, ligand, bounds, energy, grid, highest, step, .. } = docking;
         let linkage = docking.linkage();
         let space = space_of(&linkage, *bounds);
@@ -78,10 +81,10 @@ impl LigandInEnergy {
         // The grid holds every atom of the ligand in its given shape, wherever its centre is; atoms beyond get their exact sums.
         let reach = Point::from([linkage.radius(); 3]);
         let corners = [Point::from(bounds[0]) - reach, Point::from(bounds[1]) + reach];
-        let pairs = if energy.own { pairs_apart(ligand, &linkage) } else { Vec::new() };
+        let pairs = pairs_apart(ligand, &linkage);
         let given = Some(linkage.given()).filter(|given| space.within_bounds(given));
-        LigandInEnergy {
-            field: Field::new(sum, corners, *grid),
+        Ok(LigandInEnergy {
+            field: Field::new(sum, corners, *grid)?,
             own: OwnTerms::new(energy, &of_ligand, &pairs),
             space,
             linkage,
@@ -94,12 +97,7 @@ impl LigandInEnergy {
             given,
             exposed: OnceLock::new(),
             cells: Mutex::new(None),
-        }
-    }
-
-    /// What is wrong with the grid, if anything.
-    pub fn complaint_of_grid(&self) -> Option<String> {
-        self.field.complaint()
+        })
     }
 
     /// The energy at `q`, by exact sums, part by part.
@@ -279,7 +277,11 @@ impl LigandAtProtein for LigandInEnergy {
     }
 
     fn atom_energy(&self, atom: usize, at: &Point) -> f64 {
-        self.field.grid().nearest_energy(self.field.values(), self.field.sum(), atom, at)
+        let (grid, sum) = (self.field.grid(), self.field.sum());
+        match grid.nearest_point(*at) {
+            Some(point) => grid.at_point(self.field.values(), sum, atom, point),
+            None => sum.of_atom(atom, *at).0.total(),
+        }
     }
 
     fn force(&self, q: &[f64], most: f64) -> Point {
@@ -287,8 +289,7 @@ impl LigandAtProtein for LigandInEnergy {
         let mut by_atoms = vec![Point::zeros(); positions.len()];
         self.field.gradient(&positions, &mut by_atoms);
         let force = by_atoms.iter().fold(Point::zeros(), |sum, by| sum - by);
-        let size = force.norm();
-        if size > most { force * (most / size) } else { force }
+        capped(force, most)
     }
 
     fn low_cells(&self, atom: usize, limits: CellLimits) -> Arc<LowCells> {

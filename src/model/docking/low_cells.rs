@@ -8,7 +8,7 @@ use crate::model::{CellLimits, LowCells};
 pub(super) fn low_cells(field: &Field, atom: usize, limits: CellLimits) -> LowCells {
     let (grid, values) = (field.grid(), field.values());
     let counts = grid.counts();
-    let energy = |at: [usize; 3]| grid.point_energy(values, field.sum(), atom, at);
+    let energy = |at: [usize; 3]| grid.at_point(values, field.sum(), atom, at);
     let mut cells =
         LowCells { spacing: grid.spacing(), at_boundary: Vec::new(), inside: Vec::new() };
     for z in 0..counts[2] {

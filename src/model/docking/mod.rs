@@ -40,12 +40,15 @@ use crate::source::{ProblemError, Source};
 use crate::space::{BaseJoint, Dof, Factor, FactorKind, Space, rigid_factors};
 use crate::structure::{Atom, Residue, ResidueNumber};
 use bincode::{Decode, Encode};
-use energy::EnergySpec;
+use energy::{EnergySpec, Own};
 use kinematics::{BASE, Linkage};
 use ligand_in_energy::LigandInEnergy;
 
 /// The step of motions unless the file says otherwise, Å.
-const STEP: f64 = 0.25;
+const STEP: f64 = 0.5;
+
+/// Why a description can be prepared.
+const SOUND: &str = "a sound description has a grid";
 
 const ENERGY: &[NodeValue] = &[NodeValue { name: "energy", unit: "kJ/mol" }];
 
@@ -111,7 +114,7 @@ impl Docking {
     /// The model by exact sums, whatever the grid is that the description asks for.
     pub(crate) fn exactly(&self) -> Box<dyn Model> {
         let grid = GridSpec { lookup: EnergyLookup::Exact, ..self.grid };
-        Box::new(LigandInEnergy::of(&Docking { grid, ..self.clone() }))
+        Box::new(LigandInEnergy::of(&Docking { grid, ..self.clone() }).expect(SOUND))
     }
 
     fn linkage(&self) -> Linkage {
@@ -181,7 +184,7 @@ impl Description for Docking {
     }
 
     fn prepare(&self) -> Box<dyn Model> {
-        Box::new(LigandInEnergy::of(self))
+        Box::new(LigandInEnergy::of(self).expect(SOUND))
     }
 
     fn difference(&self, other: &ModelKind) -> Option<&'static str> {
@@ -246,10 +249,10 @@ impl Molecule for Docking {
     }
 
     fn energies(&self) -> Energies<'_> {
-        let model = LigandInEnergy::of(self);
+        let model = LigandInEnergy::of(self).expect(SOUND);
         let mut columns = vec!["van_der_waals [kJ/mol]"];
         let EnergySpec { dielectric, hydrophobic, own, .. } = self.energy;
-        let (coulomb, hydrophobic, own) = (dielectric.is_some(), hydrophobic, own);
+        let (coulomb, own) = (dielectric.is_some(), own != Own::None);
         columns.extend(coulomb.then_some("coulomb [kJ/mol]"));
         columns.extend(hydrophobic.then_some("hydrophobic [kJ/mol]"));
         columns.extend(own.then_some("own [kJ/mol]"));

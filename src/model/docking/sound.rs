@@ -60,7 +60,7 @@ impl Docking {
         if !(least..=most).contains(step) {
             return Some(("step", format!("{step} found; {least} to {most} Å expected")));
         }
-        LigandInEnergy::of(self).complaint_of_grid().map(|message| ("grid", message))
+        LigandInEnergy::of(self).err().map(|message| ("grid", message))
     }
 }
 

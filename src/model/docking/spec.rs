@@ -92,7 +92,7 @@ impl DockingSpec {
         DockingSpec { highest: Some(energy), ..self }
     }
 
-    /// How far an atom moves at most, Å, between two configurations of a motion at which its energy is computed; 0.25 if
+    /// How far an atom moves at most, Å, between two configurations of a motion at which its energy is computed; 0.5 if
     /// nothing is said.
     pub fn step(self, length: f64) -> DockingSpec {
         DockingSpec { step: Some(length), ..self }

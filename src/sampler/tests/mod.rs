@@ -2,6 +2,7 @@
 
 mod energy;
 mod gaps;
+mod ligands;
 mod laws;
 mod maprm;
 mod medial_axis;

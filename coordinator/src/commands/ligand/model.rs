@@ -1,10 +1,10 @@
 //! From the command line to a model of docking.
 
-use crate::cli::{DockingArguments, Kept, Lookup, ReceptorArguments, RegionArguments};
+use crate::cli::{DockingArguments, Kept, Lookup, OwnTerms, ReceptorArguments, RegionArguments};
 use crate::exit::Failure;
 use crate::work::Recorded;
 use roadmill::model::ModelKind;
-use roadmill::model::docking::energy::{EnergySpec, ParameterSet};
+use roadmill::model::docking::energy::{EnergySpec, Own, ParameterSet};
 use roadmill::model::docking::{
     Docking, DockingSpec, EnergyLookup, GridSpec, LigandSpec, Policy, ReceptorFile, ReceptorSpec,
 };
@@ -38,10 +38,15 @@ pub(super) fn spec_of(
         cutoff: model.cutoff.unwrap_or(energy.cutoff),
         dielectric: model.dielectric,
         hydrophobic: model.hydrophobic,
-        own: !model.no_own,
+        own: match model.own {
+            OwnTerms::None => Own::None,
+            OwnTerms::Repulsion => Own::Repulsion,
+            OwnTerms::Whole => Own::Whole,
+        },
     };
     let lookup = match model.grid {
-        Lookup::Roots => EnergyLookup::Roots,
+        Lookup::Reciprocal => EnergyLookup::Reciprocal,
+        Lookup::Tricubic => EnergyLookup::Tricubic,
         Lookup::Trilinear => EnergyLookup::Trilinear,
         Lookup::Nearest => EnergyLookup::Nearest,
         Lookup::Exact => EnergyLookup::Exact,

@@ -5,6 +5,7 @@ use crate::output::line;
 use roadmill::binding::{Candidate, Candidates, Comparison, Found, Reference, SAME_POSE};
 use roadmill::model::EnergyParts;
 use roadmill::model::docking::Docking;
+use roadmill::model::docking::energy::Own;
 use roadmill::structure::Point;
 use serde::Serialize;
 use std::fmt::Write;
@@ -159,7 +160,7 @@ impl PoseTable {
         let parts: [(&str, bool); 3] = [
             ("coulomb", energy.dielectric.is_some()),
             ("hydrophobic", energy.hydrophobic),
-            ("own", energy.own),
+            ("own", energy.own != Own::None),
         ];
         for (name, _) in parts.iter().filter(|(_, is_there)| *is_there) {
             write!(heading, "{name:>12}").expect("writing to memory cannot fail");

@@ -5,8 +5,10 @@ use std::ops::Range;
 
 /// How many points are looked at at once.
 pub(super) const LANES: usize = 8;
-/// The edge in Å of the cells in y and z, and in x, along which they are looked through.
-const EDGES: [f64; 3] = [1.5, 3.0, 3.0];
+/// The edges in Å of cells for sums of pairs: rows are wide, as every row costs as much as a dozen pairs.
+pub(super) const WIDE: [f64; 3] = [1.5, 8.0, 8.0];
+/// The edges in Å of cells for grids, whose lanes are points of the grid, so that short runs cost no more than long ones.
+pub(super) const NARROW: [f64; 3] = [1.5, 3.0, 3.0];
 /// The most cells along an axis: of points that are scattered over a large space the cells are larger.
 const CELLS_MAX: f64 = 256.0;
 /// Where the points are that fill the last lanes: farther from everything than any cut-off.
@@ -20,6 +22,8 @@ const FAR: f64 = 1e7;
 pub(super) struct Cells {
     low: [f64; 3],
     edges: [f64; 3],
+    /// One over the edges: a product is quicker than a quotient.
+    per: [f64; 3],
     counts: [usize; 3],
     /// For every row and every cell of it, and for the row's end, where its points begin.
     begins: Vec<usize>,
@@ -30,10 +34,10 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// Of points, finite ones.
-    pub fn new(points: &[Point]) -> Cells {
+    /// Of points, finite ones; cells have at least these edges in Å.
+    pub fn new(points: &[Point], least_edges: [f64; 3]) -> Cells {
         let mut low = [0.0; 3];
-        let mut edges = EDGES;
+        let mut edges = least_edges;
         let mut counts = [1; 3];
         for axis in 0..3 {
             let values = points.iter().map(|point| point[axis]);
@@ -43,12 +47,19 @@ impl Cells {
                 });
             if least <= most {
                 low[axis] = least;
-                edges[axis] = EDGES[axis].max((most - least) / CELLS_MAX);
-                counts[axis] = cell_of(most - least, edges[axis]) + 1;
+                edges[axis] = edges[axis].max((most - least) / CELLS_MAX);
+                counts[axis] = cell_of(most - least, 1.0 / edges[axis]) + 1;
             }
         }
-        let mut cells =
-            Cells { low, edges, counts, begins: Vec::new(), order: Vec::new(), at: Default::default() };
+        let mut cells = Cells {
+            low,
+            edges,
+            per: edges.map(|edge| 1.0 / edge),
+            counts,
+            begins: Vec::new(),
+            order: Vec::new(),
+            at: Default::default(),
+        };
         cells.fill(points);
         cells
     }
@@ -57,7 +68,7 @@ impl Cells {
         let [along_x, along_y, along_z] = self.counts;
         let place = |point: &Point| {
             let [x, y, z] = [0, 1, 2].map(|axis| {
-                cell_of(point[axis] - self.low[axis], self.edges[axis]).min(self.counts[axis] - 1)
+                cell_of(point[axis] - self.low[axis], self.per[axis]).min(self.counts[axis] - 1)
             });
             (z * along_y + y, x)
         };
@@ -107,11 +118,11 @@ impl Cells {
                 if last < 0.0 {
                     continue;
                 }
-                let begin = cell_of(first, self.edges[0]);
+                let begin = cell_of(first, self.per[0]);
                 if begin >= along_x {
                     continue;
                 }
-                let end = cell_of(last, self.edges[0]).min(along_x - 1) + 1;
+                let end = cell_of(last, self.per[0]).min(along_x - 1) + 1;
                 let row = (z * along_y + y) * (along_x + 1);
                 let run = self.begins[row + begin]..self.begins[row + end];
                 if !run.is_empty() {
@@ -124,26 +135,20 @@ impl Cells {
     /// The cells along an axis that are nearer than `reach` to a value.
     fn range(&self, axis: usize, value: f64, reach: f64) -> Option<Range<usize>> {
         let (first, last) = (value - reach - self.low[axis], value + reach - self.low[axis]);
-        let begin = cell_of(first, self.edges[axis]);
+        let begin = cell_of(first, self.per[axis]);
         let is_there = last >= 0.0 && begin < self.counts[axis] && !self.order.is_empty();
-        is_there.then(|| begin..cell_of(last, self.edges[axis]).min(self.counts[axis] - 1) + 1)
+        is_there.then(|| begin..cell_of(last, self.per[axis]).min(self.counts[axis] - 1) + 1)
     }
 
     /// How far a value is from a cell along an axis.
     fn distance(&self, axis: usize, cell: usize, value: f64) -> f64 {
-        let begin = self.low[axis] + as_f64(cell) * self.edges[axis];
+        let begin = self.low[axis] + cell as f64 * self.edges[axis];
         (begin - value).max(value - (begin + self.edges[axis])).max(0.0)
     }
 }
 
-/// The cell of a distance from the first cell's begin; what is before it is in the first.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "such a cast saturates")]
-fn cell_of(distance: f64, edge: f64) -> usize {
-    (distance / edge).floor().max(0.0) as usize
-}
-
-/// A number of cells as a real number.
-#[allow(clippy::cast_precision_loss, reason = "there are no more than 257 cells along an axis")]
-fn as_f64(cells: usize) -> f64 {
-    cells as f64
+/// The cell of a distance from the first cell's begin, with one over the edge; what is before it is in the first.
+fn cell_of(distance: f64, per: f64) -> usize {
+    // The conversion cuts off what is behind the point, and makes 0 of what is below it.
+    (distance * per) as usize
 }

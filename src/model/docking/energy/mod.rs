@@ -20,12 +20,12 @@ mod terms;
 #[cfg(test)]
 mod tests;
 
-pub use grid::{Grid, Lookup};
+pub use grid::{Grid, Lookup, SPACING_RANGE, VALUES_MAX, capped};
 pub use ligand::ligand_particles;
 pub use own::OwnTerms;
 pub use parameters::{KCAL, PairCoefficients, VanDerWaals, hydrophobic_radius};
 pub use particle::Particle;
 pub use protein::{UnknownElement, protein_particles};
-pub use spec::{CUTOFF_MAX, CUTOFF_MIN, EnergySpec, ParameterSet, SWITCH_WIDTH};
+pub use spec::{CUTOFF_MAX, CUTOFF_MIN, EnergySpec, Own, ParameterSet, SWITCH_WIDTH};
 pub use sum::{AtomKind, PairSum, Parts};
 pub use terms::{COULOMB, HYDROPHOBIC_DEPTH, HYDROPHOBIC_FAR, HYDROPHOBIC_NEAR};

@@ -24,8 +24,23 @@ pub struct EnergySpec {
     pub dielectric: Option<f64>,
     /// Whether pairs of hydrophobic atoms attract each other beyond what the 12-6 terms say.
     pub hydrophobic: bool,
-    /// Whether the ligand's own atoms act upon each other.
-    pub own: bool,
+    /// How the ligand's own atoms act upon each other.
+    pub own: Own,
+}
+
+/// How the ligand's own atoms act upon each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
+#[serde(rename_all = "kebab-case")]
+pub enum Own {
+    /// Not at all, as in O. B. Bayazit 2003, equation 5.2: the ligand may pass through itself.
+    None,
+    /// They repel each other: 12-6 terms cut at their minima and raised to zero there (J. D. Weeks, D. Chandler, H. C. Andersen,
+    /// J. Chem. Phys. 54 (1971) 5237-5247). Attraction among them is left out, as in water it makes little difference
+    /// whether an atom has its own molecule beside it or the solvent: with it, in vacuum, ligands fold up.
+    #[default]
+    Repulsion,
+    /// By whole 12-6 terms, and Coulomb terms where charges count: as in vacuum.
+    Whole,
 }
 
 /// A set of parameters for the 12-6 terms.
@@ -46,7 +61,7 @@ impl Default for EnergySpec {
             cutoff: 12.0,
             dielectric: None,
             hydrophobic: false,
-            own: true,
+            own: Own::default(),
         }
     }
 }

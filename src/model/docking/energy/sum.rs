@@ -1,6 +1,6 @@
 //! The exact energy of a ligand at a protein: the sum over all pairs of their atoms.
 
-use super::cells::Cells;
+use super::cells::{Cells, NARROW, WIDE};
 use super::parameters::{PairCoefficients, hydrophobic_radius};
 use super::particle::Particle;
 use super::spec::EnergySpec;
@@ -66,9 +66,11 @@ pub(super) struct VanDerWaalsField {
     pub a: Vec<Vec<f64>>,
     /// B, in kJ/mol Å⁶.
     pub b: Vec<Vec<f64>>,
+    /// The same atoms in cells for grids.
+    pub narrow: Cells,
     /// The elements of the protein, in rising order.
     pub elements: Vec<Element>,
-    /// Which of them every atom of the protein is.
+    /// Which of them every atom of the protein is, in the order of the cells for grids.
     pub element_of: Vec<usize>,
     /// A and B of every kind with every element of the protein.
     pub pairs: Vec<Vec<PairCoefficients>>,
@@ -228,8 +230,9 @@ impl VanDerWaalsField {
         let mut elements: Vec<Element> = protein.iter().map(|particle| particle.element).collect();
         elements.sort_unstable();
         elements.dedup();
-        let cells = Cells::new(&positions[..protein.len()]);
-        let element_of: Vec<usize> = ordered(&cells, |number| {
+        let cells = Cells::new(&positions[..protein.len()], WIDE);
+        let narrow = Cells::new(&positions[..protein.len()], NARROW);
+        let element_of: Vec<usize> = ordered(&narrow, |number| {
             elements.partition_point(|known| *known < protein[number].element)
         });
         let pairs: Vec<Vec<PairCoefficients>> = kinds
@@ -245,7 +248,7 @@ impl VanDerWaalsField {
             (ordered(&cells, |number| of(number).a), ordered(&cells, |number| of(number).b))
         };
         let (a, b) = pairs.iter().map(coefficients).unzip();
-        VanDerWaalsField { cells, a, b, elements, element_of, pairs }
+        VanDerWaalsField { cells, a, b, narrow, elements, element_of, pairs }
     }
 }
 
@@ -253,7 +256,7 @@ impl CoulombField {
     fn new(strength: f64, protein: &[Particle], positions: &[Point]) -> CoulombField {
         let charged: Vec<usize> = of_protein(protein, |particle| particle.charge != 0.0);
         let at: Vec<Point> = charged.iter().map(|number| positions[*number]).collect();
-        let cells = Cells::new(&at);
+        let cells = Cells::new(&at, WIDE);
         let strengths = ordered(&cells, |number| protein[charged[number]].charge * strength);
         CoulombField { cells, strengths }
     }
@@ -264,7 +267,7 @@ impl HydrophobicField {
         let radius = |number: usize| hydrophobic_radius(protein[number].element);
         let hydrophobic: Vec<usize> = of_protein(protein, |particle| particle.is_hydrophobic);
         let at: Vec<Point> = hydrophobic.iter().map(|number| positions[*number]).collect();
-        let cells = Cells::new(&at);
+        let cells = Cells::new(&at, WIDE);
         let radii = ordered(&cells, |number| radius(hydrophobic[number]));
         let widest = hydrophobic.iter().map(|number| radius(*number)).fold(0.0, f64::max);
         HydrophobicField { cells, radii, widest }

@@ -119,7 +119,7 @@ pub(super) fn sum<S: Simd>(
     let [x, y, z] = [number(at.x), number(at.y), number(at.z)];
     let mut sums = [zero; 4];
     let [xs, ys, zs] = &cells.at;
-    cells.runs(at, 0.0, reach, |run| {
+    cells.runs(at, 0.0, reach, #[inline(always)] |run| {
         for first in run.step_by(LANES) {
             let x = x - f64x8::from_slice(simd, &xs[first..first + LANES]);
             let y = y - f64x8::from_slice(simd, &ys[first..first + LANES]);

@@ -12,7 +12,7 @@ fn docking_is_written_and_read_again() {
         "",
         "rigid = true\namides = false\n",
         "hydrogens = \"keep\"\nhighest = 100.0\nstep = 0.4\ngrid = { lookup = \"nearest\", spacing = 0.5 }\n",
-        "energy = { parameters = \"uff\", cutoff = 9.0, dielectric = 4.0, hydrophobic = true, own = false }\n",
+        "energy = { parameters = \"uff\", cutoff = 9.0, dielectric = 4.0, hydrophobic = true, own = \"whole\" }\n",
     ] {
         let problem = problem(&biotin(more));
         let written = problem.to_toml("p-files");

@@ -1,7 +1,7 @@
 //! What the model promises, as every model does.
 
 use super::{biotin, docking_of, problem};
-use crate::model::{CellLimits, Cost, Model, Scratch, Validity};
+use crate::model::{CellLimits, Cost, Scratch, Validity};
 use crate::numbers::Ordinal;
 use crate::seed::{Purpose, Seed};
 use crate::structure::Point;

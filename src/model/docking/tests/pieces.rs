@@ -2,7 +2,7 @@
 
 use super::{biotin, docking, problem};
 use crate::model::docking::kinematics::{BASE, Linkage};
-use crate::model::{Model, Scratch};
+use crate::model::Scratch;
 use crate::numbers::Ordinal;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::BaseJoint;
@@ -94,7 +94,7 @@ fn no_atom_moves_farther_than_the_bound() {
 fn gradients_are_those_of_differences() {
     for (grid, tolerance) in [
         ("grid = { lookup = \"exact\" }\n", 1e-4),
-        ("grid = { lookup = \"roots\", spacing = 0.5 }\n", 1e-3),
+        ("grid = { lookup = \"reciprocal\", spacing = 0.5 }\n", 1e-3),
     ] {
         let cx = problem(&biotin(grid)).context();
         let (space, model, scratch) = (cx.space(), cx.model(), &mut Scratch::new());

@@ -1,138 +1,192 @@
-//! The values of a grid.
+//! How a grid's values come about.
 
-use super::super::cells::LANES;
-use super::super::parameters::hydrophobic_radius;
-use super::super::sum::{CoulombField, HydrophobicField, PairSum};
-use super::super::switch::NEAREST_SQUARED;
-use super::super::terms::{HYDROPHOBIC_DEPTH, HYDROPHOBIC_FAR, HYDROPHOBIC_NEAR};
-use super::encode::encode;
-use super::Grid;
+use super::{Grid, encoding};
 use crate::lanes::with_lanes;
+use crate::model::docking::energy::cells::{Cells, LANES};
+use crate::model::docking::energy::parameters::hydrophobic_radius;
+use crate::model::docking::energy::sum::{CoulombField, HydrophobicField, PairSum};
+use crate::model::docking::energy::switch::NEAREST_SQUARED;
+use crate::model::docking::energy::terms::{
+    HYDROPHOBIC_DEPTH, HYDROPHOBIC_FAR, HYDROPHOBIC_NEAR,
+};
 use crate::structure::Point;
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 impl Grid {
+    /// Fills all values.
+    ///
+    /// # Panics
+    /// If there are not `values_len()` of them.
+    pub fn fill(&self, sum: &PairSum, out: &mut [f32]) {
+        self.check(out);
+        for (layer, out) in out.chunks_exact_mut(self.layer_len().max(1)).enumerate() {
+            self.fill_layer(sum, layer, out);
+        }
+    }
+
+    /// Fills the values of one layer, counted from 0; the bits do not depend on what else is filled, or by whom.
+    ///
+    /// # Panics
+    /// If there are not `layer_len()` of them, or if `sum` has other kinds of atoms than the grid was made for.
     pub fn fill_layer(&self, sum: &PairSum, layer: usize, out: &mut [f32]) {
+        assert_eq!(out.len(), self.layer_len(), "the values are those of another grid");
+        assert_eq!(self.kinds, sum.kinds.len(), "the grid is that of another ligand");
         with_lanes!(sum.lanes, simd => simd.vectorize(
             #[inline(always)]
             || self.fill_with(simd, sum, layer, out)
         ));
     }
 
+    /// The same with these lanes, which are eight points along x.
+    ///
+    /// All kinds of atoms are served by one pass over the protein: 1/r¹² and 1/r⁶ are summed for each of its elements, and
+    /// the parameters of the pairs are multiplied in at the end.
     #[inline(always)]
     fn fill_with<S: Simd>(&self, simd: S, sum: &PairSum, layer: usize, out: &mut [f32]) {
-        let zero = f64x8::splat(simd, 0.0);
-        let channels = self.lookup.channels();
-        let plane = self.counts[0] * self.counts[1];
-        let mut powers = vec![[zero; 2]; sum.all.elements.len()];
-        let mut shares = vec![zero; sum.kinds.len()];
+        let number = |value: f64| f64x8::splat(simd, value);
+        let (plane, numbers) = (self.plane(), self.lookup.numbers());
+        let mut powers = vec![[number(0.0); 2]; sum.all.elements.len()];
         for y in 0..self.counts[1] {
-            for block in 0..self.counts[0].div_ceil(LANES) {
-                let x = block * LANES;
-                let from = self.point([x, y, layer]);
-                self.powers(simd, sum, from, &mut powers);
-                self.shares(simd, sum, from, &mut shares);
-                let lanes = LANES.min(self.counts[0] - x);
-                for kind in 0..sum.kinds.len() {
-                    let (mut repulsion, mut attraction) = (zero, shares[kind]);
-                    for ([twelfth, sixth], pair) in powers.iter().zip(&sum.all.pairs[kind]) {
-                        repulsion += *twelfth * f64x8::splat(simd, pair.a);
-                        attraction += *sixth * f64x8::splat(simd, pair.b);
+            for x in (0..self.counts[0]).step_by(LANES) {
+                let points = Points::new(simd, self.point([x, y, layer]), self.spacing);
+                let (first, lanes) = (y * self.counts[0] + x, LANES.min(self.counts[0] - x));
+                points.powers(simd, sum, &mut powers);
+                for (kind, pairs) in sum.all.pairs.iter().enumerate() {
+                    let mut repulsion = number(0.0);
+                    let mut attraction = points.hydrophobic(simd, sum, kind);
+                    for ([twelfths, sixths], pair) in powers.iter().zip(pairs) {
+                        repulsion += *twelfths * number(pair.a);
+                        attraction += *sixths * number(pair.b);
                     }
-                    let begin = (kind * plane + y * self.counts[0] + x) * channels;
-                    let out = &mut out[begin..begin + lanes * channels];
-                    for (lane, out) in out.chunks_exact_mut(channels).enumerate() {
-                        encode(self.lookup, repulsion[lane], attraction[lane], out);
+                    let begin = kind * plane * numbers + first * numbers;
+                    let out = out[begin..begin + lanes * numbers].chunks_exact_mut(numbers);
+                    for ((repulsion, attraction), out) in
+                        repulsion.as_slice().iter().zip(attraction.as_slice()).zip(out)
+                    {
+                        encoding::write(self.lookup, *repulsion, *attraction, out);
                     }
                 }
                 if let Some(field) = &sum.charged {
-                    let potential = self.potential(simd, sum, field, from);
-                    let begin = sum.kinds.len() * plane * channels + y * self.counts[0] + x;
-                    for lane in 0..lanes {
-                        out[begin + lane] = potential[lane] as f32;
+                    let potential = points.potential(simd, sum, field);
+                    let begin = self.kinds * plane * numbers + first;
+                    for (out, potential) in
+                        out[begin..begin + lanes].iter_mut().zip(potential.as_slice())
+                    {
+                        *out = *potential as f32;
                     }
                 }
             }
         }
     }
+}
 
-    pub fn point(&self, place: [usize; 3]) -> Point {
-        let at = |axis: usize| self.low[axis] + place[axis] as f64 * self.spacing;
-        Point::new(at(0), at(1), at(2))
-    }
+/// Eight neighbouring points along x.
+struct Points<S: Simd> {
+    from: Point,
+    length: f64,
+    x: f64x8<S>,
+}
 
+impl<S: Simd> Points<S> {
     #[inline(always)]
-    fn xs<S: Simd>(&self, simd: S, from: Point) -> f64x8<S> {
+    fn new(simd: S, from: Point, spacing: f64) -> Points<S> {
         let steps = f64x8::simd_from(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
-        steps * f64x8::splat(simd, self.spacing) + f64x8::splat(simd, from.x)
+        let x = steps * f64x8::splat(simd, spacing) + f64x8::splat(simd, from.x);
+        Points { from, length: spacing * 7.0, x }
     }
 
+    /// Calls `visit` with every point of the cells that may be nearer than `reach`, its number and the squared distances from
+    /// the eight.
     #[inline(always)]
-    fn powers<S: Simd>(&self, simd: S, sum: &PairSum, from: Point, powers: &mut [[f64x8<S>; 2]]) {
+    fn near(
+        &self,
+        simd: S,
+        cells: &Cells,
+        reach: f64,
+        mut visit: impl FnMut(usize, f64x8<S>),
+    ) {
         let number = |value: f64| f64x8::splat(simd, value);
-        powers.fill([number(0.0); 2]);
-        let xs = self.xs(simd, from);
-        let [at_x, at_y, at_z] = &sum.all.cells.at;
-        let nearest = number(NEAREST_SQUARED);
-        let length = self.spacing * 7.0;
-        sum.all.cells.runs(from, length, sum.cutoff, |run| {
-            for atom in run {
-                let x = xs - number(at_x[atom]);
-                let (y, z) = (from.y - at_y[atom], from.z - at_z[atom]);
-                let squared = (x * x + number(y * y + z * z)).max(nearest);
+        let [xs, ys, zs] = &cells.at;
+        cells.runs(
+            self.from,
+            self.length,
+            reach,
+            #[inline(always)]
+            |run| {
+                for other in run {
+                    let x = self.x - number(xs[other]);
+                    let (y, z) = (self.from.y - ys[other], self.from.z - zs[other]);
+                    let squared = x * x + number(y * y + z * z);
+                    visit(other, squared.max(number(NEAREST_SQUARED)));
+                }
+            },
+        );
+    }
+
+    /// For every element of the protein the sums of 1/r¹² and 1/r⁶ over its atoms, switched off at the cut-off.
+    #[inline(always)]
+    fn powers(&self, simd: S, sum: &PairSum, powers: &mut [[f64x8<S>; 2]]) {
+        powers.fill([f64x8::splat(simd, 0.0); 2]);
+        self.near(
+            simd,
+            &sum.all.narrow,
+            sum.cutoff,
+            #[inline(always)]
+            |atom, squared| {
                 let (factor, _) = sum.switch.at_eight(simd, squared);
-                let inverse = number(1.0) / squared;
+                let inverse = f64x8::splat(simd, 1.0) / squared;
                 let sixth = inverse * inverse * inverse;
                 let switched = sixth * factor;
                 let [twelfths, sixths] = &mut powers[sum.all.element_of[atom]];
                 *twelfths += switched * sixth;
                 *sixths += switched;
-            }
-        });
+            },
+        );
     }
 
+    /// How far the hydrophobic energies of a kind of atom are below zero, in kJ/mol.
     #[inline(always)]
-    fn shares<S: Simd>(&self, simd: S, sum: &PairSum, from: Point, shares: &mut [f64x8<S>]) {
+    fn hydrophobic(&self, simd: S, sum: &PairSum, kind: usize) -> f64x8<S> {
         let number = |value: f64| f64x8::splat(simd, value);
-        shares.fill(number(0.0));
-        let Some(HydrophobicField { cells, radii, widest }) = &sum.hydrophobic else { return };
-        let xs = self.xs(simd, from);
-        let [at_x, at_y, at_z] = &cells.at;
-        let width = HYDROPHOBIC_FAR - HYDROPHOBIC_NEAR;
-        for (kind, total) in sum.kinds.iter().zip(shares) {
-            if !kind.is_hydrophobic {
-                continue;
-            }
-            let radius = hydrophobic_radius(kind.element);
-            let reach = radius + widest + HYDROPHOBIC_FAR;
-            cells.runs(from, self.spacing * 7.0, reach, |run| {
-                for atom in run {
-                    let x = xs - number(at_x[atom]);
-                    let (y, z) = (from.y - at_y[atom], from.z - at_z[atom]);
-                    let distance = (x * x + number(y * y + z * z)).sqrt();
-                    let left = number(HYDROPHOBIC_FAR + radius + radii[atom]) - distance;
-                    *total += left.max(number(0.0)).min(number(width)) * number(-HYDROPHOBIC_DEPTH / width);
-                }
-            });
-        }
-    }
-
-    #[inline(always)]
-    fn potential<S: Simd>(&self, simd: S, sum: &PairSum, field: &CoulombField, from: Point) -> f64x8<S> {
-        let number = |value: f64| f64x8::splat(simd, value);
-        let xs = self.xs(simd, from);
-        let [at_x, at_y, at_z] = &field.cells.at;
         let mut total = number(0.0);
-        field.cells.runs(from, self.spacing * 7.0, sum.cutoff, |run| {
-            for atom in run {
-                let x = xs - number(at_x[atom]);
-                let (y, z) = (from.y - at_y[atom], from.z - at_z[atom]);
-                let squared = (x * x + number(y * y + z * z)).max(number(NEAREST_SQUARED));
+        let Some(HydrophobicField { cells, radii, widest }) = &sum.hydrophobic else {
+            return total;
+        };
+        let kind = sum.kinds[kind];
+        if !kind.is_hydrophobic {
+            return total;
+        }
+        let radius = hydrophobic_radius(kind.element);
+        let width = HYDROPHOBIC_FAR - HYDROPHOBIC_NEAR;
+        self.near(
+            simd,
+            cells,
+            radius + widest + HYDROPHOBIC_FAR,
+            #[inline(always)]
+            |atom, squared| {
+                let left = number(HYDROPHOBIC_FAR + radius + radii[atom]) - squared.sqrt();
+                let share = left.max(number(0.0)).min(number(width));
+                total += share * number(-HYDROPHOBIC_DEPTH / width);
+            },
+        );
+        total
+    }
+
+    /// The potential of the protein's charges, in kJ/mol per elementary charge.
+    #[inline(always)]
+    fn potential(&self, simd: S, sum: &PairSum, field: &CoulombField) -> f64x8<S> {
+        let mut total = f64x8::splat(simd, 0.0);
+        self.near(
+            simd,
+            &field.cells,
+            sum.cutoff,
+            #[inline(always)]
+            |atom, squared| {
                 let (factor, _) = sum.switch.at_eight(simd, squared);
-                total += number(field.strengths[atom]) / squared * factor;
-            }
-        });
+                total += f64x8::splat(simd, field.strengths[atom]) / squared * factor;
+            },
+        );
         total
     }
 }

@@ -1,170 +1,166 @@
-//! The protein's part of the energy in a grid: values at points in space, between which it is interpolated.
+//! The protein's part of the energy in a grid: values at points of space, and an energy anywhere made of those nearby.
 
-mod encode;
+mod encoding;
 mod fill;
-mod interpolate;
-mod points;
+mod force;
+mod interpolation;
+mod shape;
 
 use super::sum::PairSum;
 use crate::structure::Point;
 use bincode::{Decode, Encode};
-use interpolate::{Cell, linear, cubic};
+use interpolation::{Map, cubic, linear, nearest};
 use serde::{Deserialize, Serialize};
+use shape::Place;
 
-/// How the energy at a place is made of the values of a grid.
+pub use force::capped;
+pub use shape::{SPACING_RANGE, VALUES_MAX};
+
+/// How the energy of an atom is made of the values of a grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
 #[serde(rename_all = "kebab-case")]
 pub enum Lookup {
+    /// The energy at the nearest point, as O. B. Bayazit 2003, chapter V, with points 0.5 Å apart. Its gradient is the
+    /// difference of the energies at the points around that one.
     Nearest,
+    /// Energies, interpolated linearly along each axis between the eight points around, as AutoDock does.
     Trilinear,
-    Tricubic,
+    /// The same of reciprocals: 1/√R and 1/A are interpolated, R being the sum of what repels and A of what attracts.
+    /// Energies bend upwards beside an atom, so that a straight line between two points lies above them; these reciprocals
+    /// bend far less.
     #[default]
-    Roots,
-    CubicRoots,
+    Reciprocal,
+    /// The same reciprocals, interpolated by Catmull-Rom splines between the 64 points around: nearer to the exact sum,
+    /// at several times the cost.
+    Tricubic,
 }
 
-impl Lookup {
-    fn channels(self) -> usize {
-        match self {
-            Lookup::Nearest | Lookup::Trilinear | Lookup::Tricubic => 1,
-            Lookup::Roots | Lookup::CubicRoots => 2,
-        }
-    }
-}
-
-/// A grid.
-#[derive(Clone, Debug)]
+/// A grid over a box: for every kind of atom of a ligand the energy at every point, and, where charges count, the
+/// potential.
+///
+/// The grid itself is but its shape; the values are numbers that the caller keeps, so that they can be shared between
+/// processes. They are `layers()` layers, one for every z, of `layer_len()` numbers each, so that each can be filled by
+/// itself; [`Grid::fill`] fills them all, to the same bits.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
+    /// The first point, in Å.
     low: Point,
+    /// The distance of neighbouring points in Å.
     spacing: f64,
+    /// One over it.
+    per: f64,
+    /// How many points there are along each axis, at least two.
     counts: [usize; 3],
     lookup: Lookup,
+    /// How many kinds of atoms there are.
     kinds: usize,
-    has_charges: bool,
+    /// Whether there is a map of the potential.
+    has_potential: bool,
 }
 
 impl Grid {
-    pub fn new(sum: &PairSum, corners: [Point; 2], spacing: f64, lookup: Lookup) -> Grid {
-        let [one, other] = corners;
-        let low = one.inf(&other);
-        let size = one.sup(&other) - low;
-        let count = |axis: usize| ((size[axis] / spacing).ceil().max(1.0) as usize) + 1;
-        Grid {
-            low,
-            spacing,
-            counts: [count(0), count(1), count(2)],
-            lookup,
-            kinds: sum.kinds.len(),
-            has_charges: sum.charged.is_some(),
-        }
-    }
-
-    pub fn counts(&self) -> [usize; 3] {
-        self.counts
-    }
-
-    pub fn layers(&self) -> usize {
-        self.counts[2]
-    }
-
-    pub fn layer_len(&self) -> usize {
-        let numbers = self.kinds * self.lookup.channels() + usize::from(self.has_charges);
-        self.counts[0] * self.counts[1] * numbers
-    }
-
-    pub fn values_len(&self) -> usize {
-        self.layers() * self.layer_len()
-    }
-
-    pub fn fill(&self, sum: &PairSum, out: &mut [f32]) {
-        for (layer, out) in out.chunks_exact_mut(self.layer_len()).enumerate() {
-            self.fill_layer(sum, layer, out);
-        }
-    }
-
-    fn cell(&self, at: Point) -> Option<Cell> {
-        let mut cell = Cell { base: [0; 3], part: [0.0; 3] };
-        for axis in 0..3 {
-            let place = (at[axis] - self.low[axis]) / self.spacing;
-            let last = self.counts[axis] - 1;
-            if !(place >= 0.0 && place <= last as f64) {
-                return None;
-            }
-            let base = (place as usize).min(last - 1);
-            cell.base[axis] = base;
-            cell.part[axis] = place - base as f64;
-        }
-        Some(cell)
-    }
-
-    /// The energy of an atom and its derivative.
-    #[inline(always)]
-    fn of_atom(&self, values: &[f32], sum: &PairSum, atom: usize, at: Point) -> (f64, Point) {
-        let Some(cell) = self.cell(at) else {
-            let (parts, gradient) = sum.of_atom(atom, at);
-            return (parts.total(), gradient);
-        };
-        let kind = sum.kind_of[atom];
-        let plane = self.counts[0] * self.counts[1];
-        let channels = self.lookup.channels();
-        let begin = kind * plane * channels;
-        let charge_begin = self.kinds * plane * channels;
-        let per = 1.0 / self.spacing;
-        let shape = interpolate::Shape { counts: self.counts, layer: self.layer_len(), per };
-        let charge = sum.charges[atom];
-        let has_charge = self.has_charges && charge != 0.0;
-        let (mut energy, mut gradient) = match self.lookup {
-            Lookup::Nearest => interpolate::nearest(values, &shape, begin, &cell),
-            Lookup::Trilinear => {
-                let ([v], [g]) = linear::<1>(values, &shape, begin, &cell);
-                (v, g)
-            }
-            Lookup::Tricubic => {
-                let ([v], [g]) = cubic::<1>(values, &shape, begin, &cell);
-                (v, g)
-            }
-            Lookup::Roots => {
-                let (v, g) = linear::<2>(values, &shape, begin, &cell);
-                encode::energy_of_roots(v, g)
-            }
-            Lookup::CubicRoots => {
-                let (v, g) = cubic::<2>(values, &shape, begin, &cell);
-                encode::energy_of_roots(v, g)
-            }
-        };
-        if has_charge {
-            let (v, g) = match self.lookup {
-                Lookup::Nearest => interpolate::nearest(values, &shape, charge_begin, &cell),
-                Lookup::Trilinear | Lookup::Roots => {
-                    let ([v], [g]) = linear::<1>(values, &shape, charge_begin, &cell);
-                    (v, g)
-                }
-                Lookup::Tricubic | Lookup::CubicRoots => {
-                    let ([v], [g]) = cubic::<1>(values, &shape, charge_begin, &cell);
-                    (v, g)
-                }
-            };
-            energy += charge * v;
-            gradient += g * charge;
-        }
-        (energy, gradient)
-    }
-
-    pub fn energy(&self, values: &[f32], sum: &PairSum, positions: &[Point]) -> f64 {
+    /// The energy in kJ/mol of a ligand with its atoms at these positions in Å, one per atom. An atom outside of the grid
+    /// has its exact sum. An atom deep within the protein has at most 10⁵ kJ/mol with [`Lookup::Nearest`] and
+    /// [`Lookup::Trilinear`], and 10⁸ with the others.
+    ///
+    /// # Panics
+    /// If there are not `values_len()` values.
+    pub fn energy(&self, values: &[f32], sum: &PairSum, ligand_positions: &[Point]) -> f64 {
+        self.check(values);
         let mut energy = 0.0;
-        for (atom, at) in positions.iter().enumerate().take(sum.ligand_atoms()) {
+        for (atom, at) in ligand_positions.iter().enumerate().take(sum.ligand_atoms()) {
             energy += self.of_atom(values, sum, atom, *at).0;
         }
         energy
     }
 
-    pub fn gradient(&self, values: &[f32], sum: &PairSum, positions: &[Point], out: &mut [Point]) -> f64 {
+    /// The energy, to the same bits, and its derivative by the position of every atom of the ligand, in kJ/(mol Å), which
+    /// is written to `out`, one vector per atom. Within a cell of the grid it is the derivative of that energy, except with
+    /// [`Lookup::Nearest`].
+    ///
+    /// # Panics
+    /// If there are not `values_len()` values.
+    pub fn gradient(
+        &self,
+        values: &[f32],
+        sum: &PairSum,
+        ligand_positions: &[Point],
+        out: &mut [Point],
+    ) -> f64 {
+        self.check(values);
         let mut energy = 0.0;
-        for (atom, (at, out)) in positions.iter().zip(out).enumerate().take(sum.ligand_atoms()) {
+        let atoms = ligand_positions.iter().zip(out).enumerate().take(sum.ligand_atoms());
+        for (atom, (at, out)) in atoms {
             let (of_atom, gradient) = self.of_atom(values, sum, atom, *at);
             energy += of_atom;
             *out = gradient;
         }
         energy
+    }
+
+    /// The energy in kJ/mol of an atom of the ligand at a point of the grid, as its values say it: what the energy-based
+    /// generator goes by.
+    ///
+    /// # Panics
+    /// If there are not `values_len()` values, or if the point is none of the grid's.
+    pub fn at_point(&self, values: &[f32], sum: &PairSum, atom: usize, point: [usize; 3]) -> f64 {
+        self.check(values);
+        let kind = self.kind_map(values, sum.kind_of[atom]);
+        let energy = if self.lookup.is_plain() {
+            kind.at::<1>(point)[0]
+        } else {
+            encoding::energy(kind.at::<2>(point), [Point::zeros(); 2]).0
+        };
+        let charge = sum.charges[atom];
+        self.potential_map(values).map_or(energy, |map| energy + charge * map.at::<1>(point)[0])
+    }
+
+    fn check(&self, values: &[f32]) {
+        assert_eq!(values.len(), self.values_len(), "the values are those of another grid");
+    }
+
+    /// The energy of an atom at a position, and its derivative by the position.
+    #[inline(always)]
+    fn of_atom(&self, values: &[f32], sum: &PairSum, atom: usize, at: Point) -> (f64, Point) {
+        let Some(place) = self.place(at) else {
+            let (parts, gradient) = sum.of_atom(atom, at);
+            return (parts.total(), gradient);
+        };
+        let kind = self.kind_map(values, sum.kind_of[atom]);
+        let (energy, gradient) = match self.lookup {
+            Lookup::Nearest | Lookup::Trilinear => self.plain(&kind, &place),
+            Lookup::Reciprocal => {
+                let (values, gradients) = linear::<2>(&kind, &place);
+                encoding::energy(values, gradients)
+            }
+            Lookup::Tricubic => {
+                let (values, gradients) = cubic::<2>(&kind, &place);
+                encoding::energy(values, gradients)
+            }
+        };
+        let charge = sum.charges[atom];
+        match self.potential_map(values) {
+            Some(map) if charge != 0.0 => {
+                let (potential, slope) = self.plain(&map, &place);
+                (energy + charge * potential, gradient + slope * charge)
+            }
+            _ => (energy, gradient),
+        }
+    }
+
+    /// The value of a map that needs no decoding, and its derivative by the position.
+    #[inline(always)]
+    fn plain(&self, map: &Map, place: &Place) -> (f64, Point) {
+        match self.lookup {
+            Lookup::Nearest => nearest(map, place),
+            Lookup::Trilinear | Lookup::Reciprocal => {
+                let ([value], [gradient]) = linear::<1>(map, place);
+                (value, gradient)
+            }
+            Lookup::Tricubic => {
+                let ([value], [gradient]) = cubic::<1>(map, place);
+                (value, gradient)
+            }
+        }
     }
 }

@@ -1,0 +1,62 @@
+//! Ligands at proteins, on complexes whose poses are known.
+//!
+//! ```text
+//! ROADMILL_DATA=… cargo bench --bench docking -- poses [--csv FILE] [--seeds 1-10] [--nodes N] [COMPLEX …]
+//! ROADMILL_DATA=… cargo bench --bench docking -- generators [--csv FILE] [--seeds 1-10] [COMPLEX …]
+//! ROADMILL_DATA=… cargo bench --bench docking -- speed
+//! ```
+//!
+//! `poses` looks for the poses of each complex, in the box of `bench/peers/docking-boxes.csv` and blind, by the problem that `roadmill
+//! ligand problem` makes; `generators` by one generator at a time, flexible and rigid, which repeats Tables V and VI of O. B. Bayazit's thesis
+//! (2003) on the complexes at hand; `speed` counts energies per second. With `--csv` a run's rows are appended as it ends, and runs that
+//! stand there are not made again. Times are CPU seconds of this thread.
+
+mod complexes;
+mod generators;
+mod poses;
+mod rows;
+mod run;
+mod speed;
+
+use rows::Rows;
+
+/// What is asked for.
+pub struct Asked {
+    /// The complexes, by their names.
+    pub complexes: Vec<String>,
+    /// The base seeds.
+    pub seeds: std::ops::RangeInclusive<u64>,
+    /// The most nodes of a roadmap; `None`: those of the study.
+    pub nodes: Option<u64>,
+    /// Where rows are kept.
+    pub rows: Rows,
+}
+
+fn main() {
+    let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
+    let study = arguments.next().unwrap_or_default();
+    let (mut complexes, mut seeds, mut nodes, mut csv) = (Vec::new(), 1..=10, None, None);
+    while let Some(argument) = arguments.next() {
+        let mut next = || arguments.next().expect("a value follows an option");
+        match argument.as_str() {
+            "--csv" => csv = Some(next()),
+            "--nodes" => nodes = Some(next().parse().expect("a number of nodes")),
+            "--seeds" => {
+                let text = next();
+                let (first, last) = text.split_once('-').unwrap_or((&text, &text));
+                seeds = first.parse().expect("a seed")..=last.parse().expect("a seed");
+            }
+            _ => complexes.push(argument),
+        }
+    }
+    let asked = Asked { complexes, seeds, nodes, rows: Rows::open(csv.as_deref()) };
+    match study.as_str() {
+        "poses" => poses::run(asked),
+        "generators" => generators::run(asked),
+        "speed" => speed::run(),
+        other => {
+            eprintln!("study `{other}` found; poses, generators or speed expected");
+            std::process::exit(2);
+        }
+    }
+}
