@@ -62,13 +62,14 @@ pub fn docking(
     search: &PoseSearch,
 ) -> Result<Problem, ProblemError> {
     let builder = Problem::builder(fitting_name(name), spec.clone()).folder(folder);
-    let (mut notes, mut strategies) = (Vec::new(), minima(&["cells", "surface"]));
+    let (mut notes, mut strategies) = (Vec::new(), minima(&WithinKind::default(), &among()));
     let mut schedule: Vec<&str> = ["cells", "surface"].repeat(4);
     if !search.hints.is_empty() {
         let docking = docking_of(&builder)?;
         let poses = hinted(&docking, &search.hints, &mut notes)?;
         let nodes = NODES.min(2 * poses.len() as u64);
-        strategies.push(descended("hints", SamplerKind::Given(Given::new(poses))).nodes(nodes));
+        let (given, within) = (SamplerKind::Given(Given::new(poses)), WithinKind::default());
+        strategies.push(descended("hints", given, within).among(among()).nodes(nodes));
         schedule.push("hints");
     }
     let uniform = SamplerKind::Uniform(Uniform::default());
@@ -130,7 +131,7 @@ pub fn affinity(
     let few = WithinKind::Nearest(Nearest { neighbors: 1, ..Nearest::default() });
     let lone = AmongKind::NearestNodes(NearestNodes { neighbors: 1, ..NearestNodes::default() });
     let strategies = match search.minima {
-        true => minima(&["cells", "surface"]),
+        true => minima(&few, &lone),
         false => {
             let sampler = SamplerKind::Uobprm(Uobprm::new(length, step));
             vec![StrategySpec::sampled("surface", sampler).within(few).among(lone).nodes(NODES)]
@@ -148,19 +149,20 @@ pub fn affinity(
         .build()
 }
 
-/// Strategies of minima, by their labels.
-fn minima(labels: &[&str]) -> Vec<StrategySpec> {
-    let sampler = |label: &str| match label {
-        "cells" => SamplerKind::LowEnergyCells(LowEnergyCells::default()),
-        _ => SamplerKind::ProteinSurface(ProteinSurface::default()),
+/// The strategies `cells` and `surface`: minima below configurations in cells of low energy, and at the protein's surface.
+fn minima(within: &WithinKind, among: &AmongKind) -> Vec<StrategySpec> {
+    let cells = SamplerKind::LowEnergyCells(LowEnergyCells::default());
+    let surface = SamplerKind::ProteinSurface(ProteinSurface::default());
+    let strategy = |(label, sampler): (&str, SamplerKind)| {
+        descended(label, sampler, within.clone()).among(among.clone()).nodes(NODES)
     };
-    labels.iter().map(|label| descended(label, sampler(label)).nodes(NODES)).collect()
+    [("cells", cells), ("surface", surface)].map(strategy).into()
 }
 
 /// Sets of what a sampler draws, and of the minima below.
-fn descended(label: &str, sampler: SamplerKind) -> StrategySpec {
-    let generator = GeneratorKind::Minima(Minima::new(sampler));
-    StrategySpec::generated(label, generator).among(among())
+fn descended(label: &str, sampler: SamplerKind, within: WithinKind) -> StrategySpec {
+    let minima = Minima { within, ..Minima::new(sampler) };
+    StrategySpec::generated(label, GeneratorKind::Minima(minima))
 }
 
 /// The published connection with the ten nearest nodes, whether joined already or not, since of several ways out the one over
