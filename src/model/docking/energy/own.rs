@@ -37,7 +37,10 @@ impl OwnTerms {
                 strength: one.charge * other.charge * strength,
             })
         };
-        OwnTerms { switch: Switch::new(spec.cutoff), pairs: pairs.iter().filter_map(pair).collect() }
+        OwnTerms {
+            switch: Switch::new(spec.cutoff),
+            pairs: pairs.iter().filter_map(pair).collect(),
+        }
     }
 
     /// The energy in kJ/mol with the ligand's atoms at these positions in Å.
@@ -67,14 +70,11 @@ impl OwnTerms {
 
     /// Sums the pairs, and says of each its atoms, the vector from the second to the first, and the derivative of its
     /// energy by the squared distance.
-    fn visit(
-        &self,
-        positions: &[Point],
-        mut visit: impl FnMut([usize; 2], Point, f64),
-    ) -> Parts {
+    fn visit(&self, positions: &[Point], mut visit: impl FnMut([usize; 2], Point, f64)) -> Parts {
         let mut parts = Parts::default();
         for Pair { atoms, coefficients, strength } in &self.pairs {
-            let (Some(one), Some(other)) = (positions.get(atoms[0]), positions.get(atoms[1])) else {
+            let (Some(one), Some(other)) = (positions.get(atoms[0]), positions.get(atoms[1]))
+            else {
                 continue;
             };
             let apart = one - other;

@@ -156,8 +156,7 @@ const UFF: [(&str, f64, f64); 96] = [
 /// AutoDock Vina's radii in Å of the atoms that can be hydrophobic.
 ///
 /// `xs_vdw_radii` of AutoDock Vina 1.2 (O. Trott, A. J. Olson, "AutoDock Vina", J. Comput. Chem. 31 (2010) 455-461).
-const VINA_RADII: [(&str, f64); 5] =
-    [("C", 1.9), ("F", 1.5), ("Cl", 1.8), ("Br", 2.0), ("I", 2.2)];
+const VINA_RADII: [(&str, f64); 5] = [("C", 1.9), ("F", 1.5), ("Cl", 1.8), ("Br", 2.0), ("I", 2.2)];
 
 /// The radius in Å of the hydrophobic term; 0 of elements that are not hydrophobic.
 pub fn hydrophobic_radius(element: Element) -> f64 {

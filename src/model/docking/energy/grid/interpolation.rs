@@ -69,8 +69,7 @@ pub(super) fn linear<const N: usize>(map: &Map, place: &Place) -> ([f64; N], [Po
     let (low11, step11) = map.along_x::<N>([x, y + 1, z + 1]);
     let (mut values, mut gradients) = ([0.0; N], [Point::zeros(); N]);
     for number in 0..N {
-        let (x00, x10, x01, x11) =
-            (step00[number], step10[number], step01[number], step11[number]);
+        let (x00, x10, x01, x11) = (step00[number], step10[number], step01[number], step11[number]);
         let v00 = low00[number] + along_x * x00;
         let v10 = low10[number] + along_x * x10;
         let v01 = low01[number] + along_x * x01;
