@@ -54,6 +54,7 @@ const AUTODOCK4: [(&str, f64, f64); 15] = [
 /// A. K. Rappé, C. J. Casewit, K. S. Colwell, W. A. Goddard, W. M. Skiff, "UFF, a full periodic table force field for
 /// molecular mechanics and molecular dynamics simulations", J. Am. Chem. Soc. 114 (1992) 10024-10035, as RDKit 2026.09.1
 /// has them. All of its types of an element have the same two numbers.
+#[allow(clippy::approx_constant, reason = "hafnium's distance is not π")]
 const UFF: [(&str, f64, f64); 96] = [
     ("H", 2.886, 0.044),
     ("He", 2.362, 0.056),

@@ -124,7 +124,7 @@ fn own_terms_are_those_of_pairs_with_a_protein() {
     }
     // Pairs that are not there do not count, nor do positions.
     let own = OwnTerms::new(&spec, &ligand(), &[[0, 60]]);
-    assert_eq!(own.energy(&vec![Point::zeros(); 6]), 0.0);
+    assert_eq!(own.energy(&[Point::zeros(); 6]), 0.0);
     let own = OwnTerms::new(&spec, &ligand(), &[[0, 5]]);
     assert_eq!(own.gradient(&[Point::zeros()], &mut [Point::zeros()]), 0.0);
 }
