@@ -46,9 +46,10 @@ impl OwnTerms {
             let strength = one.charge * other.charge * strength;
             Some(Pair { atoms: *atoms, coefficients, reach, depth, strength })
         };
-        let count = if spec.own == Own::None { 0 } else { pairs.len() };
-        let pairs = pairs.iter().take(count).filter_map(pair).collect();
-        OwnTerms { switch: Switch::new(spec.cutoff), repels_only, pairs }
+        OwnTerms {
+            switch: Switch::new(spec.cutoff),
+            pairs: pairs.iter().filter_map(pair).collect(),
+        }
     }
 
     /// The energy in kJ/mol with the ligand's atoms at these positions in Å.
@@ -78,14 +79,11 @@ impl OwnTerms {
 
     /// Sums the pairs, and says of each its atoms, the vector from the second to the first, and the derivative of its
     /// energy by the squared distance.
-    fn visit(
-        &self,
-        positions: &[Point],
-        mut visit: impl FnMut([usize; 2], Point, f64),
-    ) -> Parts {
+    fn visit(&self, positions: &[Point], mut visit: impl FnMut([usize; 2], Point, f64)) -> Parts {
         let mut parts = Parts::default();
-        for Pair { atoms, coefficients, reach, depth, strength } in &self.pairs {
-            let (Some(one), Some(other)) = (positions.get(atoms[0]), positions.get(atoms[1])) else {
+        for Pair { atoms, coefficients, strength } in &self.pairs {
+            let (Some(one), Some(other)) = (positions.get(atoms[0]), positions.get(atoms[1]))
+            else {
                 continue;
             };
             let apart = one - other;
