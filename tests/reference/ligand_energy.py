@@ -65,6 +65,12 @@ def van_der_waals(spec, distance, depth, r):
     return depth * ((distance / r) ** 12 - 2 * (distance / r) ** 6) * switch(spec, r)
 
 
+def repulsion(distance, depth, r):
+    """12-6 terms up to their minimum, raised to zero there (Weeks, Chandler and Andersen 1971)."""
+    r = max(r, 0.1)
+    return 0.0 if r >= distance else depth * ((distance / r) ** 12 - 2 * (distance / r) ** 6 + 1)
+
+
 def coulomb(spec, charges, r):
     if spec["dielectric"] is None:
         return 0.0 * r
@@ -104,6 +110,9 @@ class Case:
         for one, other in ligand.get("own_pairs", []):
             r = np.linalg.norm(pose[one] - pose[other])
             distance, depth = pair_parameters(self.spec, ligand["elements"][one], ligand["elements"][other])
+            if self.spec["own"] == "repulsion":
+                parts["own"] += repulsion(distance, depth, r)
+                continue
             charges = ligand["charges"][one] * ligand["charges"][other]
             parts["own"] += van_der_waals(self.spec, distance, depth, r) + coulomb(self.spec, charges, r)
         return parts

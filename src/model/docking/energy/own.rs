@@ -46,10 +46,9 @@ impl OwnTerms {
             let strength = one.charge * other.charge * strength;
             Some(Pair { atoms: *atoms, coefficients, reach, depth, strength })
         };
-        OwnTerms {
-            switch: Switch::new(spec.cutoff),
-            pairs: pairs.iter().filter_map(pair).collect(),
-        }
+        let count = if spec.own == Own::None { 0 } else { pairs.len() };
+        let pairs = pairs.iter().take(count).filter_map(pair).collect();
+        OwnTerms { switch: Switch::new(spec.cutoff), repels_only, pairs }
     }
 
     /// The energy in kJ/mol with the ligand's atoms at these positions in Å.
@@ -81,7 +80,7 @@ impl OwnTerms {
     /// energy by the squared distance.
     fn visit(&self, positions: &[Point], mut visit: impl FnMut([usize; 2], Point, f64)) -> Parts {
         let mut parts = Parts::default();
-        for Pair { atoms, coefficients, strength } in &self.pairs {
+        for Pair { atoms, coefficients, reach, depth, strength } in &self.pairs {
             let (Some(one), Some(other)) = (positions.get(atoms[0]), positions.get(atoms[1]))
             else {
                 continue;

@@ -1,6 +1,6 @@
 //! Numbers of elements and pairs, and specifications.
 
-use super::super::{CUTOFF_MAX, CUTOFF_MIN, EnergySpec, ParameterSet, VanDerWaals};
+use super::super::{CUTOFF_MAX, CUTOFF_MIN, EnergySpec, Own, ParameterSet, VanDerWaals};
 use super::element;
 use crate::ligand::Element;
 
@@ -58,13 +58,13 @@ fn bad_numbers_of_a_specification_are_named() {
         assert!(message.ends_with("found; a factor of 1 to 1000 expected"), "{message}");
     }
     let spec: EnergySpec =
-        toml::from_str("parameters = 'uff'\ncutoff = 9\ndielectric = 4\nown = false").unwrap();
+        toml::from_str("parameters = 'uff'\ncutoff = 9\ndielectric = 4\nown = 'none'").unwrap();
     let expected = EnergySpec {
         parameters: ParameterSet::Uff,
         cutoff: 9.0,
         dielectric: Some(4.0),
         hydrophobic: false,
-        own: false,
+        own: Own::None,
     };
     assert_eq!(spec, expected);
     let error = toml::from_str::<EnergySpec>("cutof = 9").unwrap_err().to_string();

@@ -1,6 +1,6 @@
 //! Energies beside those of `tests/reference/ligand_energy.py`, which has the formulas and the numbers a second time.
 
-use super::super::{EnergySpec, OwnTerms, PairSum, ParameterSet, Particle};
+use super::super::{EnergySpec, Own, OwnTerms, PairSum, ParameterSet, Particle};
 use super::{Numbers, ligand, particle, pose, protein};
 use crate::structure::Point;
 use std::fmt::Write as _;
@@ -47,15 +47,16 @@ fn energies_are_those_of_a_program_of_another_hand() {
     of_ligand[1] = particle("Si", 0.3, false);
     let pairs = [[0, 3], [1, 5], [2, 4], [0, 5]];
     let mut cases: Vec<String> = Vec::new();
-    for (set, name, cutoff, poses) in
-        [(ParameterSet::Autodock4, "autodock4", 12.0, 600), (ParameterSet::Uff, "uff", 9.0, 400)]
-    {
+    for (set, name, cutoff, (own_terms, own_name), poses) in [
+        (ParameterSet::Autodock4, "autodock4", 12.0, (Own::Repulsion, "repulsion"), 600),
+        (ParameterSet::Uff, "uff", 9.0, (Own::Whole, "whole"), 400),
+    ] {
         let spec = EnergySpec {
             parameters: set,
             cutoff,
             dielectric: Some(4.0),
             hydrophobic: true,
-            own: true,
+            own: own_terms,
         };
         let sum = PairSum::new(&spec, &of_protein, positions, &of_ligand);
         let own = OwnTerms::new(&spec, &of_ligand, &pairs);
@@ -63,7 +64,7 @@ fn energies_are_those_of_a_program_of_another_hand() {
         let mut case = String::new();
         write!(
             case,
-            r#"{{"spec": {{"parameters": "{name}", "cutoff": {cutoff:?}, "dielectric": 4.0, "hydrophobic": true}},
+            r#"{{"spec": {{"parameters": "{name}", "cutoff": {cutoff:?}, "dielectric": 4.0, "hydrophobic": true, "own": "{own_name}"}},
             "protein": {{{}, "positions": {}}}, "ligand": {{{}, "own_pairs": {pairs:?}}}, "poses": ["#,
             particles(&of_protein),
             points(positions),

@@ -1,7 +1,7 @@
 //! Exact sums and own terms: plain loops, differences, limits, orders, lanes.
 
 use super::super::{
-    COULOMB, EnergySpec, HYDROPHOBIC_DEPTH, OwnTerms, PairSum, ParameterSet, Particle, Parts,
+    COULOMB, EnergySpec, HYDROPHOBIC_DEPTH, Own, OwnTerms, PairSum, ParameterSet, Particle, Parts,
     hydrophobic_radius,
 };
 use super::{Numbers, check_gradient, everything, ligand, particle, pose, protein, sum_of};
@@ -82,8 +82,8 @@ fn sums_are_those_of_a_plain_loop() {
 
 #[test]
 fn gradients_are_differences() {
-    for cutoff in [8.0, 12.0] {
-        let spec = EnergySpec { cutoff, ..everything() };
+    for (cutoff, own) in [(8.0, Own::Repulsion), (12.0, Own::Whole)] {
+        let spec = EnergySpec { cutoff, own, ..everything() };
         let (sum, mut numbers) = sum_of(&spec);
         let own = OwnTerms::new(&spec, &ligand(), &[[0, 3], [1, 4], [2, 5], [0, 5]]);
         let mut compared = 0;
@@ -110,7 +110,7 @@ fn gradients_are_differences() {
 
 #[test]
 fn own_terms_are_those_of_pairs_with_a_protein() {
-    let spec = EnergySpec { hydrophobic: false, ..everything() };
+    let spec = EnergySpec { hydrophobic: false, own: Own::Whole, ..everything() };
     for distance in [0.01, 0.5, 3.0, 11.0, 13.0] {
         let [one, other] = [particle("N", 0.4, false), particle("Cl", -0.7, false)];
         let expected = one_pair(&spec, one, other, distance);
@@ -127,6 +127,29 @@ fn own_terms_are_those_of_pairs_with_a_protein() {
     assert_eq!(own.energy(&[Point::zeros(); 6]), 0.0);
     let own = OwnTerms::new(&spec, &ligand(), &[[0, 5]]);
     assert_eq!(own.gradient(&[Point::zeros()], &mut [Point::zeros()]), 0.0);
+}
+
+/// Repulsion alone is the whole 12-6 term raised by its depth, up to the minimum, where it ends without a step or a bend.
+#[test]
+fn repulsion_ends_at_the_minimum() {
+    let pair = [particle("C", 0.3, false), particle("O", -0.3, false)];
+    let terms = |own| {
+        let spec = EnergySpec { own, cutoff: 100.0, dielectric: None, ..everything() };
+        OwnTerms::new(&spec, &pair, &[[0, 1]])
+    };
+    let (whole, repulsion) = (terms(Own::Whole), terms(Own::Repulsion));
+    let at = |terms: &OwnTerms, x: f64| terms.energy(&[Point::zeros(), Point::new(x, 0.0, 0.0)]);
+    // AutoDock 4.1: R = (4.0 + 3.2) / 2.
+    let (bottom, depth) = (3.6, -at(&whole, 3.6));
+    assert!(depth > 0.5, "{depth}");
+    for x in [0.5, 2.0, 3.0, 3.5, bottom - 1e-6] {
+        let expected = at(&whole, x) + depth;
+        let found = at(&repulsion, x);
+        assert!((found - expected).abs() <= 1e-9 * expected.abs().max(1.0), "{found} at {x}");
+    }
+    assert!(at(&repulsion, bottom - 1e-4) < 1e-6);
+    assert_eq!([bottom + 1e-6, 5.0, 50.0].map(|x| at(&repulsion, x)), [0.0; 3]);
+    assert_eq!(at(&terms(Own::None), 0.5), 0.0);
 }
 
 #[test]
