@@ -8,6 +8,7 @@ use crate::output::{self, Plain, note};
 use crate::progress::Reporter;
 use crate::run::summary_in;
 use crate::work::{Begun, Ended, Growth, Status, Torn, WORKERS_MAX, Watch, Workers};
+use roadmill::model::ModelKind;
 use roadmill::problem::Problem;
 use roadmill::survey::Survey;
 use std::fs::File;
@@ -115,8 +116,12 @@ fn say_survey(problem: &Problem) {
 /// Says by which command people see what was built.
 fn say_look(ended: &Ended) {
     let (name, run) = (Plain(ended.problem().name()), ended.run().folder().display());
-    let description = ended.problem().model().description();
+    let model = ended.problem().model();
+    let description = model.description();
     let look = match (description.figure(), description.molecule()) {
+        _ if matches!(model, ModelKind::Docking(_)) => {
+            format!("roadmill ligand poses {run} --page poses.html")
+        }
         (Some(_), _) => format!("roadmill view {run}"),
         (None, Some(_)) => format!("roadmill report {run} --out report.html"),
         (None, None) => return,

@@ -14,10 +14,14 @@ pub(super) fn write(docking: &Docking, documents: &mut Documents) {
     let path = if folder.is_empty() { name.to_owned() } else { format!("{folder}/{name}") };
     documents.files.push((name.to_owned(), receptor::file(chains)));
     let [min, max] = bounds;
+    // Where there are none, there is nothing to be kept, nor to be said of it when the file is read.
+    let has_hydrogens = ligand.atoms().iter().any(|atom| !atom.element.is_heavy())
+        || docking.residues().flat_map(|(_, of)| &of.atoms).any(|atom| !atom.is_heavy());
+    let hydrogens = if has_hydrogens { "keep" } else { "remove" };
     documents.text += &format!(
         "\n[docking]\n\
          protein = {{ file = {}, waters = \"keep\", metals = \"keep\", others = \"keep\" }}\n\
-         hydrogens = \"keep\"\n\
+         hydrogens = \"{hydrogens}\"\n\
          rigid = {rigid}\n\
          amides = {amides}\n\
          box = {{ min = {min:?}, max = {max:?} }}\n\

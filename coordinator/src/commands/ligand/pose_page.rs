@@ -32,7 +32,7 @@ impl Shown<'_> {
     /// # Errors
     /// Exit code 2: the protein or the ligand cannot be written in the formats that the page has them in.
     pub fn page(&self) -> Result<String, Failure> {
-        let Shown { run, docking, found, reference, descents, table, .. } = *self;
+        let Shown { run, docking, reference, descents, table, .. } = *self;
         let ligand = docking.ligand();
         let reference_record = match reference {
             Some(known) => Some(plain_record(docking, &known.descended, &[])?),

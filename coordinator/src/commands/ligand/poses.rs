@@ -100,9 +100,9 @@ fn files(arguments: &PosesArguments) -> (PathBuf, Vec<PoseFormat>) {
         name.push("-poses");
         PathBuf::from(name)
     });
-    let formats = match (&arguments.format[..], &arguments.out, arguments.ways) {
-        ([], Some(_), 0) => vec![PoseFormat::Sdf, PoseFormat::Pdb, PoseFormat::Csv],
-        (given, ..) => given.to_vec(),
+    let formats = match (&arguments.format[..], &arguments.out) {
+        ([], Some(_)) => vec![PoseFormat::Sdf, PoseFormat::Pdb, PoseFormat::Csv],
+        (given, _) => given.to_vec(),
     };
     (prefix, formats)
 }

@@ -2,6 +2,7 @@
 
 use crate::exit::Failure;
 use crate::files::read_regular_text;
+use crate::output::note;
 use roadmill::binding::{Affinity, Interval, Kendall, PValue, interval};
 use roadmill::internal::csv_field::csv_field;
 use roadmill::internal::plain::plain;
@@ -21,10 +22,10 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// Reads lines NAME,VALUE; a first line whose value is no number is a heading.
+    /// Reads lines NAME,VALUE; a first line whose value is no number is a heading. Values of other ligands are left out, with a note.
     ///
     /// # Errors
-    /// Exit code 2: a line that is none, a ligand that is named twice or is not there, fewer than three values.
+    /// Exit code 2: a line that is none, a ligand that is named twice, fewer than three values.
     pub fn read(
         file: &Path,
         larger_is_stronger: bool,
@@ -33,7 +34,7 @@ impl Measured {
         let path = file.display();
         let text = read_regular_text(file)
             .map_err(|error| Failure::usage(format!("{path}: cannot be read: {error}")))?;
-        let mut values = BTreeMap::new();
+        let (mut values, mut unknown) = (BTreeMap::new(), Vec::new());
         for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
             if line.trim().is_empty() {
                 continue;
@@ -51,10 +52,8 @@ impl Measured {
                 return Err(refuse(format!("`{}` found; NAME,VALUE expected", plain(line))));
             };
             if !names.contains(&fields[0]) {
-                let name = plain(&fields[0]);
-                return Err(refuse(format!(
-                    "`{name}` found; the name of one of the ligands expected"
-                )));
+                unknown.push(plain(&fields[0]).into_owned());
+                continue;
             }
             if values.insert(fields[0].clone(), value).is_some() {
                 let name = plain(&fields[0]);
@@ -62,6 +61,12 @@ impl Measured {
                     "`{name}` found a second time; one value for each ligand expected"
                 )));
             }
+        }
+        if !unknown.is_empty() {
+            note(format_args!(
+                "{path}: left out, as there are no such ligands: {}",
+                unknown.join(", ")
+            ));
         }
         if values.len() < 3 {
             let found = values.len();
