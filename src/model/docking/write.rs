@@ -16,7 +16,7 @@ pub(super) fn write(docking: &Docking, documents: &mut Documents) {
     let [min, max] = bounds;
     // Where there are none, there is nothing to be kept, nor to be said of it when the file is read.
     let has_hydrogens = ligand.atoms().iter().any(|atom| !atom.element.is_heavy())
-        || docking.residues().flat_map(|(_, of)| &of.atoms).any(|atom| !atom.is_heavy());
+        || chains.iter().flat_map(|of| &of.residues).flat_map(|of| &of.atoms).any(|atom| !atom.is_heavy());
     let hydrogens = if has_hydrogens { "keep" } else { "remove" };
     documents.text += &format!(
         "\n[docking]\n\
