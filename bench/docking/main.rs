@@ -3,16 +3,17 @@
 //! ```text
 //! ROADMILL_DATA=… cargo bench --bench docking -- poses [--csv FILE] [--seeds 1-10] [--nodes N] [COMPLEX …]
 //! ROADMILL_DATA=… cargo bench --bench docking -- generators [--csv FILE] [--seeds 1-10] [COMPLEX …]
-//! ROADMILL_DATA=… cargo bench --bench docking -- speed
+//! ROADMILL_DATA=… cargo bench --bench docking -- speed | grid
 //! ```
 //!
 //! `poses` looks for the poses of each complex, in the box of `bench/peers/docking-boxes.csv` and blind, by the problem that `roadmill
 //! ligand problem` makes; `generators` by one generator at a time, flexible and rigid, which repeats Tables V and VI of O. B. Bayazit's thesis
-//! (2003) on the complexes at hand; `speed` counts energies per second. With `--csv` a run's rows are appended as it ends, and runs that
+//! (2003) on the complexes at hand; `speed` counts energies per second, `grid` compares energies of the grid with exact sums. With `--csv` a run's rows are appended as it ends, and runs that
 //! stand there are not made again. Times are CPU seconds of this thread.
 
 mod complexes;
 mod generators;
+mod grid;
 mod poses;
 mod rows;
 mod run;
@@ -54,8 +55,9 @@ fn main() {
         "poses" => poses::run(asked),
         "generators" => generators::run(asked),
         "speed" => speed::run(),
+        "grid" => grid::run(),
         other => {
-            eprintln!("study `{other}` found; poses, generators or speed expected");
+            eprintln!("study `{other}` found; poses, generators, speed or grid expected");
             std::process::exit(2);
         }
     }

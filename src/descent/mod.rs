@@ -3,6 +3,7 @@
 //! O. B. Bayazit (*Solving Motion Planning Problems by Iterative Relaxation of Constraints*, PhD thesis, Texas A&M University, 2003,
 //! chapter V E) improves approximate solutions so: nodes near a protein's surface are pushed to local minima of the energy.
 
+mod basin_hopping;
 mod gradient;
 mod lowest_neighbor;
 #[cfg(test)]
@@ -12,10 +13,12 @@ methods! {
     /// The descents, as a problem file names them.
     pub enum DescentKind: dyn Descent {
         LowestNeighbor(lowest_neighbor::LowestNeighbor),
-        Gradient(gradient::Gradient), // new ones at the end, since ledgers know methods by number
+        Gradient(gradient::Gradient),
+        BasinHopping(basin_hopping::BasinHopping), // new ones at the end, since ledgers know methods by number
     }
 }
 
+pub use basin_hopping::BasinHopping;
 pub use gradient::Gradient;
 pub use lowest_neighbor::LowestNeighbor;
 

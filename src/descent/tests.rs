@@ -63,6 +63,24 @@ fn lowest_neighbors_lead_down() {
     assert!(near_minima > 150, "{near_minima}");
 }
 
+/// Hops find the deepest minimum of all from wherever they begin, which a single descent does from its own basin alone.
+#[test]
+fn hops_lead_to_the_lowest_minimum() {
+    let (cx, scratch) = (muller_brown(), &mut Scratch::new());
+    let mut stream = Seed::of_set(1, "descent", Ordinal(3)).stream(Purpose::Sampling);
+    let descent = BasinHopping { hops: 60, step: 2.0, ..BasinHopping::default() };
+    let mut q = [0.0; 2];
+    let mut lowest = 0;
+    for _ in 0..50 {
+        cx.space.sample_uniform(&mut stream, &mut q);
+        let energy = descent.descend(&cx, &mut stream, &mut q, scratch);
+        assert_eq!(energy, cx.model.energy(&q, scratch).unwrap());
+        assert!(cx.space.within_bounds(&q));
+        lowest += usize::from((energy - MINIMA[0].1).abs() < 0.1);
+    }
+    assert!(lowest > 40, "{lowest} of 50");
+}
+
 /// Where all is flat nothing moves, and at a bound nothing leaves it.
 #[test]
 fn descents_stay_within_the_bounds() {
@@ -92,6 +110,9 @@ fn wrong_settings_and_models_without_energies_are_refused() {
         DescentKind::Gradient(Gradient { longest: 0.0, ..Gradient::default() }),
         DescentKind::Gradient(Gradient { least: f64::NAN, ..Gradient::default() }),
         DescentKind::Gradient(Gradient { iterations: 0, ..Gradient::default() }),
+        DescentKind::BasinHopping(BasinHopping { hops: 0, ..BasinHopping::default() }),
+        DescentKind::BasinHopping(BasinHopping { kt: 0.0, ..BasinHopping::default() }),
+        DescentKind::BasinHopping(BasinHopping { step: f64::NAN, ..BasinHopping::default() }),
         DescentKind::LowestNeighbor(LowestNeighbor { radius: -1.0, iterations: 1 }),
         DescentKind::LowestNeighbor(LowestNeighbor { radius: 1.0, iterations: 0 }),
     ];

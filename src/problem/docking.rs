@@ -3,6 +3,7 @@
 use super::{Problem, ProblemBuilder, ProblemError, StrategySpec};
 use crate::binding::Exact;
 use crate::connect::{AmongKind, Nearest, NearestNodes, NodesAndComponents, WithinKind};
+use crate::descent::{BasinHopping, DescentKind};
 use crate::evaluate::{EvaluatorKind, ExposedSurface};
 use crate::generator::{GeneratorKind, Minima};
 use crate::ligand::Ligand;
@@ -13,8 +14,8 @@ use crate::source::fitting_name;
 use std::path::Path;
 
 /// The limit of nodes where the ligand may be anywhere at the protein, and where a box is given.
-const NODES_BLIND: u64 = 20_000;
-const NODES_BOXED: u64 = 8_000;
+const NODES_BLIND: u64 = 12_000;
+const NODES_BOXED: u64 = 4_000;
 
 /// Nodes of a set: half of them are drawn, half are the minima below these.
 const NODES: u64 = 50;
@@ -24,6 +25,9 @@ const NODES_UNIFORM: u64 = 10;
 const SETS_PER_ROUND: u64 = 10;
 /// With how many nearest nodes a new one is tried (O. B. Bayazit 2003, chapter V E 2).
 const NEIGHBORS: u32 = 10;
+/// How many of these are tried though they are joined already, since of several ways out the one over the lowest barrier counts; and how many
+/// pairs of two components.
+const CYCLES: u32 = 3;
 
 /// The sampler of H.-Y. Yeh's chapter 6: how long segments are, in the metric of the space, Å, and the step along them. The thesis has the length,
 /// and of the step that it is the resolution at which collisions are looked for.
@@ -35,7 +39,7 @@ const SAMPLES: u64 = 5_000;
 /// How poses are searched for.
 #[derive(Clone, Debug, Default)]
 pub struct PoseSearch {
-    /// The number of nodes at which the build ends; 20 000 if nothing is said, 8000 in a box.
+    /// The number of nodes at which the build ends; 12 000 if nothing is said, 4000 in a box.
     pub nodes: Option<u64>,
     /// Poses of the ligand that a user expects to be near one: placed as they are, in the shape that the problem's ligand has, and
     /// descended with all torsions (O. B. Bayazit 2003, chapter V D 3, takes them from a haptic device that moves a rigid ligand).
@@ -62,8 +66,9 @@ pub fn docking(
     search: &PoseSearch,
 ) -> Result<Problem, ProblemError> {
     let builder = Problem::builder(fitting_name(name), spec.clone()).folder(folder);
-    let (mut notes, mut strategies) = (Vec::new(), minima(&WithinKind::default(), &among()));
-    let mut schedule: Vec<&str> = ["cells", "surface"].repeat(4);
+    let strategies = minima(&["cells", "surface", "hops"], &WithinKind::default(), &among());
+    let (mut notes, mut strategies) = (Vec::new(), strategies);
+    let mut schedule: Vec<&str> = ["cells", "surface", "hops"].repeat(3);
     if !search.hints.is_empty() {
         let docking = docking_of(&builder)?;
         let poses = hinted(&docking, &search.hints, &mut notes)?;
@@ -131,7 +136,7 @@ pub fn affinity(
     let few = WithinKind::Nearest(Nearest { neighbors: 1, ..Nearest::default() });
     let lone = AmongKind::NearestNodes(NearestNodes { neighbors: 1, ..NearestNodes::default() });
     let strategies = match search.minima {
-        true => minima(&few, &lone),
+        true => minima(&["cells", "surface"], &few, &lone),
         false => {
             let sampler = SamplerKind::Uobprm(Uobprm::new(length, step));
             vec![StrategySpec::sampled("surface", sampler).within(few).among(lone).nodes(NODES)]
@@ -149,14 +154,24 @@ pub fn affinity(
         .build()
 }
 
-/// The strategies `cells` and `surface`: minima below configurations in cells of low energy, and at the protein's surface.
-fn minima(within: &WithinKind, among: &AmongKind) -> Vec<StrategySpec> {
+/// Strategies of minima, by their labels, with these connections: of `hops` the lowest minima that are found from cells of low energy on.
+fn minima(labels: &[&str], within: &WithinKind, among: &AmongKind) -> Vec<StrategySpec> {
     let cells = SamplerKind::LowEnergyCells(LowEnergyCells::default());
     let surface = SamplerKind::ProteinSurface(ProteinSurface::default());
-    let strategy = |(label, sampler): (&str, SamplerKind)| {
-        descended(label, sampler, within.clone()).among(among.clone()).nodes(NODES)
+    let strategy = |label: &&str| {
+        let generated = match *label {
+            "cells" => descended(label, cells.clone(), within.clone()),
+            "hops" => {
+                let (within, descent) =
+                    (within.clone(), DescentKind::BasinHopping(BasinHopping::default()));
+                let minima = Minima { descent, within, ..Minima::new(cells.clone()) };
+                StrategySpec::generated(*label, GeneratorKind::Minima(minima))
+            }
+            _ => descended(label, surface.clone(), within.clone()),
+        };
+        generated.among(among.clone()).nodes(NODES)
     };
-    [("cells", cells), ("surface", surface)].map(strategy).into()
+    labels.iter().map(strategy).collect()
 }
 
 /// Sets of what a sampler draws, and of the minima below.
@@ -165,11 +180,12 @@ fn descended(label: &str, sampler: SamplerKind, within: WithinKind) -> StrategyS
     StrategySpec::generated(label, GeneratorKind::Minima(minima))
 }
 
-/// The published connection with the ten nearest nodes, whether joined already or not, since of several ways out the one over
+/// The published connection with the ten nearest nodes, some of them whether joined already or not, since of several ways out the one over
 /// the lowest barrier counts; and then what joins components, so that no pose is left without a way out.
 fn among() -> AmongKind {
-    let (neighbors, cycles) = (NEIGHBORS, NEIGHBORS);
-    AmongKind::NodesAndComponents(NodesAndComponents { neighbors, cycles, ..Default::default() })
+    let (neighbors, cycles, pairs) = (NEIGHBORS, CYCLES, CYCLES);
+    let joins = NodesAndComponents { neighbors, cycles, pairs, ..Default::default() };
+    AmongKind::NodesAndComponents(joins)
 }
 
 /// The configurations of hints. One that is not valid, as it touches the protein, is descended until it is, which is noted.

@@ -78,14 +78,11 @@ impl OwnTerms {
 
     /// Sums the pairs, and says of each its atoms, the vector from the second to the first, and the derivative of its
     /// energy by the squared distance.
-    fn visit(
-        &self,
-        positions: &[Point],
-        mut visit: impl FnMut([usize; 2], Point, f64),
-    ) -> Parts {
+    fn visit(&self, positions: &[Point], mut visit: impl FnMut([usize; 2], Point, f64)) -> Parts {
         let mut parts = Parts::default();
         for Pair { atoms, coefficients, reach, depth, strength } in &self.pairs {
-            let (Some(one), Some(other)) = (positions.get(atoms[0]), positions.get(atoms[1])) else {
+            let (Some(one), Some(other)) = (positions.get(atoms[0]), positions.get(atoms[1]))
+            else {
                 continue;
             };
             let apart = one - other;

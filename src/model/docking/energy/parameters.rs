@@ -54,6 +54,7 @@ const AUTODOCK4: [(&str, f64, f64); 15] = [
 /// A. K. Rappé, C. J. Casewit, K. S. Colwell, W. A. Goddard, W. M. Skiff, "UFF, a full periodic table force field for
 /// molecular mechanics and molecular dynamics simulations", J. Am. Chem. Soc. 114 (1992) 10024-10035, as RDKit 2026.09.1
 /// has them. All of its types of an element have the same two numbers.
+#[allow(clippy::approx_constant, reason = "hafnium's distance is not π")]
 const UFF: [(&str, f64, f64); 96] = [
     ("H", 2.886, 0.044),
     ("He", 2.362, 0.056),
@@ -156,8 +157,7 @@ const UFF: [(&str, f64, f64); 96] = [
 /// AutoDock Vina's radii in Å of the atoms that can be hydrophobic.
 ///
 /// `xs_vdw_radii` of AutoDock Vina 1.2 (O. Trott, A. J. Olson, "AutoDock Vina", J. Comput. Chem. 31 (2010) 455-461).
-const VINA_RADII: [(&str, f64); 5] =
-    [("C", 1.9), ("F", 1.5), ("Cl", 1.8), ("Br", 2.0), ("I", 2.2)];
+const VINA_RADII: [(&str, f64); 5] = [("C", 1.9), ("F", 1.5), ("Cl", 1.8), ("Br", 2.0), ("I", 2.2)];
 
 /// The radius in Å of the hydrophobic term; 0 of elements that are not hydrophobic.
 pub fn hydrophobic_radius(element: Element) -> f64 {

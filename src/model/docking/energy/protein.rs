@@ -33,20 +33,25 @@ const IONS: [(f64, &[&str]); 4] = [
     (1.0, &["Li", "Na", "K", "Rb", "Cs", "Ag", "Tl"]),
     (
         2.0,
-        &["Be", "Mg", "Ca", "Sr", "Ba", "Mn", "Fe", "Co", "Ni", "Cu", "Zn", "Cd", "Hg", "Pb", "Pd", "Pt"],
+        &[
+            "Be", "Mg", "Ca", "Sr", "Ba", "Mn", "Fe", "Co", "Ni", "Cu", "Zn", "Cd", "Hg", "Pb",
+            "Pd", "Pt",
+        ],
     ),
     (
         3.0,
         &[
-            "Al", "Sc", "Cr", "Ga", "Y", "In", "La", "Ce", "Pr", "Nd", "Sm", "Eu", "Gd", "Tb", "Dy", "Ho",
-            "Er", "Tm", "Yb", "Lu",
+            "Al", "Sc", "Cr", "Ga", "Y", "In", "La", "Ce", "Pr", "Nd", "Sm", "Eu", "Gd", "Tb",
+            "Dy", "Ho", "Er", "Tm", "Yb", "Lu",
         ],
     ),
 ];
 
 /// An atom of an element that has no parameters: one beyond curium, or none at all.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{residue}: atom {atom} of element {element:?} found; elements from hydrogen to curium expected")]
+#[error(
+    "{residue}: atom {atom} of element {element:?} found; elements from hydrogen to curium expected"
+)]
 pub struct UnknownElement {
     /// The residue, as `CF 301`.
     pub residue: String,
@@ -110,9 +115,8 @@ fn push_neutral(residue: &Residue, particles: &mut Vec<Particle>) -> Result<(), 
         .collect();
     let elements = elements?;
     let bonded = neighbour_elements(&residue.atoms, &elements);
-    let is_backbone = |atom: &Atom| {
-        residue.amino_acid.is_some() && matches!(atom.name.as_str(), "CA" | "C")
-    };
+    let is_backbone =
+        |atom: &Atom| residue.amino_acid.is_some() && matches!(atom.name.as_str(), "CA" | "C");
     for ((atom, element), bonded) in residue.atoms.iter().zip(&elements).zip(bonded) {
         // Nitrogens of the backbone that went unseen are bonded to these, too.
         let is_hydrophobic = !is_backbone(atom) && is_hydrophobic(*element, bonded);
@@ -133,8 +137,9 @@ fn neighbour_elements(atoms: &[Atom], elements: &[Element]) -> Vec<Vec<Element>>
             if apart.x > 2.0 * widest + BOND_TOLERANCE {
                 break;
             }
-            let most =
-                elements[*one].covalent_radius() + elements[*other].covalent_radius() + BOND_TOLERANCE;
+            let most = elements[*one].covalent_radius()
+                + elements[*other].covalent_radius()
+                + BOND_TOLERANCE;
             if apart.norm_squared() <= most * most {
                 bonded[*one].push(elements[*other]);
                 bonded[*other].push(elements[*one]);
@@ -162,7 +167,8 @@ fn groups(residue: &Residue) -> impl Iterator<Item = (&'static [&'static str], f
 /// Shares a charge equally among the atoms of these names that there are.
 fn share(residue: &Residue, names: &[&str], charge: f64, particles: &mut [Particle]) {
     let is_member = |atom: &Atom| names.contains(&atom.name.as_str());
-    let count = residue.atoms.iter().filter(|atom| is_member(atom)).fold(0.0, |count, _| count + 1.0);
+    let count =
+        residue.atoms.iter().filter(|atom| is_member(atom)).fold(0.0, |count, _| count + 1.0);
     for (atom, particle) in residue.atoms.iter().zip(particles) {
         if is_member(atom) {
             particle.charge += charge / count;

@@ -46,8 +46,7 @@ impl Switch {
         let number = |value: f64| f64x8::splat(simd, value);
         let x = squared.max(number(self.inner)).min(number(self.outer));
         let (to_outer, to_inner) = (number(self.outer) - x, x - number(self.inner));
-        let value =
-            to_outer * to_outer * (to_outer + number(3.0) * to_inner) * number(self.scale);
+        let value = to_outer * to_outer * (to_outer + number(3.0) * to_inner) * number(self.scale);
         (value, number(-6.0) * to_outer * to_inner * number(self.scale))
     }
 }

@@ -119,22 +119,29 @@ pub(super) fn sum<S: Simd>(
     let [x, y, z] = [number(at.x), number(at.y), number(at.z)];
     let mut sums = [zero; 4];
     let [xs, ys, zs] = &cells.at;
-    cells.runs(at, 0.0, reach, #[inline(always)] |run| {
-        for first in run.step_by(LANES) {
-            let x = x - f64x8::from_slice(simd, &xs[first..first + LANES]);
-            let y = y - f64x8::from_slice(simd, &ys[first..first + LANES]);
-            let z = z - f64x8::from_slice(simd, &zs[first..first + LANES]);
-            let squared = x * x + y * y + z * z;
-            let (energy, derivative) = term.eight(simd, first, squared.max(nearest));
-            // Nearer atoms count as being at one distance, so that nothing changes with their position.
-            let derivative = squared.simd_gt(nearest).select(two * derivative, zero);
-            sums[0] += energy;
-            sums[1] += derivative * x;
-            sums[2] += derivative * y;
-            sums[3] += derivative * z;
-        }
-    });
-    let [energy, x, y, z] = sums.map(|lanes| lanes.as_slice().iter().fold(0.0, |sum, lane| sum + lane));
+    cells.runs(
+        at,
+        0.0,
+        reach,
+        #[inline(always)]
+        |run| {
+            for first in run.step_by(LANES) {
+                let x = x - f64x8::from_slice(simd, &xs[first..first + LANES]);
+                let y = y - f64x8::from_slice(simd, &ys[first..first + LANES]);
+                let z = z - f64x8::from_slice(simd, &zs[first..first + LANES]);
+                let squared = x * x + y * y + z * z;
+                let (energy, derivative) = term.eight(simd, first, squared.max(nearest));
+                // Nearer atoms count as being at one distance, so that nothing changes with their position.
+                let derivative = squared.simd_gt(nearest).select(two * derivative, zero);
+                sums[0] += energy;
+                sums[1] += derivative * x;
+                sums[2] += derivative * y;
+                sums[3] += derivative * z;
+            }
+        },
+    );
+    let [energy, x, y, z] =
+        sums.map(|lanes| lanes.as_slice().iter().fold(0.0, |sum, lane| sum + lane));
     (energy, Point::new(x, y, z))
 }
 
@@ -153,6 +160,7 @@ pub(super) fn one_pair(
     let energies = [repulsion - attraction, strength * inverse];
     let together = energies[0] + energies[1];
     let derivative = (3.0 * attraction - 6.0 * repulsion - energies[1]) * inverse;
-    let derivative = if squared > NEAREST_SQUARED { derivative * factor + together * slope } else { 0.0 };
+    let derivative =
+        if squared > NEAREST_SQUARED { derivative * factor + together * slope } else { 0.0 };
     (energies.map(|energy| energy * factor), derivative)
 }

@@ -6,9 +6,7 @@ use crate::model::docking::energy::cells::{Cells, LANES};
 use crate::model::docking::energy::parameters::hydrophobic_radius;
 use crate::model::docking::energy::sum::{CoulombField, HydrophobicField, PairSum};
 use crate::model::docking::energy::switch::NEAREST_SQUARED;
-use crate::model::docking::energy::terms::{
-    HYDROPHOBIC_DEPTH, HYDROPHOBIC_FAR, HYDROPHOBIC_NEAR,
-};
+use crate::model::docking::energy::terms::{HYDROPHOBIC_DEPTH, HYDROPHOBIC_FAR, HYDROPHOBIC_NEAR};
 use crate::structure::Point;
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
@@ -99,13 +97,7 @@ impl<S: Simd> Points<S> {
     /// Calls `visit` with every point of the cells that may be nearer than `reach`, its number and the squared distances from
     /// the eight.
     #[inline(always)]
-    fn near(
-        &self,
-        simd: S,
-        cells: &Cells,
-        reach: f64,
-        mut visit: impl FnMut(usize, f64x8<S>),
-    ) {
+    fn near(&self, simd: S, cells: &Cells, reach: f64, mut visit: impl FnMut(usize, f64x8<S>)) {
         let number = |value: f64| f64x8::splat(simd, value);
         let [xs, ys, zs] = &cells.at;
         cells.runs(

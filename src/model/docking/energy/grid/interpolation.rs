@@ -69,8 +69,7 @@ pub(super) fn linear<const N: usize>(map: &Map, place: &Place) -> ([f64; N], [Po
     let (low11, step11) = map.along_x::<N>([x, y + 1, z + 1]);
     let (mut values, mut gradients) = ([0.0; N], [Point::zeros(); N]);
     for number in 0..N {
-        let (x00, x10, x01, x11) =
-            (step00[number], step10[number], step01[number], step11[number]);
+        let (x00, x10, x01, x11) = (step00[number], step10[number], step01[number], step11[number]);
         let v00 = low00[number] + along_x * x00;
         let v10 = low10[number] + along_x * x10;
         let v01 = low01[number] + along_x * x01;
@@ -85,26 +84,18 @@ pub(super) fn linear<const N: usize>(map: &Map, place: &Place) -> ([f64; N], [Po
     (values, gradients)
 }
 
-/// The weights of four points for a place `t` (0 to 1) between the inner two, and their derivatives by `t`.
+/// The weights of four points for a place `t` (0 to 1) between the inner two, each with its derivative by `t`.
 ///
 /// E. Catmull, R. Rom, "A class of local interpolating splines", in Computer Aided Geometric Design, 1974, 317-326.
 #[inline(always)]
-fn catmull_rom(t: f64) -> [[f64; 4]; 2] {
+fn catmull_rom(t: f64) -> [[f64; 2]; 4] {
     let square = t * t;
     let cube = square * t;
     [
-        [
-            0.5 * (2.0 * square - cube - t),
-            0.5 * (3.0 * cube - 5.0 * square + 2.0),
-            0.5 * (4.0 * square - 3.0 * cube + t),
-            0.5 * (cube - square),
-        ],
-        [
-            0.5 * (4.0 * t - 3.0 * square - 1.0),
-            0.5 * (9.0 * square - 10.0 * t),
-            0.5 * (8.0 * t - 9.0 * square + 1.0),
-            0.5 * (3.0 * square - 2.0 * t),
-        ],
+        [0.5 * (2.0 * square - cube - t), 0.5 * (4.0 * t - 3.0 * square - 1.0)],
+        [0.5 * (3.0 * cube - 5.0 * square + 2.0), 0.5 * (9.0 * square - 10.0 * t)],
+        [0.5 * (4.0 * square - 3.0 * cube + t), 0.5 * (8.0 * t - 9.0 * square + 1.0)],
+        [0.5 * (cube - square), 0.5 * (3.0 * square - 2.0 * t)],
     ]
 }
 
@@ -117,31 +108,31 @@ pub(super) fn cubic<const N: usize>(map: &Map, place: &Place) -> ([f64; N], [Poi
         (place.point[axis] + step).saturating_sub(1).min(map.counts[axis] - 1)
     };
     let (mut values, mut gradients) = ([0.0; N], [Point::zeros(); N]);
-    for step_z in 0..4 {
+    for (step_z, [weight_z, slope_z]) in weights_z.into_iter().enumerate() {
         // The plane's values, and its slopes along x and y.
         let mut plane = [[0.0; N]; 3];
-        for step_y in 0..4 {
+        for (step_y, [weight_y, slope_y]) in weights_y.into_iter().enumerate() {
             let mut line = [[0.0; N]; 2];
-            for step_x in 0..4 {
+            for (step_x, [weight_x, slope_x]) in weights_x.into_iter().enumerate() {
                 let point = [index(0, step_x), index(1, step_y), index(2, step_z)];
                 let numbers = map.at::<N>(point);
                 for number in 0..N {
-                    line[0][number] += weights_x[0][step_x] * numbers[number];
-                    line[1][number] += weights_x[1][step_x] * numbers[number];
+                    line[0][number] += weight_x * numbers[number];
+                    line[1][number] += slope_x * numbers[number];
                 }
             }
             for number in 0..N {
-                plane[0][number] += weights_y[0][step_y] * line[0][number];
-                plane[1][number] += weights_y[0][step_y] * line[1][number];
-                plane[2][number] += weights_y[1][step_y] * line[0][number];
+                plane[0][number] += weight_y * line[0][number];
+                plane[1][number] += weight_y * line[1][number];
+                plane[2][number] += slope_y * line[0][number];
             }
         }
         for number in 0..N {
-            values[number] += weights_z[0][step_z] * plane[0][number];
+            values[number] += weight_z * plane[0][number];
             gradients[number] += Point::new(
-                weights_z[0][step_z] * plane[1][number],
-                weights_z[0][step_z] * plane[2][number],
-                weights_z[1][step_z] * plane[0][number],
+                weight_z * plane[1][number],
+                weight_z * plane[2][number],
+                slope_z * plane[0][number],
             );
         }
     }

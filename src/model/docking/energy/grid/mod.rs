@@ -121,7 +121,13 @@ impl Grid {
 
     /// The energy of an atom at a position, and its derivative by the position.
     #[inline(always)]
-    fn of_atom(&self, values: &[f32], sum: &PairSum, atom: usize, at: Point) -> (f64, Point) {
+    pub(super) fn of_atom(
+        &self,
+        values: &[f32],
+        sum: &PairSum,
+        atom: usize,
+        at: Point,
+    ) -> (f64, Point) {
         let Some(place) = self.place(at) else {
             let (parts, gradient) = sum.of_atom(atom, at);
             return (parts.total(), gradient);

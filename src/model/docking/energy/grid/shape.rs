@@ -34,12 +34,7 @@ impl Grid {
     /// A grid over the box between two opposite corners (Å, any two), its points `spacing` Å apart; the last ones lie on the
     /// box's faces or beyond them. `None` where a corner is not finite, where the spacing is not within [`SPACING_RANGE`],
     /// and where there would be more than [`VALUES_MAX`] values.
-    pub fn new(
-        sum: &PairSum,
-        corners: [Point; 2],
-        spacing: f64,
-        lookup: Lookup,
-    ) -> Option<Grid> {
+    pub fn new(sum: &PairSum, corners: [Point; 2], spacing: f64, lookup: Lookup) -> Option<Grid> {
         let [least, most] = SPACING_RANGE;
         let is_finite = corners.iter().flatten().all(|value| value.is_finite());
         if !is_finite || !(least..=most).contains(&spacing) {
