@@ -71,22 +71,27 @@ impl BasinHopping {
     }
 }
 
-impl Descent for BasinHopping {
-    fn descend(
+impl BasinHopping {
+    /// Descends from `q` and hops from there on, and shows `visit` every minimum with its energy; `q` becomes the lowest of them, whose energy
+    /// is returned.
+    pub(crate) fn chain(
         &self,
         cx: &Context,
         stream: &mut Stream,
         q: &mut [f64],
         scratch: &mut Scratch,
+        visit: &mut dyn FnMut(&[f64], f64),
     ) -> f64 {
         let mut here = q.to_vec();
         let mut energy = self.descent.descend(cx, stream, &mut here, scratch);
         let (mut lowest, mut next) = (energy, here.clone());
         q.copy_from_slice(&here);
+        visit(&here, energy);
         for _ in 0..self.hops {
             next.copy_from_slice(&here);
             self.change(cx, stream, &mut next);
             let reached = self.descent.descend(cx, stream, &mut next, scratch);
+            visit(&next, reached);
             // Drawn for every hop, so that no energy shifts the numbers of later ones.
             let drawn = stream.unit();
             let is_kept = reached <= energy || drawn < math::exp((energy - reached) / self.kt);
@@ -100,6 +105,18 @@ impl Descent for BasinHopping {
             }
         }
         lowest
+    }
+}
+
+impl Descent for BasinHopping {
+    fn descend(
+        &self,
+        cx: &Context,
+        stream: &mut Stream,
+        q: &mut [f64],
+        scratch: &mut Scratch,
+    ) -> f64 {
+        self.chain(cx, stream, q, scratch, &mut |_, _| ())
     }
 
     fn complaint(&self) -> Option<Complaint> {

@@ -38,8 +38,13 @@ impl Default for DescentKind {
 pub trait Descent {
     /// Moves `q`, which is within the bounds, to a configuration within them whose energy is not higher, and returns that energy. All
     /// randomness comes from `stream`.
-    fn descend(&self, cx: &Context, stream: &mut Stream, q: &mut [f64], scratch: &mut Scratch)
-    -> f64;
+    fn descend(
+        &self,
+        cx: &Context,
+        stream: &mut Stream,
+        q: &mut [f64],
+        scratch: &mut Scratch,
+    ) -> f64;
 
     /// What is wrong with the settings.
     fn complaint(&self) -> Option<Complaint> {

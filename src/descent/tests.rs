@@ -14,9 +14,7 @@ fn context(text: &str) -> Context {
 }
 
 fn muller_brown() -> Context {
-    context(
-        "[landscape]\nmin = [-1.5, -0.5]\nmax = [1.2, 2.0]\nenergy = { muller-brown = {} }\n",
-    )
+    context("[landscape]\nmin = [-1.5, -0.5]\nmax = [1.2, 2.0]\nenergy = { muller-brown = {} }\n")
 }
 
 /// From wherever it starts, a descent by the gradient ends in one of the minima, or at the bounds.
@@ -123,10 +121,7 @@ fn wrong_settings_and_models_without_energies_are_refused() {
         "[space]\nmotion = \"rigid-3d\"\nmin = [0.0, 0.0, 0.0]\nmax = [1.0, 1.0, 1.0]\n\
          [robot]\nbodies = [{ shape = { sphere = { radius = 0.1 } } }]\n",
     );
-    for kind in [
-        DescentKind::default(),
-        DescentKind::LowestNeighbor(LowestNeighbor::default()),
-    ] {
+    for kind in [DescentKind::default(), DescentKind::LowestNeighbor(LowestNeighbor::default())] {
         assert!(kind.method().suits(&bodies).is_err());
         assert!(kind.method().complaint().is_none());
     }

@@ -27,6 +27,7 @@ mod end_trees;
 mod expansion_step;
 mod growth;
 mod hint_path;
+mod hopping;
 mod hinting;
 mod hints;
 mod interpolation;
@@ -64,7 +65,8 @@ methods! {
         ContactTrees(contact_trees::ContactTrees),
         SlidingTrees(sliding_trees::SlidingTrees),
         LocalTrees(local_trees::LocalTrees),
-        Minima(minima::Minima), // new ones at the end, since ledgers know methods by number
+        Minima(minima::Minima),
+        Hopping(hopping::Hopping), // new ones at the end, since ledgers know methods by number
     }
 }
 
@@ -78,6 +80,7 @@ pub use growth::{FoundNeighbors, GraphNeighbors};
 pub use hint_path::HintPath;
 pub(crate) use hint_path::{CONFIGURATIONS_MAX, too_long};
 pub use hints::Hints;
+pub use hopping::Hopping;
 pub use interpolation::Interpolation;
 pub use local_trees::LocalTrees;
 pub use minima::Minima;

@@ -20,6 +20,9 @@ pub trait LigandAtProtein: Send + Sync {
     /// The piece on the side of the root, of the piece with this number, which is not the root.
     fn parent_of(&self, piece: usize) -> usize;
 
+    /// The atom of the root piece that is nearest to the piece's centre, in the pose that the ligand was given with; of several the first.
+    fn central_atom(&self) -> usize;
+
     /// The positions of the ligand's atoms at the configuration `q`.
     fn positions(&self, q: &[f64]) -> Vec<Point>;
 

@@ -3,9 +3,8 @@
 use super::{Problem, ProblemBuilder, ProblemError, StrategySpec};
 use crate::binding::Exact;
 use crate::connect::{AmongKind, Nearest, NearestNodes, NodesAndComponents, WithinKind};
-use crate::descent::{BasinHopping, DescentKind};
 use crate::evaluate::{EvaluatorKind, ExposedSurface};
-use crate::generator::{GeneratorKind, Minima};
+use crate::generator::{GeneratorKind, Hopping, Minima};
 use crate::ligand::Ligand;
 use crate::model::docking::{Docking, DockingSpec};
 use crate::model::{Description, ModelKind, Scratch};
@@ -154,7 +153,7 @@ pub fn affinity(
         .build()
 }
 
-/// Strategies of minima, by their labels, with these connections: of `hops` the lowest minima that are found from cells of low energy on.
+/// Strategies of minima, by their labels, with these connections: of `cells` and `surface` those below samples, of `hops` low ones.
 fn minima(labels: &[&str], within: &WithinKind, among: &AmongKind) -> Vec<StrategySpec> {
     let cells = SamplerKind::LowEnergyCells(LowEnergyCells::default());
     let surface = SamplerKind::ProteinSurface(ProteinSurface::default());
@@ -162,10 +161,8 @@ fn minima(labels: &[&str], within: &WithinKind, among: &AmongKind) -> Vec<Strate
         let generated = match *label {
             "cells" => descended(label, cells.clone(), within.clone()),
             "hops" => {
-                let (within, descent) =
-                    (within.clone(), DescentKind::BasinHopping(BasinHopping::default()));
-                let minima = Minima { descent, within, ..Minima::new(cells.clone()) };
-                StrategySpec::generated(*label, GeneratorKind::Minima(minima))
+                let hopping = Hopping { within: within.clone(), ..Hopping::default() };
+                StrategySpec::generated(*label, GeneratorKind::Hopping(hopping))
             }
             _ => descended(label, surface.clone(), within.clone()),
         };

@@ -129,19 +129,8 @@ impl LowEnergyCells {
 
     /// The cells in which the base may begin.
     fn cells(&self, ligand: &dyn LigandAtProtein) -> std::sync::Arc<LowCells> {
-        ligand.low_cells(central_atom(ligand), CellLimits { low: self.low, high: self.high })
+        ligand.low_cells(ligand.central_atom(), CellLimits { low: self.low, high: self.high })
     }
-}
-
-/// The atom of the base that is nearest to the base's centre, in the pose that the ligand was given with; of several the first.
-fn central_atom(ligand: &dyn LigandAtProtein) -> usize {
-    let base = &ligand.pieces()[0];
-    let positions = ligand.ligand().positions().unwrap_or_default();
-    let sum = base.iter().fold(Point::zeros(), |sum, atom| sum + positions[*atom]);
-    let centre = sum / base.len() as f64;
-    let distance = |atom: &&usize| (positions[**atom] - centre).norm();
-    let nearest = base.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    nearest.copied().unwrap_or(0)
 }
 
 impl Sampler for LowEnergyCells {

@@ -70,7 +70,9 @@ pub(super) fn describe(docking: &Docking, out: &mut String) -> Result {
         EnergyLookup::Exact => "no grid: exact sums".to_owned(),
         EnergyLookup::Nearest => format!("the nearest point of a grid of {} Å", grid.spacing),
         EnergyLookup::Trilinear => format!("trilinear in a grid of {} Å", grid.spacing),
-        EnergyLookup::Reciprocal => format!("linear of reciprocals in a grid of {} Å", grid.spacing),
+        EnergyLookup::Reciprocal => {
+            format!("linear of reciprocals in a grid of {} Å", grid.spacing)
+        }
         EnergyLookup::Tricubic => format!("splines of reciprocals in a grid of {} Å", grid.spacing),
     };
     writeln!(out, "looked up        {lookup}")?;

@@ -89,6 +89,13 @@ impl Linkage {
         self.links[piece - 1].parent
     }
 
+    /// The atom of the root piece that is nearest to the centre, of several the first.
+    pub fn central_atom(&self) -> usize {
+        let distance = |atom: &&usize| self.shape[**atom].norm_squared();
+        let nearest = self.pieces[0].iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        nearest.copied().unwrap_or(0)
+    }
+
     /// The configuration of the pose that the ligand was given with.
     pub fn given(&self) -> Vec<f64> {
         let mut q = vec![self.centre.x, self.centre.y, self.centre.z, 1.0, 0.0, 0.0, 0.0];

@@ -249,6 +249,10 @@ impl LigandAtProtein for LigandInEnergy {
         self.linkage.parent(piece)
     }
 
+    fn central_atom(&self) -> usize {
+        self.linkage.central_atom()
+    }
+
     fn positions(&self, q: &[f64]) -> Vec<Point> {
         let mut positions = Vec::new();
         self.linkage.place(q, &mut Vec::new(), &mut positions);

@@ -92,10 +92,7 @@ fn unsound_bytes_are_refused() {
     let atom = |of: &mut super::Docking, change: &dyn Fn(&mut crate::structure::Atom)| {
         change(&mut of.chains[0].residues[0].atoms[0]);
     };
-    assert_eq!(
-        changed(&|of| atom(of, &|atom| atom.position.x = f64::NAN)),
-        Some("protein")
-    );
+    assert_eq!(changed(&|of| atom(of, &|atom| atom.position.x = f64::NAN)), Some("protein"));
     assert_eq!(changed(&|of| atom(of, &|atom| atom.element = "Qq".to_owned())), Some("protein"));
     assert_eq!(changed(&|of| atom(of, &|atom| atom.name = "a b".to_owned())), None);
     // Two residues of one number would be one.

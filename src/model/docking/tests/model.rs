@@ -50,7 +50,9 @@ fn motions_cost_the_same_from_either_end_with_any_scratch() {
         assert_eq!(there.peak, back.peak);
         let energy = |q: &[f64], scratch: &mut Scratch| cx.model().energy(q, scratch).unwrap();
         let rise = energy(&b, clean) - energy(&a, clean);
-        assert!(((there.forward - there.backward) * 2.479 - rise).abs() < 1e-6 * (1.0 + rise.abs()));
+        assert!(
+            ((there.forward - there.backward) * 2.479 - rise).abs() < 1e-6 * (1.0 + rise.abs())
+        );
         assert!(there.peak >= energy(&a, clean).max(energy(&b, clean)));
     }
     assert!(found > 20, "{found} motions");

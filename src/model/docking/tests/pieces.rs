@@ -1,8 +1,8 @@
 //! Where atoms are, and how energies change with configurations.
 
 use super::{biotin, docking, problem};
-use crate::model::docking::kinematics::{BASE, Linkage};
 use crate::model::Scratch;
+use crate::model::docking::kinematics::{BASE, Linkage};
 use crate::numbers::Ordinal;
 use crate::seed::{Purpose, Seed, Stream};
 use crate::space::BaseJoint;
