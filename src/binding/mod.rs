@@ -11,6 +11,8 @@ mod cluster;
 mod kendall;
 mod low;
 mod reference;
+#[cfg(test)]
+mod tests;
 mod way_out;
 
 pub use affinity::Affinity;
