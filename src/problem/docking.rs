@@ -67,7 +67,7 @@ pub fn docking(
     let builder = Problem::builder(fitting_name(name), spec.clone()).folder(folder);
     let strategies = minima(&["cells", "surface", "hops"], &WithinKind::default(), &among());
     let (mut notes, mut strategies) = (Vec::new(), strategies);
-    let mut schedule: Vec<&str> = ["cells", "surface", "hops"].repeat(3);
+    let mut schedule: Vec<&str> = ["hops", "cells", "hops", "surface"].repeat(2);
     if !search.hints.is_empty() {
         let docking = docking_of(&builder)?;
         let poses = hinted(&docking, &search.hints, &mut notes)?;
