@@ -1,7 +1,7 @@
 //! Ligands at proteins, on complexes whose poses are known.
 //!
 //! ```text
-//! ROADMILL_DATA=… cargo bench --bench docking -- poses [--csv FILE] [--seeds 1-10] [--nodes N] [COMPLEX …]
+//! ROADMILL_DATA=… cargo bench --bench docking -- poses [--csv FILE] [--seeds 1-10] [--mode boxed|blind] [--nodes N] [COMPLEX …]
 //! ROADMILL_DATA=… cargo bench --bench docking -- generators [--csv FILE] [--seeds 1-10] [COMPLEX …]
 //! ROADMILL_DATA=… cargo bench --bench docking -- speed | grid
 //! ```
@@ -27,6 +27,8 @@ pub struct Asked {
     pub complexes: Vec<String>,
     /// The base seeds.
     pub seeds: std::ops::RangeInclusive<u64>,
+    /// `boxed` or `blind`; `None`: both.
+    pub mode: Option<String>,
     /// The most nodes of a roadmap; `None`: those of the study.
     pub nodes: Option<u64>,
     /// Where rows are kept.
@@ -36,11 +38,13 @@ pub struct Asked {
 fn main() {
     let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
     let study = arguments.next().unwrap_or_default();
-    let (mut complexes, mut seeds, mut nodes, mut csv) = (Vec::new(), 1..=10, None, None);
+    let (mut complexes, mut seeds, mut csv) = (Vec::new(), 1..=10, None);
+    let (mut nodes, mut mode) = (None, None);
     while let Some(argument) = arguments.next() {
         let mut next = || arguments.next().expect("a value follows an option");
         match argument.as_str() {
             "--csv" => csv = Some(next()),
+            "--mode" => mode = Some(next()),
             "--nodes" => nodes = Some(next().parse().expect("a number of nodes")),
             "--seeds" => {
                 let text = next();
@@ -50,7 +54,7 @@ fn main() {
             _ => complexes.push(argument),
         }
     }
-    let asked = Asked { complexes, seeds, nodes, rows: Rows::open(csv.as_deref()) };
+    let asked = Asked { complexes, seeds, nodes, mode, rows: Rows::open(csv.as_deref()) };
     match study.as_str() {
         "poses" => poses::run(asked),
         "generators" => generators::run(asked),

@@ -15,6 +15,9 @@ const NEAR: f64 = 2.0;
 pub fn run_all(asked: &mut Asked) -> Vec<(String, &'static str, Vec<Vec<Vec<f64>>>)> {
     let mut all = Vec::new();
     for (mode, is_boxed, nodes) in [("boxed", true, 4000), ("blind", false, 12_000)] {
+        if asked.mode.as_ref().is_some_and(|wanted| wanted != mode) {
+            continue;
+        }
         for complex in chosen(&asked.complexes) {
             let nodes = asked.nodes.unwrap_or(nodes);
             let problem = usual(&complex.table(is_boxed), nodes);
