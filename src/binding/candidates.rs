@@ -199,7 +199,7 @@ pub fn candidates(
             energy: exact.energy(&of.q),
             score: exact.score(&of.q, asked.score, &mut stream, scratch),
             population: cluster.members.len(),
-            way_out: ways.as_ref().and_then(|ways| ways.from(of.node, &of.q)),
+            way_out: ways.as_ref().and_then(|ways| ways.from(&of.q, of.energy, scratch)),
         }
     };
     let candidates = clusters.iter().take(asked.count).map(candidate).collect();

@@ -11,6 +11,8 @@ use std::collections::BTreeSet;
 const OUTSIDE: f64 = 6.0;
 /// How far an atom moves at most between two energies along a way out, Å.
 const STEP: f64 = 0.25;
+/// To how many milestones a pose is joined.
+const NEIGHBORS: usize = 10;
 
 /// A way out: the route through the roadmap whose highest energy is lowest (the minimax path; M. Pollack, *The maximum capacity through a
 /// network*, Operations Research 8 (1960) 733-736).
@@ -40,8 +42,9 @@ impl WayOut {
 pub(super) struct WaysOut<'a> {
     exact: &'a Exact,
     roadmap: &'a Roadmap,
-    graph: Graph,
-    /// The node after all others, which every milestone outside of the protein leads to.
+    /// The roadmap's edges, and one from every milestone outside of the protein to [`WaysOut::outside`].
+    edges: Vec<Edge>,
+    /// The node after all others, to which every milestone outside of the protein leads.
     outside: NodeId,
 }
 
@@ -63,22 +66,31 @@ impl<'a> WaysOut<'a> {
         };
         let mut edges: Vec<Edge> = roadmap.edges().iter().collect();
         edges.extend(roadmap.nodes().filter(is_outside).map(leads_out));
-        let graph = Graph::new(outside.index() + 1, &edges);
-        WaysOut { exact, roadmap, graph, outside }
+        WaysOut { exact, roadmap, edges, outside }
     }
 
-    /// The way out from a milestone, beginning at a pose near it; `None` if the roadmap has none.
-    pub fn from(&self, node: NodeId, pose: &[f64]) -> Option<WayOut> {
-        let energy = self.roadmap.values().get(node.index()).copied()?;
-        let found = self.graph.lowest_barrier(node, self.outside, energy, &BTreeSet::new());
-        let (_, route) = found?;
-        let nodes: Vec<NodeId> =
-            route.nodes.into_iter().filter(|node| *node != self.outside).collect();
-        let configs = self.roadmap.configs();
-        let stations =
-            std::iter::once(pose).chain(nodes.iter().map(|node| configs.get(node.index())));
-        let stations: Vec<&[f64]> = stations.collect();
-        let (cx, scratch) = (self.exact.context(), &mut Scratch::new());
+    /// The way out from a pose, which is first joined to the milestones nearest to it, by exact sums; `None` if the roadmap has none.
+    pub fn from(&self, pose: &[f64], energy: f64, scratch: &mut Scratch) -> Option<WayOut> {
+        let WaysOut { exact, roadmap, outside, .. } = *self;
+        let (cx, configs) = (exact.context(), roadmap.configs());
+        let start = outside.next();
+        let mut edges = self.edges.clone();
+        for near in roadmap.k_nearest(&cx.space, pose, NEIGHBORS) {
+            let node = NodeId(near.id);
+            let cost = cx.model.motion(configs.get(node.index()), pose, 1, scratch);
+            edges.extend(cost.map(|cost| Edge {
+                low: node,
+                high: start,
+                planner: 0,
+                cost: EdgeCost::of(cost, near.distance),
+            }));
+        }
+        let graph = Graph::new(start.index() + 1, &edges);
+        let (_, route) = graph.lowest_barrier(start, outside, energy, &BTreeSet::new())?;
+        let is_milestone = |node: &NodeId| *node < outside;
+        let nodes: Vec<NodeId> = route.nodes.into_iter().filter(is_milestone).collect();
+        let milestones = nodes.iter().map(|node| configs.get(node.index()));
+        let stations: Vec<&[f64]> = std::iter::once(pose).chain(milestones).collect();
         let ligand = cx.model.ligand()?;
         let mut configurations = vec![pose.to_vec()];
         for pair in stations.windows(2) {

@@ -102,3 +102,34 @@ fn unsound_bytes_are_refused() {
     };
     assert_eq!(changed(&twice), Some("protein"));
 }
+
+proptest::proptest! {
+    #![proptest_config(proptest::test_runner::Config::with_cases(60))]
+
+    /// Whatever bytes come, they are refused or make a model: nothing panics.
+    #[test]
+    fn bytes_of_any_kind_do_no_harm(
+        changes in proptest::collection::vec((0.0f64..1.0, proptest::num::u8::ANY), 1..4),
+        kept in 0.0f64..1.5,
+    ) {
+        static SOUND: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
+        let sound = SOUND.get_or_init(|| wire::encode(problem(&biotin("grid = { spacing = 2.0 }\n")).model()));
+        let mut bytes = sound.clone();
+        for (share, value) in changes {
+            let at = (share * bytes.len() as f64) as usize;
+            bytes[at] = value;
+        }
+        bytes.truncate((kept * bytes.len() as f64) as usize);
+        if let Ok(model) = wire::decode::<crate::model::ModelKind>(&bytes)
+            && model.description().sound().is_ok()
+        {
+            let space = model.description().space();
+            let mut middle = vec![0.0; space.len()];
+            space.of_cube(&vec![0.5; space.cube_dimensions()], &mut middle);
+            let prepared = model.description().prepare();
+            let energy = prepared.energy(&middle, &mut crate::model::Scratch::new());
+            // Decoded as another model, it may have none.
+            proptest::prop_assert!(energy.is_none_or(|energy| !energy.is_nan()));
+        }
+    }
+}
