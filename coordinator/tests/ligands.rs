@@ -73,6 +73,11 @@ fn a_search_is_written_built_and_its_poses_are_the_same_in_every_call() {
     };
     let said = poses("a");
     assert_eq!(poses("b"), said);
+    // Nothing that is there is lost.
+    let again = ["ligand", "poses", "run", "--out", "a", "--count", "1", "--improve", "2"];
+    let done = scratch.run(&again);
+    done.assert_code(2);
+    done.assert_stderr(&["a.sdf: it is there already; --force replaces it"]);
     let file = |name: &str| fs::read_to_string(scratch.path(name)).expect(name);
     for end in [".sdf", ".pdb", "-protein.pdb", ".csv", ".html"] {
         assert_eq!(file(&format!("a{end}")), file(&format!("b{end}")), "{end}");

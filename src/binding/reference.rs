@@ -51,12 +51,32 @@ impl Reference {
 /// How poses of a ligand are compared.
 pub struct Comparison {
     symmetries: Option<Symmetries>,
+    /// The numbers of the heavy atoms.
+    heavy: Vec<usize>,
 }
+
+/// Atoms with more heavy neighbours than this are in no molecule; to look through all orders of hundreds of neighbours for every pair of poses would take
+/// hours.
+const NEIGHBOURS_MAX: usize = 16;
 
 impl Comparison {
     /// By the symmetries of a ligand; without them where it has too many, which [`Comparison::is_corrected`] tells.
     pub fn of(docking: &Docking) -> Comparison {
-        Comparison { symmetries: Symmetries::of(docking.ligand()).ok() }
+        let ligand = docking.ligand();
+        let is_heavy = |atom: &usize| ligand.atoms()[*atom].element.is_heavy();
+        let heavy: Vec<usize> = (0..ligand.atoms().len()).filter(is_heavy).collect();
+        let mut neighbours = vec![0; ligand.atoms().len()];
+        for bond in ligand.bonds().iter().filter(|bond| bond.atoms.iter().all(is_heavy)) {
+            bond.atoms.iter().for_each(|atom| neighbours[*atom] += 1);
+        }
+        let is_molecule = neighbours.iter().all(|count| *count <= NEIGHBOURS_MAX);
+        let symmetries = is_molecule.then(|| Symmetries::of(ligand).ok()).flatten();
+        Comparison { symmetries, heavy }
+    }
+
+    /// The positions of the heavy atoms among those of all.
+    fn heavy(&self, positions: &[Point]) -> Vec<Point> {
+        self.heavy.iter().map(|atom| positions[*atom]).collect()
     }
 
     /// Whether what is the same of a symmetric ligand counts as the same.
@@ -68,7 +88,7 @@ impl Comparison {
     pub fn distance(&self, a: &[Point], b: &[Point]) -> f64 {
         match &self.symmetries {
             Some(symmetries) => symmetries.rmsd(a, b),
-            None => rmsd_in_place(a, b),
+            None => rmsd_in_place(&self.heavy(a), &self.heavy(b)),
         }
     }
 
@@ -76,7 +96,7 @@ impl Comparison {
     pub fn of_shapes(&self, a: &[Point], b: &[Point]) -> f64 {
         match &self.symmetries {
             Some(symmetries) => symmetries.rmsd_superposed(a, b),
-            None => rmsd(a, b),
+            None => rmsd(&self.heavy(a), &self.heavy(b)),
         }
     }
 }

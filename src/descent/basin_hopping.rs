@@ -1,4 +1,4 @@
-use super::{Descent, Gradient, complaint_of_iterations};
+use super::{Descent, Gradient};
 use crate::context::Context;
 use crate::math;
 use crate::methods::Complaint;
@@ -126,7 +126,10 @@ impl Descent for BasinHopping {
         if !(self.kt.is_finite() && self.kt > 0.0) {
             return Some(Complaint::new("kt", self.kt, "an energy above 0"));
         }
-        complaint_of_iterations(self.hops).or_else(|| self.descent.complaint())
+        if !(1..=1_000_000).contains(&self.hops) {
+            return Some(Complaint::new("hops", self.hops, "1 to 1000000"));
+        }
+        self.descent.complaint()
     }
 
     fn suits(&self, cx: &Context) -> Result<(), String> {

@@ -258,6 +258,11 @@ pub trait Model: Any + Send + Sync {
         None
     }
 
+    /// Whether the energy has derivatives, that is, [`Model::gradient`] is some.
+    fn has_gradient(&self) -> bool {
+        false
+    }
+
     /// The model as a ligand at a protein, of a model that is one.
     fn ligand(&self) -> Option<&dyn LigandAtProtein> {
         None

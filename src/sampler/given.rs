@@ -51,9 +51,13 @@ impl Sampler for Given {
         let given = self.configurations.len() as u64;
         let dimensions = cx.space.cube_dimensions() as f64;
         let first = seed.ordinal().0.saturating_mul(count as u64);
+        // They were looked at when the problem was read; bytes from elsewhere may hold anything.
+        let is_sound = |q: &Vec<f64>| q.len() == cx.space.len();
+        if self.configurations.is_empty() || !self.configurations.iter().all(is_sound) {
+            return Err(GaveUp { attempts: 0 });
+        }
         for milestone in (first..).take(count) {
             let mut about = self.configurations[(milestone % given) as usize].clone();
-            // They were looked at when the problem was read.
             if cx.space.canonicalize(&mut about).is_err() {
                 return Err(GaveUp { attempts: 0 });
             }

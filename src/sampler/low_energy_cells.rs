@@ -42,7 +42,7 @@ impl Default for LowEnergyCells {
 }
 
 /// How many times the number of links, and some more, angles are drawn for one placement of the base.
-const BACK_TRACKS: u32 = 10;
+const BACK_TRACKS: u64 = 10;
 
 impl LowEnergyCells {
     /// Puts the base into a cell; whether its atoms are in acceptable ones.
@@ -79,7 +79,7 @@ impl LowEnergyCells {
         let pieces = ligand.pieces().len();
         // Per piece how many angles have been tried since the piece before it was placed.
         let mut tried = vec![0; pieces];
-        let mut left = BACK_TRACKS * self.angles * pieces as u32;
+        let mut left = BACK_TRACKS * u64::from(self.angles) * pieces as u64;
         let mut piece = 1;
         while piece < pieces {
             if left == 0 {

@@ -1,4 +1,4 @@
-use super::{GaveUp, Sampler, collect, default_attempts, no_length, zero};
+use super::{GaveUp, Sampler, collect, default_attempts, zero};
 use crate::context::Context;
 use crate::methods::Complaint;
 use crate::model::{LigandAtProtein, Scratch};
@@ -39,6 +39,8 @@ impl Default for ProteinSurface {
 
 /// The most steps of a base: from within the largest protein it comes out.
 const STEPS_MAX: u32 = 10_000;
+/// The largest cube, ball and step, Å: several times what an atom is.
+const LENGTH_MAX: f64 = 100.0;
 /// The most often that a step is halved.
 const HALVINGS_MAX: u32 = 30;
 
@@ -113,7 +115,10 @@ impl Sampler for ProteinSurface {
 
     fn complaint(&self) -> Option<Complaint> {
         let lengths = [("cube", self.cube), ("ball", self.ball), ("step", self.step)];
-        if let Some(complaint) = lengths.iter().find_map(|(key, length)| no_length(key, *length)) {
+        let is_wrong = |(key, length): &(&'static str, f64)| {
+            Complaint::of_length(key, *length, LENGTH_MAX)
+        };
+        if let Some(complaint) = lengths.iter().find_map(is_wrong) {
             return Some(complaint);
         }
         if self.halvings > HALVINGS_MAX {

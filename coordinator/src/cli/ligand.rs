@@ -198,6 +198,9 @@ pub struct PosesArguments {
     /// PREFIX-way-1.csv
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub ways: u32,
+    /// Replace files of poses and of ways out that are there already
+    #[arg(long)]
+    pub force: bool,
     /// Also write a page that shows the poses and their ways out, for any browser
     #[arg(long, value_name = "FILE.html")]
     pub page: Option<PathBuf>,

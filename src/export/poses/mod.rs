@@ -58,14 +58,14 @@ pub struct ShownPose {
     pub sdf: String,
     /// Its energy.
     pub energy: f64,
-    /// By what poses are ranked.
+    /// The mean energy of configurations near it.
     pub score: f64,
     /// Its cluster, counted from 0.
     pub cluster: usize,
     /// How many minima the cluster has.
     pub population: usize,
-    /// How far its energy is below what surrounds it, if that was found out.
-    pub depth: Option<f64>,
+    /// The highest energy on the way out, if there is one.
+    pub peak: Option<f64>,
     /// How far the way out rises above its energy, if there is one.
     pub barrier: Option<f64>,
     /// Its symmetry-corrected RMSD from the reference as both stand, in Å.

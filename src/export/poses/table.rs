@@ -7,19 +7,19 @@ use std::fmt::Write;
 /// The table; a row's `data-pose` is the number of its pose, counted from 0. A column that no pose has is left out.
 pub(super) fn html(page: &PosesPage) -> String {
     let has = |of: fn(&super::ShownPose) -> bool| page.poses.iter().any(of);
-    let (has_depth, has_barrier, has_rmsd) =
-        (has(|p| p.depth.is_some()), has(|p| p.barrier.is_some()), has(|p| p.rmsd.is_some()));
+    let (has_peak, has_barrier, has_rmsd) =
+        (has(|p| p.peak.is_some()), has(|p| p.barrier.is_some()), has(|p| p.rmsd.is_some()));
     let mut out = String::from("<table><thead><tr><th>pose</th>");
     let mut head = |name: &str, unit: &str, title: &str| {
         write!(out, "<th title=\"{title}\">{name}<small>{unit}</small></th>")
             .expect("writing to memory cannot fail");
     };
     head("energy", "kJ/mol", "the energy of the pose");
-    head("score", "", "by what poses are ranked");
+    head("score", "kJ/mol", "the mean energy of configurations near the pose");
     head("cluster", "", "poses that are alike have one cluster");
     head("minima", "in it", "how many minima the cluster has");
-    if has_depth {
-        head("depth", "kJ/mol", "how far the energy is below what surrounds the pose");
+    if has_peak {
+        head("peak", "kJ/mol", "the highest energy on the way out of the pocket");
     }
     if has_barrier {
         head("barrier", "kJ/mol", "how far the way out of the pocket rises above the pose");
@@ -45,8 +45,8 @@ pub(super) fn html(page: &PosesPage) -> String {
         cell(fixed(Some(pose.score), 1));
         cell((pose.cluster + 1).to_string());
         cell(pose.population.to_string());
-        if has_depth {
-            cell(fixed(pose.depth, 1));
+        if has_peak {
+            cell(fixed(pose.peak, 1));
         }
         if has_barrier {
             cell(fixed(pose.barrier, 1));

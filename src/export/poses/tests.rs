@@ -20,7 +20,7 @@ fn pose(label: &str, cluster: usize, frames: usize) -> ShownPose {
         score: -31.25,
         cluster,
         population: 7,
-        depth: Some(12.0),
+        peak: Some(12.0),
         barrier: (frames > 0).then_some(40.5),
         rmsd: None,
         way_out: (0..frames).map(frame).collect(),

@@ -54,7 +54,8 @@ impl GridSpec {
 /// first asked for, and once for all processes that have a shelf in common.
 pub(super) struct Field {
     sum: PairSum,
-    grid: Grid,
+    /// None where the energy is looked up by exact sums and a grid would have too many numbers.
+    grid: Option<Grid>,
     is_exact: bool,
     values: OnceLock<Block>,
     shelf: OnceLock<Arc<dyn Shelf>>,
@@ -72,12 +73,13 @@ impl Field {
             EnergyLookup::Reciprocal | EnergyLookup::Exact => Lookup::Reciprocal,
             EnergyLookup::Tricubic => Lookup::Tricubic,
         };
-        let Some(grid) = Grid::new(&sum, corners, spec.spacing, lookup) else {
+        let is_exact = spec.lookup == EnergyLookup::Exact;
+        let grid = Grid::new(&sum, corners, spec.spacing, lookup);
+        if grid.is_none() && !is_exact {
             return Err(format!(
                 "a grid of more than {VALUES_MAX} numbers found; fewer expected, by a smaller box or a larger spacing"
             ));
-        };
-        let is_exact = spec.lookup == EnergyLookup::Exact;
+        }
         Ok(Field { sum, grid, is_exact, values: OnceLock::new(), shelf: OnceLock::new() })
     }
 
@@ -86,9 +88,9 @@ impl Field {
         &self.sum
     }
 
-    /// The grid.
-    pub fn grid(&self) -> &Grid {
-        &self.grid
+    /// The grid and its numbers, if there is one.
+    pub fn grid(&self) -> Option<(&Grid, &[f32])> {
+        self.grid.as_ref().map(|grid| (grid, self.values(grid)))
     }
 
     /// Where the grid's numbers are kept, once for all.
@@ -97,13 +99,11 @@ impl Field {
         let _ = self.shelf.set(shelf);
     }
 
-    /// The grid's numbers.
-    pub fn values(&self) -> &[f32] {
+    /// The numbers of the grid.
+    fn values(&self, grid: &Grid) -> &[f32] {
         let block = self.values.get_or_init(|| {
-            let bytes = self.grid.values_len() * size_of::<f32>();
-            let fill = &mut |out: &mut [u8]| {
-                self.grid.fill(&self.sum, bytemuck::cast_slice_mut(out));
-            };
+            let bytes = grid.values_len() * size_of::<f32>();
+            let fill = &mut |out: &mut [u8]| grid.fill(&self.sum, bytemuck::cast_slice_mut(out));
             match self.shelf.get() {
                 Some(shelf) => shelf::kept(&**shelf, BlockName::Energies, bytes, fill),
                 None => shelf::private(bytes, fill),
@@ -112,20 +112,26 @@ impl Field {
         bytemuck::cast_slice(block)
     }
 
+    /// The grid that energies are looked up in.
+    #[inline]
+    fn looked_up(&self) -> Option<&Grid> {
+        self.grid.as_ref().filter(|_| !self.is_exact)
+    }
+
     /// The energy of the ligand's atoms, kJ/mol.
     #[inline]
     pub fn energy(&self, positions: &[Point]) -> f64 {
-        match self.is_exact {
-            true => self.sum.energy(positions),
-            false => self.grid.energy(self.values(), &self.sum, positions),
+        match self.looked_up() {
+            None => self.sum.energy(positions),
+            Some(grid) => grid.energy(self.values(grid), &self.sum, positions),
         }
     }
 
     /// The energy, and to `out` its gradient by every atom's position, kJ/(mol Å).
     pub fn gradient(&self, positions: &[Point], out: &mut [Point]) -> f64 {
-        match self.is_exact {
-            true => self.sum.gradient(positions, out),
-            false => self.grid.gradient(self.values(), &self.sum, positions, out),
+        match self.looked_up() {
+            None => self.sum.gradient(positions, out),
+            Some(grid) => grid.gradient(self.values(grid), &self.sum, positions, out),
         }
     }
 }

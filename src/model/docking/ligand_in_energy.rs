@@ -20,6 +20,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Atoms of the ligand act upon one another if more bonds than this are between them: what is nearer is held by bonds and angles.
 const BONDS_APART: usize = 3;
+/// Strategies ask for cells by turns, each by its own limits.
+const CELLS_KEPT: usize = 4;
 
 /// A ligand in the energy of a protein that stands still.
 pub(super) struct LigandInEnergy {
@@ -35,8 +37,8 @@ pub(super) struct LigandInEnergy {
     near: OnceLock<NearAtoms>,
     given: Option<Vec<f64>>,
     exposed: OnceLock<Vec<ExposedResidue>>,
-    /// The cells that were last asked for: a memory that saves time alone.
-    cells: Mutex<Option<(usize, CellLimits, Arc<LowCells>)>>,
+    /// The cells that were asked for last, at most [`CELLS_KEPT`] times: a memory that saves time alone.
+    cells: Mutex<Vec<(usize, CellLimits, Arc<LowCells>)>>,
 }
 
 /// Positions, and what becomes of them.
@@ -96,7 +98,7 @@ impl LigandInEnergy {
             near: OnceLock::new(),
             given,
             exposed: OnceLock::new(),
-            cells: Mutex::new(None),
+            cells: Mutex::new(Vec::new()),
         })
     }
 
@@ -196,6 +198,10 @@ impl Model for LigandInEnergy {
         Some(of_field + of_own)
     }
 
+    fn has_gradient(&self) -> bool {
+        true
+    }
+
     fn ligand(&self) -> Option<&dyn LigandAtProtein> {
         Some(self)
     }
@@ -282,8 +288,9 @@ impl LigandAtProtein for LigandInEnergy {
 
     fn atom_energy(&self, atom: usize, at: &Point) -> f64 {
         let (grid, sum) = (self.field.grid(), self.field.sum());
-        match grid.nearest_point(*at) {
-            Some(point) => grid.at_point(self.field.values(), sum, atom, point),
+        let point = grid.and_then(|(grid, values)| Some((grid, values, grid.nearest_point(*at)?)));
+        match point {
+            Some((grid, values, point)) => grid.at_point(values, sum, atom, point),
             None => sum.of_atom(atom, *at).0.total(),
         }
     }
@@ -299,13 +306,15 @@ impl LigandAtProtein for LigandInEnergy {
     fn low_cells(&self, atom: usize, limits: CellLimits) -> Arc<LowCells> {
         // A thread that panicked left the memory as it was.
         let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, _, found)) =
-            cells.as_ref().filter(|(of, by, _)| (*of, *by) == (atom, limits))
-        {
+        let known = cells.iter().find(|(of, by, _)| (*of, *by) == (atom, limits));
+        if let Some((_, _, found)) = known {
             return found.clone();
         }
         let found = Arc::new(low_cells(&self.field, atom, limits));
-        *cells = Some((atom, limits, found.clone()));
+        if cells.len() == CELLS_KEPT {
+            cells.remove(0);
+        }
+        cells.push((atom, limits, found.clone()));
         found
     }
 

@@ -6,11 +6,11 @@ use crate::model::{CellLimits, LowCells};
 /// The cells about those points of the grid at which an atom with this number has an energy of at most `limits.low`, in the order of the
 /// grid's points; those apart of which a neighbour along an axis has `limits.high` or more.
 pub(super) fn low_cells(field: &Field, atom: usize, limits: CellLimits) -> LowCells {
-    let (grid, values) = (field.grid(), field.values());
+    let mut cells = LowCells { spacing: 0.0, at_boundary: Vec::new(), inside: Vec::new() };
+    let Some((grid, values)) = field.grid() else { return cells };
+    cells.spacing = grid.spacing();
     let counts = grid.counts();
     let energy = |at: [usize; 3]| grid.at_point(values, field.sum(), atom, at);
-    let mut cells =
-        LowCells { spacing: grid.spacing(), at_boundary: Vec::new(), inside: Vec::new() };
     for z in 0..counts[2] {
         for y in 0..counts[1] {
             for x in 0..counts[0] {

@@ -3,7 +3,8 @@
 use super::spec::{Policy, ReceptorFile, ReceptorSpec, StillChain};
 use crate::source::Source;
 use crate::structure::{
-    Atom, Chain, Residue, StructureError, StructureModel, mmcif, read, read_bytes, select_model,
+    Atom, Chain, Point, Residue, StructureError, StructureModel, mmcif, read, read_bytes,
+    select_model,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -58,10 +59,8 @@ pub(super) fn receptor(
 /// The residue of the protein's file that is the ligand.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct LigandResidue {
-    /// Its name.
-    pub name: String,
-    /// The position of its first atom, by which it is told from others of its name.
-    pub first: crate::structure::Point,
+    /// The positions of its heavy atoms, by which it is told, whatever it is called.
+    pub atoms: Vec<Point>,
 }
 
 fn has_hydrogens(chains: &[StillChain]) -> bool {
@@ -178,9 +177,14 @@ fn names_of(chains: &[&Chain]) -> Vec<String> {
 }
 
 fn is_ligand(residue: &Residue, ligand: Option<&LigandResidue>) -> bool {
+    /// So near an atom is the same, Å: files round positions to 0.001 Å, and programs may have moved them a little.
+    const SAME: f64 = 0.1;
     ligand.is_some_and(|ligand| {
-        residue.name == ligand.name
-            && residue.atoms.iter().any(|atom| (atom.position - ligand.first).norm() < 1e-3)
+        let heavy: Vec<&Atom> = residue.atoms.iter().filter(|atom| atom.is_heavy()).collect();
+        let is_there =
+            |atom: &&&Atom| ligand.atoms.iter().any(|at| (at - atom.position).norm() < SAME);
+        let there = heavy.iter().filter(is_there).count();
+        there > 1 && 2 * there > heavy.len()
     })
 }
 

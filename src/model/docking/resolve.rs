@@ -143,10 +143,9 @@ fn note_file(path: &std::path::Path, name: &std::path::Path, source: &Source) {
 
 /// The residue of the protein's file that the ligand may be: a ligand that is a group of a PDB file is no part of the protein.
 fn residue_of(spec: &LigandSpec, ligand: &Ligand) -> Option<LigandResidue> {
-    let LigandSpec::File(LigandFile { residue, .. }) = spec else { return None };
-    let first = ligand.positions()?.first().copied()?;
-    let name = residue.clone().unwrap_or_else(|| ligand.name().to_owned());
-    Some(LigandResidue { name, first })
+    let LigandSpec::File(_) = spec else { return None };
+    let heavy = ligand.atoms().iter().filter(|atom| atom.element.is_heavy());
+    Some(LigandResidue { atoms: heavy.map(|atom| atom.position).collect::<Option<_>>()? })
 }
 
 /// The box of some points, widened on all sides.

@@ -267,6 +267,10 @@ impl Model for PointInEnergy {
         Some(self.energy_at(q))
     }
 
+    fn has_gradient(&self) -> bool {
+        true
+    }
+
     fn reasons(&self, q: &[f64], _depths: bool) -> Vec<Reason> {
         let mut reasons = out_of_range(&self.space, q);
         let energy = self.energy_at(q);

@@ -88,7 +88,7 @@ impl Shown<'_> {
                 score: row.score,
                 cluster: index,
                 population: row.population,
-                depth: Some(row.score - row.energy),
+                peak: row.peak,
                 barrier: row.barrier,
                 rmsd: row.rmsd,
                 way_out,

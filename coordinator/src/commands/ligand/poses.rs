@@ -22,10 +22,15 @@ use std::path::PathBuf;
 /// Says which poses a run has found, and writes them. A signal ends the search; what was found by then is printed and written all the same.
 pub fn poses(arguments: &PosesArguments) -> Result<Code, Failure> {
     let (prefix, formats) = files(arguments);
-    let ways = (1..=arguments.ways)
+    let ways = (1..=arguments.ways.min(arguments.count))
         .flat_map(|way| ["pdb", "csv"].map(|end| named(&prefix, &format!("-way-{way}.{end}"))));
     for place in formats.iter().flat_map(|format| places(&prefix, *format)).chain(ways) {
         check_place("--out", &place)?;
+        if !arguments.force && place.try_exists().unwrap_or(true) {
+            let place = place.display();
+            let message = format!("{place}: it is there already; --force replaces it");
+            return Err(Failure::usage(message));
+        }
     }
     if let Some(page) = &arguments.page {
         check_page("--page", page)?;
