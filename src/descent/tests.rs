@@ -120,7 +120,7 @@ fn wrong_settings_and_models_without_energies_are_refused() {
     }
     let bodies = context(
         "[space]\nmotion = \"rigid-3d\"\nmin = [0.0, 0.0, 0.0]\nmax = [1.0, 1.0, 1.0]\n\
-         bounds = \"body\"\nbounds = \"body\"\n[robot]\nbodies = [{ shape = { sphere = { radius = 0.1 } } }]\n",
+         bounds = \"body\"\n[robot]\nbodies = [{ shape = { sphere = { radius = 0.1 } } }]\n",
     );
     for kind in [DescentKind::default(), DescentKind::LowestNeighbor(LowestNeighbor::default())] {
         assert!(kind.method().suits(&bodies).is_err());
