@@ -31,7 +31,7 @@ const GOLDEN: [(&str, &str); 19] = [
     ("neighbors", "26facc6f51fd778c8a175fbb28807799b419d1aaeec6ee04436882e7d5f51553"),
     ("retraction", "5381a3a0bfcf2a681111b9c6730bb57bd2a6101a51bf00362c1a076d10521b86"),
     ("hints", "3dead538b59b75362a2158c3cdac26db3473559cf88e9f864881ae57d25a7a9d"),
-    ("docking", "0000"),
+    ("docking", "e345a8d44f5f2de5224cb1f4470312bac4f068edd7bf7108ef97cfd11e75c26b"),
 ];
 
 fn problem(name: &str) -> Problem {

@@ -265,8 +265,11 @@ impl Row {
                 write!(text, "{value:>12.2}").expect("writing to memory cannot fail");
             }
         }
-        let number =
-            |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
+        let number = |value: Option<f64>| match value {
+            None => "-".to_owned(),
+            Some(value) if value.abs() < 1e6 => format!("{value:.1}"),
+            Some(value) => format!("{value:.1e}"),
+        };
         write!(
             text,
             "{:>10.1}{:>12}{:>9}{:>9}",
