@@ -1,8 +1,11 @@
 use crate::connect::{AmongKind, UntilJoined, WithinKind};
 use crate::generator::{GeneratorKind, LocalTrees, Sample, SlidingTrees};
 use crate::sampler::SamplerKind;
+use crate::source::{Misfit, Reader};
 use crate::strategy::Strategy;
 use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 /// How the node sets of one label are made and joined to the roadmap, as a problem asks for it: one of
 /// `[[strategies]]`. Nothing is checked before the problem is built.
@@ -25,6 +28,11 @@ const GAPS_AFTER: u64 = 4000;
 
 fn default_nodes() -> u64 {
     50
+}
+
+/// What stands in no file.
+fn placeless<T>(value: T) -> Spanned<T> {
+    Spanned::new(0..0, value)
 }
 
 impl StrategySpec {
@@ -61,39 +69,39 @@ impl StrategySpec {
         };
         let label = label.trim();
         // As a document of its own, the table's keys are at the top.
-        let document: toml::Table = format!("it = {}", table.trim())
-            .parse()
-            .map_err(|error: toml::de::Error| format!("{text}: {}", error.message()))?;
-        let Some(toml::Value::Table(mut keys)) = document.get("it").cloned() else {
+        let document = format!("it = {}", table.trim());
+        let mut document = DeTable::parse(&document)
+            .map_err(|error| format!("{text}: {}", error.message()))?
+            .into_inner();
+        let Some(DeValue::Table(mut keys)) = document.remove("it").map(Spanned::into_inner) else {
             return Err(format!("{text}: LABEL = {{ sampler = … }} expected"));
         };
-        keys.insert("label".to_owned(), toml::Value::String(label.to_owned()));
-        let spec = toml::Value::Table(keys).try_into::<StrategySpec>();
-        spec.map_err(|error| format!("{text}: {}", error.message()))
+        keys.insert(placeless("label".into()), placeless(DeValue::String(label.into())));
+        StrategySpec::of_table(&keys).map_err(|misfit| format!("{text}: {}", misfit.message()))
+    }
+
+    fn of_table(keys: &DeTable) -> Result<StrategySpec, Misfit> {
+        StrategySpec::deserialize(Reader::of_table(keys, 0..0))
     }
 
     /// The strategy that is a sampler or a generator of this name with its usual settings.
     fn named(name: &str) -> Result<StrategySpec, String> {
         let with = |role: &str| {
-            let keys = toml::Table::from_iter([
-                ("label".to_owned(), toml::Value::String(name.to_owned())),
-                (
-                    role.to_owned(),
-                    toml::Value::Table(toml::Table::from_iter([(
-                        name.to_owned(),
-                        toml::Value::Table(toml::Table::new()),
-                    )])),
-                ),
+            let settings = placeless(DeValue::Table(DeTable::new()));
+            let method = DeTable::from_iter([(placeless(name.into()), settings)]);
+            let keys = DeTable::from_iter([
+                (placeless("label".into()), placeless(DeValue::String(name.into()))),
+                (placeless(role.into()), placeless(DeValue::Table(method))),
             ]);
-            toml::Value::Table(keys).try_into::<StrategySpec>()
+            StrategySpec::of_table(&keys)
         };
         let of_sampler = match with("sampler") {
             Ok(spec) => return Ok(spec),
-            Err(error) => error.message().to_owned(),
+            Err(misfit) => misfit.message().to_owned(),
         };
         let of_generator = match with("generator") {
             Ok(spec) => return Ok(spec),
-            Err(error) => error.message().to_owned(),
+            Err(misfit) => misfit.message().to_owned(),
         };
         // What is known but lacks a setting says so; what neither role knows is told with both lists.
         let is_unknown = |message: &str| message.starts_with("unknown variant");

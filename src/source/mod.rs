@@ -5,6 +5,9 @@ mod error;
 mod file;
 mod names;
 mod text;
+mod values;
+#[cfg(test)]
+mod values_tests;
 mod whole_number;
 mod xml;
 
@@ -12,6 +15,7 @@ pub use error::ProblemError;
 pub(crate) use file::read_file;
 pub(crate) use names::{fits, fitting, fitting_name};
 pub(crate) use text::{NoText, text_of, xml_text};
+pub(crate) use values::{Misfit, Reader};
 pub(crate) use xml::too_many_attributes;
 
 use crate::digest::SourceFile;
@@ -19,7 +23,9 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::Path;
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 use toml::ser::ValueSerializer;
 
@@ -122,16 +128,17 @@ pub(crate) fn state_of<'s>(states: &'s [NamedState], name: &str) -> Result<&'s N
 struct File<'a> {
     path: &'a Path,
     text: &'a str,
-    tree: DeTable<'a>,
+    tree: Spanned<DeTable<'a>>,
 }
 
 impl<'a> Source<'a> {
     /// Parses the text of a problem file.
     pub fn of_text(path: &'a Path, text: &'a str) -> Result<Source<'a>, ProblemError> {
-        let tree = DeTable::parse(text).map_err(|error| syntax_error(path, text, &error))?;
+        let tree = DeTable::parse(text)
+            .map_err(|error| complaint(path, text, error.message(), error.span()))?;
         let files = RefCell::new(vec![SourceFile::named(path, text.as_bytes())]);
         let folder = path.parent().unwrap_or(Path::new(""));
-        let file = Some(File { path, text, tree: tree.into_inner() });
+        let file = Some(File { path, text, tree });
         Ok(Source { folder, file, files, states: RefCell::default(), hands: RefCell::default() })
     }
 
@@ -148,12 +155,17 @@ impl<'a> Source<'a> {
 
     /// Reads the tables of the file that `T` describes; others are not looked at.
     pub fn tables<T: DeserializeOwned>(&self) -> Result<T, ProblemError> {
+        let nothing = DeTable::new();
         let Some(File { path, text, tree }) = &self.file else {
-            return toml::from_str("").map_err(|error| syntax_error(Path::new(""), "", &error));
+            return T::deserialize(Reader::of_table(&nothing, 0..0))
+                .map_err(|misfit| complaint(Path::new(""), "", misfit.message(), misfit.span()));
         };
-        toml::from_str(text).map_err(|error| match whole_number::complaint(tree, &error) {
-            Some((offset, message)) => ProblemError::line(path, line_of(text, offset), message),
-            None => syntax_error(path, text, &error),
+        let reader = Reader::of_table(tree.get_ref(), tree.span());
+        T::deserialize(reader).map_err(|misfit| {
+            match whole_number::complaint(tree.get_ref(), &misfit) {
+                Some((offset, message)) => ProblemError::line(path, line_of(text, offset), message),
+                None => complaint(path, text, misfit.message(), misfit.span()),
+            }
         })
     }
 
@@ -165,13 +177,13 @@ impl<'a> Source<'a> {
 
     /// Whether the file has this key at its top.
     pub fn has(&self, key: &str) -> bool {
-        self.file.as_ref().is_some_and(|file| file.tree.contains_key(key))
+        self.file.as_ref().is_some_and(|file| file.tree.get_ref().contains_key(key))
     }
 
     /// Complains of the first key at the top of the file that is none of these.
     pub fn expect_keys(&self, keys: &[&str]) -> Result<(), ProblemError> {
         let Some(File { path, text, tree }) = &self.file else { return Ok(()) };
-        let unknown = tree.keys().filter(|key| !keys.contains(&&**key.get_ref()));
+        let unknown = tree.get_ref().keys().filter(|key| !keys.contains(&&**key.get_ref()));
         let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
         let line = line_of(text, key.span().start);
         let listed: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
@@ -204,7 +216,7 @@ impl File<'_> {
     fn find(&self, place: &[Step]) -> Option<usize> {
         let (first, rest) = place.split_first()?;
         let Step::Key(name) = first else { return None };
-        let mut value = self.tree.get(*name)?;
+        let mut value = self.tree.get_ref().get(*name)?;
         let mut offset = value.span().start;
         for step in rest {
             let next = match (step, value.get_ref()) {
@@ -237,11 +249,12 @@ fn line_of(text: &str, offset: usize) -> usize {
     1 + text.as_bytes()[..offset.min(text.len())].iter().filter(|byte| **byte == b'\n').count()
 }
 
-fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> ProblemError {
-    let message = match error.message() {
+/// What is wrong with the text of a problem file, in the words of problems.
+fn complaint(path: &Path, text: &str, message: &str, place: Option<Range<usize>>) -> ProblemError {
+    let message = match message {
         // What the library calls a variant is a method or a shape here, the only key of a table.
         "invalid type: unit variant, expected newtype variant" => {
-            let name = error.span().and_then(|span| text.get(span)).unwrap_or("name");
+            let name = place.clone().and_then(|place| text.get(place)).unwrap_or("name");
             let name = name.trim_matches(['"', '\'']);
             format!(
                 "`{name}` alone found; a table with its settings expected, as {{ {name} = {{ … }} }}"
@@ -256,8 +269,8 @@ fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> ProblemErro
         }
         other => other.to_owned(),
     };
-    match error.span() {
-        Some(span) => ProblemError::line(path, line_of(text, span.start), message),
+    match place {
+        Some(place) => ProblemError::line(path, line_of(text, place.start), message),
         None => ProblemError::file(path, message),
     }
 }

@@ -1,17 +1,17 @@
 //! What is wrong with a setting that must be a whole number.
 
-use super::{Step, place_of};
+use super::{Misfit, Step, place_of};
 use std::fmt::Display;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, Error};
+use toml::de::{DeTable, DeValue};
 
 /// Where in the text of a problem file something else stands than the whole number that is expected there, and what is to be
-/// said of it: the setting by its key, what was found, and the range. `None` of an error of another kind.
+/// said of it: the setting by its key, what was found, and the range. `None` of what is wrong in another way.
 ///
 /// The library says neither key nor range. The range is that of the type in which a setting is kept; the method that the
 /// setting belongs to may expect less.
-pub(super) fn complaint(tree: &DeTable, error: &Error) -> Option<(usize, String)> {
-    let message = error.message();
+pub(super) fn complaint(tree: &DeTable, misfit: &Misfit) -> Option<(usize, String)> {
+    let message = misfit.message();
     let kinds = ["invalid value: ", "invalid type: "];
     let rest = kinds.iter().find_map(|kind| message.strip_prefix(kind))?;
     let (found, expected) = rest.split_once(", expected ")?;
@@ -25,7 +25,7 @@ pub(super) fn complaint(tree: &DeTable, error: &Error) -> Option<(usize, String)
         words if words.contains("a whole number") => words.to_owned(),
         _ => return None,
     };
-    let (offset, mut place) = (error.span()?.start, Vec::new());
+    let (offset, mut place) = (misfit.span()?.start, Vec::new());
     let is_there = tree.iter().any(|(key, value)| {
         let key = Step::Key(key.get_ref());
         leads_to(offset, key, value, &mut place)
