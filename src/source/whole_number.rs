@@ -44,6 +44,7 @@ fn in_file(named: &str) -> &str {
     match (quoted, named) {
         (Some((value, _)), _) => value,
         (None, "map") => "a table",
+        (None, "date") => "a date",
         (None, "sequence") => "an array",
         (None, other) => other.strip_prefix("string ").unwrap_or(other),
     }
