@@ -9,9 +9,21 @@ const HEAD: &str = "complex,generator,seed,rmsd,rmsd_rotated,cpu_s,rank,nodes";
 
 /// The generators, each with the lines of the table `[docking]` that it adds.
 const GENERATORS: [(&str, &str, &str); 6] = [
-    ("geometry", "", "generator = { minima = { sampler = { protein-surface = {} }, descent = { lowest-neighbor = {} } } }"),
-    ("energy", "", "generator = { minima = { sampler = { low-energy-cells = {} }, descent = { lowest-neighbor = {} } } }"),
-    ("geometry, rigid", "rigid = true\n", "generator = { minima = { sampler = { protein-surface = {} }, descent = { lowest-neighbor = {} } } }"),
+    (
+        "geometry",
+        "",
+        "generator = { minima = { sampler = { protein-surface = {} }, descent = { lowest-neighbor = {} } } }",
+    ),
+    (
+        "energy",
+        "",
+        "generator = { minima = { sampler = { low-energy-cells = {} }, descent = { lowest-neighbor = {} } } }",
+    ),
+    (
+        "geometry, rigid",
+        "rigid = true\n",
+        "generator = { minima = { sampler = { protein-surface = {} }, descent = { lowest-neighbor = {} } } }",
+    ),
     ("geometry, gradient", "", "generator = { minima = { sampler = { protein-surface = {} } } }"),
     ("energy, gradient", "", "generator = { minima = { sampler = { low-energy-cells = {} } } }"),
     ("uobprm", "", "sampler = { uobprm = { length = 10.0, step = 0.25 } }"),
@@ -19,7 +31,9 @@ const GENERATORS: [(&str, &str, &str); 6] = [
 
 /// Prints the table.
 pub fn run(mut asked: Asked) {
-    println!("| complex | generator | least RMSD, Å | after rotation, Å | rank, % | nodes | CPU s |");
+    println!(
+        "| complex | generator | least RMSD, Å | after rotation, Å | rank, % | nodes | CPU s |"
+    );
     println!("|---|---|---|---|---|---|---|");
     for complex in chosen(&asked.complexes) {
         for (name, table, strategy) in GENERATORS {

@@ -12,7 +12,10 @@ const HEAD: &str = "complex,mode,seed,pose,energy,rmsd,rmsd_rotated,cpu_s,nodes,
 /// A pose is the known one if it is so near, Å: the usual measure of docking.
 const NEAR: f64 = 2.0;
 
-pub fn run_all(asked: &mut Asked) -> Vec<(String, &'static str, Vec<Vec<Vec<f64>>>)> {
+/// The rows of each run of a complex in a mode.
+type Runs = Vec<Vec<Vec<f64>>>;
+
+fn run_all(asked: &mut Asked) -> Vec<(String, &'static str, Runs)> {
     let mut all = Vec::new();
     for (mode, is_boxed, nodes) in [("boxed", true, 4000), ("blind", false, 12_000)] {
         if asked.mode.as_ref().is_some_and(|wanted| wanted != mode) {
@@ -64,10 +67,12 @@ pub fn run(mut asked: Asked) {
             candidates(run).iter().map(|row| row[column]).fold(f64::INFINITY, f64::min)
         };
         let count = |is: &dyn Fn(&Vec<Vec<f64>>) -> bool| runs.iter().filter(|run| is(run)).count();
-        let of_all = |number: &dyn Fn(&Vec<Vec<f64>>) -> f64| median(runs.iter().map(number).collect());
+        let of_all =
+            |number: &dyn Fn(&Vec<Vec<f64>>) -> f64| median(runs.iter().map(number).collect());
         // A miss is one of sampling if the known pose is lower than the first, else one of scoring.
         let is_miss = |run: &Vec<Vec<f64>>| pose(run, 1.0, 2) > NEAR;
-        let is_sampling = |run: &Vec<Vec<f64>>| is_miss(run) && pose(run, 0.0, 1) < pose(run, 1.0, 1);
+        let is_sampling =
+            |run: &Vec<Vec<f64>>| is_miss(run) && pose(run, 0.0, 1) < pose(run, 1.0, 1);
         let (misses, sampling) = (count(&is_miss), count(&is_sampling));
         println!(
             "| {name} | {mode} | {} of {} | {} | {} | {:.2} | {:.2} | {:.2} | {:.1} | {:.1} | {sampling} sampling, {} scoring | {:.0} | {:.1} |",

@@ -49,7 +49,7 @@ impl Rows {
             let is_new = !path.exists();
             let mut file = OpenOptions::new().create(true).append(true).open(path).expect("a file");
             let head = if is_new { format!("{head}\n") } else { String::new() };
-            write!(file, "{head}{}\n", lines.join("\n")).expect("it can be written");
+            writeln!(file, "{head}{}", lines.join("\n")).expect("it can be written");
         }
         self.lines.extend(lines);
         made

@@ -1,5 +1,6 @@
 //! One run: a roadmap is built, and its poses are compared with the known one.
 
+use roadmill::Cancel;
 use roadmill::binding::{Asked, Candidates, Exact, candidates};
 use roadmill::img::{Setup, build};
 use roadmill::ligand::Symmetries;
@@ -7,7 +8,6 @@ use roadmill::model::docking::Docking;
 use roadmill::model::{ModelKind, ModelSpec, Scratch};
 use roadmill::problem::{PoseSearch, Problem, docking as poses_of};
 use roadmill::structure::Point;
-use roadmill::Cancel;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -48,7 +48,9 @@ pub fn parse(text: &str) -> Problem {
 
 /// The problem that `roadmill ligand problem` makes of this table `[docking]`.
 pub fn usual(table: &str, nodes: u64) -> Problem {
-    let ModelSpec::Docking(spec) = parse(table).model().to_spec() else { panic!("docking expected") };
+    let ModelSpec::Docking(spec) = parse(table).model().to_spec() else {
+        panic!("docking expected")
+    };
     let search = PoseSearch { nodes: Some(nodes), ..PoseSearch::default() };
     let problem = poses_of("complex", Path::new(""), &spec, &search);
     problem.unwrap_or_else(|error| panic!("{error}\n{table}"))
@@ -66,8 +68,7 @@ pub fn run(problem: &Problem, seed: u64) -> Run {
     let exact = Exact::of(&docking, seed);
     let distance = |a: &[Point], b: &[Point]| symmetries.rmsd(a, b);
     let asked = Asked { ways_out: false, ..Asked::default() };
-    let found: Candidates =
-        candidates(&exact, &grown.roadmap, &asked, distance, &Cancel::new());
+    let found: Candidates = candidates(&exact, &grown.roadmap, &asked, distance, &Cancel::new());
     let done = cpu();
 
     let given = docking.given();
@@ -82,9 +83,8 @@ pub fn run(problem: &Problem, seed: u64) -> Run {
         found.improved.iter().map(|of| pose(&of.positions, of.energy)).collect();
     let poses: Vec<Pose> =
         found.candidates.iter().map(|of| pose(&of.positions, of.energy.sum())).collect();
-    let of_nodes = grown.roadmap.configs().iter().map(|q| {
-        symmetries.rmsd(&exact.positions(q), &known)
-    });
+    let of_nodes =
+        grown.roadmap.configs().iter().map(|q| symmetries.rmsd(&exact.positions(q), &known));
     let nearest =
         of_nodes.chain(improved.iter().map(|pose| pose.rmsd)).fold(f64::INFINITY, f64::min);
     let best = (0..poses.len()).min_by(|a, b| poses[*a].rmsd.total_cmp(&poses[*b].rmsd));

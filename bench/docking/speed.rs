@@ -18,7 +18,9 @@ const REPETITIONS: usize = 7;
 
 /// Prints the table.
 pub fn run() {
-    println!("| ligand | heavy atoms | torsions | grid, per s | grid with gradient | exact, per s | plain loop, per s | grid : plain |");
+    println!(
+        "| ligand | heavy atoms | torsions | grid, per s | grid with gradient | exact, per s | plain loop, per s | grid : plain |"
+    );
     println!("|---|---|---|---|---|---|---|---|");
     for complex in COMPLEXES.iter().filter(|of| ["3PTB", "1STP", "4DFR-B"].contains(&of.name)) {
         let with = |more: &str| {

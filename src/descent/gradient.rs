@@ -64,7 +64,8 @@ impl Descent for Gradient {
         let (mut by, mut step) = (vec![0.0; size], vec![0.0; size]);
         for iteration in 0..self.iterations {
             let mut slope = inverse.direction(&now.gradient, &mut step);
-            if !(slope < 0.0) {
+            // What is no number leads nowhere.
+            if slope >= 0.0 || slope.is_nan() {
                 inverse = Inverse::new(size);
                 slope = inverse.direction(&now.gradient, &mut step);
             }
@@ -179,7 +180,8 @@ impl Inverse {
         let curvature = dot(step, &change);
         let square = dot(&change, &change);
         // Only where the energy is convex along the step the matrix stays positive definite.
-        if !(curvature > 1e-12 * square.sqrt() * dot(step, step).sqrt()) {
+        let is_convex = curvature > 1e-12 * square.sqrt() * dot(step, step).sqrt();
+        if !is_convex {
             return;
         }
         if *is_new {

@@ -54,7 +54,8 @@ impl Descent for LowestNeighbor {
                     best.copy_from_slice(&near);
                 }
             }
-            if !(lowest < before) {
+            // No energy is NaN.
+            if lowest >= before {
                 break;
             }
             q.copy_from_slice(&best);

@@ -164,7 +164,7 @@ mod tests {
             let count = ligand.atoms().len();
             assert_eq!(matching(&ligand, &ligand), Some((0..count).collect()));
             // A factor without a common divisor with the number of atoms.
-            let by = [7, 5, 11].into_iter().find(|by| count % by != 0).unwrap();
+            let by = [7, 5, 11].into_iter().find(|by| !count.is_multiple_of(*by)).unwrap();
             let other = shuffled(&ligand, by);
             let to = matching(&ligand, &other).expect("it is the same molecule");
             let there: BTreeSet<_> = other.bonds().iter().map(|bond| sorted(bond.atoms)).collect();

@@ -210,7 +210,7 @@ fn hinted(
             continue;
         }
         let (q, reached) = exact.improved(&q, scratch);
-        if !(reached <= docking.highest()) {
+        if reached > docking.highest() || reached.is_nan() {
             let message = format!(
                 "an energy of {energy:.3e} kJ/mol found, {reached:.3e} after a descent; a pose that does not lie in the protein expected"
             );

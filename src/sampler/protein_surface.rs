@@ -115,9 +115,8 @@ impl Sampler for ProteinSurface {
 
     fn complaint(&self) -> Option<Complaint> {
         let lengths = [("cube", self.cube), ("ball", self.ball), ("step", self.step)];
-        let is_wrong = |(key, length): &(&'static str, f64)| {
-            Complaint::of_length(key, *length, LENGTH_MAX)
-        };
+        let is_wrong =
+            |(key, length): &(&'static str, f64)| Complaint::of_length(key, *length, LENGTH_MAX);
         if let Some(complaint) = lengths.iter().find_map(is_wrong) {
             return Some(complaint);
         }

@@ -217,7 +217,8 @@ impl Model for LigandInEnergy {
     fn reasons(&self, q: &[f64], _depths: bool) -> Vec<Reason> {
         let mut reasons = out_of_range(&self.space, q);
         let energy = self.energy_at(q, &mut Vec::new(), &mut Vec::new());
-        if !(energy <= self.highest) {
+        // An energy that is no number is not valid either.
+        if energy > self.highest || energy.is_nan() {
             let highest = self.highest;
             let text = format!("the energy is {energy} kJ/mol, at most {highest} expected");
             reasons.push(Reason::Other { text });

@@ -15,7 +15,8 @@ pub(super) fn low_cells(field: &Field, atom: usize, limits: CellLimits) -> LowCe
         for y in 0..counts[1] {
             for x in 0..counts[0] {
                 let at = [x, y, z];
-                if !(energy(at) <= limits.low) {
+                let is_low = energy(at) <= limits.low;
+                if !is_low {
                     continue;
                 }
                 let is_high = |axis: usize, by: isize| {

@@ -52,7 +52,9 @@ impl Docking {
         if let Some(message) = grid.complaint() {
             return Some(("grid", message));
         }
-        if !(highest.abs() <= HIGHEST_MAX) {
+        // Written so that NaN fails it.
+        let fits = highest.abs() <= HIGHEST_MAX;
+        if !fits {
             let message = format!("{highest} found; an energy within ±{HIGHEST_MAX:e} expected");
             return Some(("highest", message));
         }
@@ -84,7 +86,7 @@ fn complaint_of_chains(chains: &[StillChain]) -> Option<String> {
     if !(1..=ATOMS_MAX).contains(&count) {
         return Some(format!("{count} atoms found; 1 to {ATOMS_MAX} expected"));
     }
-    let is_far = |value: &f64| !(value.abs() <= COORDINATE_MAX);
+    let is_far = |value: &f64| value.abs() > COORDINATE_MAX || value.is_nan();
     if let Some(atom) = atoms().find(|atom| atom.position.iter().any(is_far)) {
         let name = crate::internal::plain::plain(&atom.name);
         return Some(format!(

@@ -56,7 +56,8 @@ fn bases_lie_at_the_surface() {
         assert!((0.0..0.01).contains(&gap), "{gap} Å from the surface");
     }
     // Torsions are drawn, too, and orientations.
-    let spread = |at: usize| configs.iter().any(|q| q[at] < -1.0) && configs.iter().any(|q| q[at] > 1.0);
+    let spread =
+        |at: usize| configs.iter().any(|q| q[at] < -1.0) && configs.iter().any(|q| q[at] > 1.0);
     assert!((7..12).all(spread));
 }
 
@@ -80,7 +81,8 @@ fn bases_begin_in_low_cells() {
     for q in configs.iter() {
         assert!(cx.model.is_valid(q, scratch));
         let at = Point::new(q[0], q[1], q[2]);
-        let is_in = |cell: &Point| (at - cell).iter().all(|by| by.abs() <= cells.spacing / 2.0 + 1e-9);
+        let is_in =
+            |cell: &Point| (at - cell).iter().all(|by| by.abs() <= cells.spacing / 2.0 + 1e-9);
         assert!(cells.at_boundary.iter().any(is_in), "{at}");
         for (atom, place) in ligand.positions(q).iter().enumerate() {
             let beside = (0..6).any(|side| {
@@ -105,7 +107,8 @@ fn given_configurations_come_first_and_then_others_near_them() {
     assert_eq!(first.get(0), &native[..]);
     assert_eq!(first.get(1), &beside[..]);
     let far = |q: &[f64], from: &[f64]| cx.space.distance(q, from);
-    for (q, about) in [(first.get(2), &native), (second.get(0), &beside), (second.get(1), &native)] {
+    for (q, about) in [(first.get(2), &native), (second.get(0), &beside), (second.get(1), &native)]
+    {
         let distance = far(q, about);
         assert!(distance > 0.0 && distance <= 0.2 + 1e-9, "{distance}");
     }

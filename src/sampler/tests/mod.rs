@@ -2,8 +2,8 @@
 
 mod energy;
 mod gaps;
-mod ligands;
 mod laws;
+mod ligands;
 mod maprm;
 mod medial_axis;
 mod mix;

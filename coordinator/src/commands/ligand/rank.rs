@@ -137,7 +137,7 @@ fn problems(
     // They are the same of all ligands.
     if let Some(first) = problems.first() {
         let of_protein = first.notes().iter().filter(|note| note.starts_with("protein"));
-        of_protein.for_each(|text| note(text));
+        of_protein.for_each(note);
     }
     Ok(problems)
 }
