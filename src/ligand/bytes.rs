@@ -90,7 +90,7 @@ impl LigandTable {
     }
 }
 
-/// By way of its [`LigandTable`].
+/// As its table: names, elements, positions, charges and bonds.
 impl Encode for Ligand {
     fn encode<E: Encoder>(&self, encoder: &mut E) -> Result<(), EncodeError> {
         LigandTable::of(self).encode(encoder)
