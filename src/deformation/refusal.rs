@@ -1,0 +1,31 @@
+use std::fmt;
+
+/// Why a robot cannot be deformed at a configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Refusal {
+    /// The centre toward which points are pushed lies in an obstacle, and so does every other guide.
+    NoGuide,
+    /// What is pushed aside cannot keep its distances from its neighbours.
+    Limits,
+    /// After all rounds of the method the shape still meets an obstacle, or is nearer to one than it may be.
+    Collides,
+    /// The shape leaves the bounds of the space.
+    OutOfBounds,
+    /// The surface of the shape meets itself.
+    SelfCollision,
+    /// The shape is free, but its energy is this, higher than is accepted.
+    Energy(f64),
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Refusal::NoGuide => write!(f, "its middle is within an obstacle"),
+            Refusal::Limits => write!(f, "the limits of the material"),
+            Refusal::Collides => write!(f, "no shape that was tried is free"),
+            Refusal::OutOfBounds => write!(f, "the shape leaves the bounds"),
+            Refusal::SelfCollision => write!(f, "the shape meets itself"),
+            Refusal::Energy(energy) => write!(f, "an energy of {energy}"),
+        }
+    }
+}
