@@ -40,6 +40,7 @@ mod lanes;
 pub mod binding;
 pub mod clearance;
 pub mod connect;
+pub mod deformation;
 pub mod descent;
 pub mod device_rate;
 pub mod evaluate;

@@ -38,6 +38,7 @@ mod scene_change;
 mod scratch;
 
 pub mod bodies;
+pub mod deformable;
 pub mod docking;
 pub mod landscape;
 pub mod protein;
