@@ -61,13 +61,19 @@ use() {
     cp "../$1.toml" problem.toml
 }
 
-# Waits until a job has ended with success. A requeued one need not wait for two minutes.
+# Lets a requeued job begin at once instead of two minutes later. Not within the second in which it was requeued: a node's slurmd tells
+# credentials of before from later ones by whole seconds, and refuses the new one ("Job credential revoked"), which fails the job.
+begin() {
+    sleep 2.1
+    scontrol update jobid="$1" StartTime=now 2>/dev/null || true
+}
+# Waits until a job has ended with success.
 ended() {
     local state
     for _ in $(seq 1200); do
         state=$(squeue -h -a -t all -j "$1" -o '%T %r' | sort -u)
         case $state in
-        *BeginTime*) scontrol update jobid="$1" StartTime=now ;;
+        *BeginTime*) begin "$1" ;;
         COMPLETED*) return 0 ;;
         FAILED* | CANCELLED* | TIMEOUT* | NODE_FAIL*) fail "job $1: $state" ;;
         esac
@@ -79,7 +85,7 @@ ended() {
 past() {
     for _ in $(seq 1200); do
         case $(squeue -h -j "$1" -o '%T %r') in
-        *BeginTime*) scontrol update jobid="$1" StartTime=now ;;
+        *BeginTime*) begin "$1" ;;
         RUNNING*)
             if [ "$(stat -c %s runs/walls/ledger 2>/dev/null || echo 0)" -ge $((full * $2 / 100)) ]; then
                 return 0
@@ -97,6 +103,22 @@ gone() {
         sleep 0.1
     done
     fail "job $1 stays in the queue"
+}
+# Pulls a node's plug and lets Slurm know, as its administrator may. By itself Slurm finds out after 5 to 40 seconds, and a job whose
+# coordinator goes on with the machine that is left may have ended by then.
+lose() {
+    slurm node_down "${1#n}"
+    scontrol update nodename="$1" state=down reason="its plug is pulled"
+}
+# Plugs the node in again.
+find_again() {
+    slurm node_up "${1#n}"
+    for _ in $(seq 50); do
+        scontrol update nodename="$1" state=resume 2>/dev/null && return 0
+        sleep 0.1
+    done
+    # Slurm resumes by itself a node that it took for dead and that answers again.
+    return 0
 }
 restarts() { scontrol show job "$1" | sed -n 's/.*Restarts=\([0-9]*\).*/\1/p'; }
 # How often agents were started again, by the last part of a build.
@@ -215,9 +237,9 @@ agents_preempted() {
     agents
     past "$job" 10
     node=$(nodes_of "$job" | tail -1)
-    slurm node_down "${node#n}"
+    lose "$node"
     ended "$job"
-    slurm node_up "${node#n}"
+    find_again "$node"
     [ "$(restarts "$job")" = 1 ] || fail "the job was not begun anew"
     same "agents, and a node's plug pulled"
 }
