@@ -43,12 +43,12 @@ impl Measured {
                 |message: String| Failure::usage(format!("{path}:{}: {message}", index + 1));
             let unquoted = |word: &str| word.trim().trim_matches('"').to_owned();
             let fields: Vec<String> = line.split(',').map(unquoted).collect();
-            let value =
-                fields.get(1).and_then(|word| word.parse::<f64>().ok()).filter(|x| x.is_finite());
-            let Some(value) = value else {
-                if index == 0 && fields.len() >= 2 {
-                    continue;
-                }
+            let number = fields.get(1).and_then(|word| word.parse::<f64>().ok());
+            let is_heading = index == 0 && fields.len() >= 2 && number.is_none();
+            if is_heading {
+                continue;
+            }
+            let Some(value) = number.filter(|number| number.is_finite()) else {
                 return Err(refuse(format!("`{}` found; NAME,VALUE expected", plain(line))));
             };
             if !names.contains(&fields[0]) {
