@@ -182,7 +182,7 @@ fn of_box(settings: &BoundingBoxSettings) -> Option<(&'static str, String)> {
     if let Some(points) = lattice.iter().find(|points| !(2..=POINTS_MAX).contains(points)) {
         return Some((
             "lattice",
-            format!("{points} points found; 2 to {POINTS_MAX} along each axis expected"),
+            format!("{points} found; 2 to {POINTS_MAX} points along each axis expected"),
         ));
     }
     // Each written so that NaN fails it.
