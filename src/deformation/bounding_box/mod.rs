@@ -24,7 +24,10 @@ use std::sync::Arc;
 const ROUNDS: u32 = 12;
 
 /// How much farther a colliding triangle is pushed in a round at least, as a share of the least spacing of the lattice.
-const STEP: f64 = 0.25;
+const STEP: f64 = 0.1;
+
+/// How far beyond the clearance points are pushed, as a share of the least spacing of the lattice.
+const BEYOND: f64 = 0.02;
 
 /// The largest number of lattice points.
 const POINTS_MAX: u64 = 1 << 20;
@@ -107,16 +110,17 @@ impl BoundingBox {
             return Ok(Deformed { vertices: rest.to_vec(), energy: 0.0 });
         }
         let obstacles = self.obstacles.as_ref();
-        let scene = Scene { obstacles, pose, clearance: self.clearance };
+        let least = self.lattice.spacing.iter().fold(f64::INFINITY, |a, b| f64::min(a, *b));
+        let (clearance, beyond) = (self.clearance, self.clearance + BEYOND * least);
+        let scene = Scene { obstacles, pose, clearance, beyond };
         let guide = Guide::choose(&self.lattice, &scene).ok_or(Refusal::NoGuide)?;
         let mut pushes = Pushes::new(&self.lattice, &self.cells, rest, self.rays, guide, &scene);
-        let step = STEP * self.lattice.spacing.iter().fold(f64::INFINITY, |a, b| f64::min(a, *b));
+        let step = STEP * least;
         let mut vertices = rest.to_vec();
         for round in 0..ROUNDS {
             // Where no ray meets anything the first round has nothing to push.
-            if round > 0 || pushes.lengths.iter().all(|length| *length == 0.0) {
-                let shape = (vertices.as_slice(), self.body.triangles());
-                if !pushes.deepen(&self.cells, shape, step, &scene) {
+            if round > 0 || pushes.shares.iter().all(|share| *share == 0.0) {
+                if !pushes.deepen(&self.cells, &self.body, &vertices, step, &scene) {
                     return Err(Refusal::Collides);
                 }
             }

@@ -3,7 +3,7 @@
 //! Points are pushed toward a guide, the centre of the box, until nothing of an obstacle is on the segment that is left.
 
 use super::lattice::Lattice;
-use crate::deformation::Obstacles;
+use crate::deformation::{Obstacles, SoftBody};
 use crate::scene::Pose;
 
 /// From where rays are cast to the guide.
@@ -11,8 +11,9 @@ use crate::scene::Pose;
 pub enum Rays {
     /// From the lattice points on the surface of the box, which are then pushed themselves: the paper's rule.
     FromBox,
-    /// From the vertices of the robot. The corners of the cells around a vertex are pushed by as much as it must be moved, so that what
-    /// of the box is outside the robot causes no deformation.
+    /// From the vertices of the robot. The corners of the cell around a vertex are pushed by the share of the way to the guide by which
+    /// the vertex must be moved, so that what of the box is outside the robot causes no deformation. The cell shrinks
+    /// toward the guide, an affine map, so that the vertex moves by just as much.
     FromRobot,
 }
 
@@ -20,10 +21,10 @@ pub enum Rays {
 pub(super) struct Pushes {
     /// The guide, in the robot's frame, and the lattice points that are held where they rest.
     pub guide: Guide,
-    /// Per lattice point a length; 0 of those that are not pushed.
-    pub lengths: Vec<f64>,
-    /// Per lattice point the unit vector to the guide and how far away it is; zero at the guide.
-    ways: Vec<([f64; 3], f64)>,
+    /// Per lattice point how far it is pushed, as a share of its way to the guide; 0 of those that are not.
+    pub shares: Vec<f64>,
+    /// Per lattice point the way to the guide.
+    ways: Vec<[f64; 3]>,
 }
 
 /// Where points are pushed to.
@@ -39,8 +40,10 @@ pub(super) struct Guide {
 pub(super) struct Scene<'a> {
     pub obstacles: &'a Obstacles,
     pub pose: &'a Pose,
-    /// How far beyond an obstacle a point is pushed.
+    /// The least distance from obstacles.
     pub clearance: f64,
+    /// How far beyond an obstacle a point is pushed: a little more than the clearance.
+    pub beyond: f64,
 }
 
 impl Scene<'_> {
@@ -49,7 +52,13 @@ impl Scene<'_> {
     fn length(&self, from: [f64; 3], to: [f64; 3]) -> f64 {
         let hit = self.obstacles.last_hit(self.pose.apply(from), self.pose.apply(to));
         let way = distance(from, to);
-        hit.map_or(0.0, |share| (share * way + self.clearance).min(way))
+        hit.map_or(0.0, |share| (share * way + self.beyond).min(way))
+    }
+
+    /// The same as a share of the way.
+    fn share(&self, from: [f64; 3], to: [f64; 3]) -> f64 {
+        let length = self.length(from, to);
+        if length > 0.0 { length / distance(from, to) } else { 0.0 }
     }
 }
 
@@ -119,32 +128,24 @@ impl Pushes {
         guide: Guide,
         scene: &Scene,
     ) -> Pushes {
-        let to_guide = |point: &[f64; 3]| {
-            let way = distance(*point, guide.at);
-            let unit = if way > 0.0 {
-                [0, 1, 2].map(|k| (guide.at[k] - point[k]) / way)
-            } else {
-                [0.0; 3]
-            };
-            (unit, way)
-        };
+        let to_guide = |point: &[f64; 3]| [0, 1, 2].map(|k| guide.at[k] - point[k]);
         let ways = lattice.points.iter().map(to_guide).collect();
-        let mut pushes = Pushes { lengths: vec![0.0; lattice.points.len()], ways, guide };
+        let mut pushes = Pushes { shares: vec![0.0; lattice.points.len()], ways, guide };
         match rays {
             Rays::FromBox => {
                 for (index, point) in lattice.points.iter().enumerate() {
                     if lattice.is_on_surface(index) {
-                        let length = scene.length(*point, pushes.guide.at);
-                        pushes.raise(index, length);
+                        let share = scene.share(*point, pushes.guide.at);
+                        pushes.raise(index, share);
                     }
                 }
             }
             Rays::FromRobot => {
                 for (index, vertex) in vertices.iter().enumerate() {
-                    let length = scene.length(*vertex, pushes.guide.at);
-                    if length > 0.0 {
+                    let share = scene.share(*vertex, pushes.guide.at);
+                    if share > 0.0 {
                         for corner in cells.around(index) {
-                            pushes.raise(corner, length);
+                            pushes.raise(corner, share);
                         }
                     }
                 }
@@ -153,20 +154,20 @@ impl Pushes {
         pushes
     }
 
-    /// Pushes a point by at least a length. Whether that is farther than before; no point is pushed beyond the guide.
-    fn raise(&mut self, index: usize, length: f64) -> bool {
-        let length = if length < self.ways[index].1 { length } else { self.ways[index].1 };
-        let farther = length > self.lengths[index];
+    /// Pushes a point by at least a share of its way. Whether that is farther than before; no point is pushed beyond the guide.
+    fn raise(&mut self, index: usize, share: f64) -> bool {
+        let share = if share < 1.0 { share } else { 1.0 };
+        let farther = share > self.shares[index];
         if farther {
-            self.lengths[index] = length;
+            self.shares[index] = share;
         }
         farther
     }
 
     /// By which vector a point is pushed, if it is.
     pub fn vector(&self, index: usize) -> Option<[f64; 3]> {
-        let length = self.lengths[index];
-        (length > 0.0).then(|| self.ways[index].0.map(|x| x * length))
+        let share = self.shares[index];
+        (share > 0.0).then(|| self.ways[index].map(|x| x * share))
     }
 
     /// Pushes what moves the colliding triangles of a shape farther: obstacles between rays, thinner than the lattice or caught between
@@ -176,12 +177,13 @@ impl Pushes {
     pub fn deepen(
         &mut self,
         cells: &Cells,
-        (vertices, triangles): (&[[f64; 3]], &[[u32; 3]]),
+        body: &SoftBody,
+        vertices: &[[f64; 3]],
         step: f64,
         scene: &Scene,
     ) -> bool {
-        let mut by = vec![0.0; self.lengths.len()];
-        for corners in triangles {
+        let mut by = vec![0.0; self.shares.len()];
+        for corners in body.triangles() {
             let at = corners.map(|corner| vertices[corner as usize]);
             let in_world = at.map(|corner| scene.pose.apply(corner));
             if !scene.obstacles.is_near(in_world, scene.clearance) {
@@ -196,16 +198,18 @@ impl Pushes {
                 }
             }
             for corner in corners {
-                for index in cells.around(*corner as usize) {
-                    if length > by[index] {
-                        by[index] = length;
+                let vertex = *corner as usize;
+                let way = distance(body.vertices()[vertex], self.guide.at);
+                for index in cells.around(vertex) {
+                    if length > by[index] * way {
+                        by[index] = if length < way { length / way } else { 1.0 };
                     }
                 }
             }
         }
         let mut farther = false;
         for (index, by) in by.into_iter().enumerate() {
-            farther |= by > 0.0 && self.raise(index, self.lengths[index] + by);
+            farther |= by > 0.0 && self.raise(index, self.shares[index] + by);
         }
         farther
     }
