@@ -5,10 +5,14 @@
 //! ([`Deformable`](crate::model::deformable)). What is here deforms the robot along a path of that roadmap until it is free of
 //! obstacles, or says that it cannot be.
 
+pub mod bounding_box;
+mod obstacles;
 mod refusal;
 mod shape;
 mod soft_body;
 
+pub use bounding_box::BoundingBox;
+pub use obstacles::Obstacles;
 pub use refusal::Refusal;
 pub use shape::{Deform, Deformed};
 pub use soft_body::SoftBody;
