@@ -15,6 +15,9 @@ mod search;
 mod shape;
 mod soft_body;
 
+#[cfg(test)]
+mod tests;
+
 pub use answer::{DeformingAnswer, NoDeformedPath, RemovedEdge};
 pub use path::{Between, DeformedPath, Frame};
 pub use query::{deform_path, deform_query};
