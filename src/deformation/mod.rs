@@ -7,6 +7,7 @@
 
 mod answer;
 mod edge;
+mod obstacles;
 mod path;
 mod query;
 mod refusal;
@@ -19,6 +20,7 @@ mod soft_body;
 mod tests;
 
 pub use answer::{DeformingAnswer, NoDeformedPath, RemovedEdge};
+pub use obstacles::Obstacles;
 pub use path::{Between, DeformedPath, Frame};
 pub use query::{deform_path, deform_query};
 pub use refusal::Refusal;
