@@ -65,9 +65,8 @@ fn shorter(
     let mut is_free = |length: f64| {
         let region = trial.region;
         let shape = trial.shape;
-        let place = |(vertex, weight): &(u32, f64)| {
-            shape[*vertex as usize] + direction * (length * weight)
-        };
+        let place =
+            |(vertex, weight): &(u32, f64)| shape[*vertex as usize] + direction * (length * weight);
         trial.is_free(region.vertices.iter().map(place))
     };
     let (mut colliding, mut free) = match best {

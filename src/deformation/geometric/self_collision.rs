@@ -26,13 +26,13 @@ impl SelfCollision {
             true
         });
         at_rest.sort_unstable();
-        SelfCollision { at_rest, volumes: volumes(surface, rest) }
+        SelfCollision { at_rest, volumes: surface.volumes(rest) }
     }
 
     /// Whether two triangles without a common vertex meet that do not at rest, or a piece of the surface encloses no volume any more.
     pub fn is_met(&self, surface: &Surface, shape: &[Vector]) -> bool {
         let turned = |(now, rest): (f64, &f64)| *rest != 0.0 && now / rest < LEAST_VOLUME;
-        if volumes(surface, shape).into_iter().zip(&self.volumes).any(turned) {
+        if surface.volumes(shape).into_iter().zip(&self.volumes).any(turned) {
             return true;
         }
         let mut met = false;
@@ -42,18 +42,6 @@ impl SelfCollision {
         });
         met
     }
-}
-
-/// The volume that each piece encloses, by sign.
-fn volumes(surface: &Surface, shape: &[Vector]) -> Vec<f64> {
-    let mut volumes = vec![0.0; surface.first_vertices.len()];
-    for corners in &surface.triangles {
-        let Some(piece) = surface.pieces[corners[0] as usize] else { continue };
-        let origin = shape[surface.first_vertices[piece] as usize];
-        let [a, b, c] = corners.map(|corner| shape[corner as usize] - origin);
-        volumes[piece] += a.dot(b.cross(c)) / 6.0;
-    }
-    volumes
 }
 
 /// Calls `found` with pairs of triangles that have no common vertex and meet, the smaller index first, until it says `false`. Touching is
@@ -78,12 +66,14 @@ fn meetings(surface: &Surface, shape: &[Vector], found: &mut dyn FnMut((u32, u32
             if other_least[0] > most[0] {
                 break;
             }
-            let apart = (1..3).any(|axis| other_least[axis] > most[axis] || least[axis] > other_most[axis]);
+            let apart =
+                (1..3).any(|axis| other_least[axis] > most[axis] || least[axis] > other_most[axis]);
             let [a, b] = [first, second].map(|index| surface.triangles[*index as usize]);
             if apart || a.iter().any(|corner| b.contains(corner)) {
                 continue;
             }
-            let [a, b] = [a, b].map(|corners| corners.map(|corner| shape[corner as usize].to_array()));
+            let [a, b] =
+                [a, b].map(|corners| corners.map(|corner| shape[corner as usize].to_array()));
             if meet(&a, &b) && !found((*first.min(second), *first.max(second))) {
                 return;
             }
@@ -99,7 +89,9 @@ pub(super) fn meet(a: &Triangle, b: &Triangle) -> bool {
         return false;
     }
     let sides = |of: &Triangle, points: &Triangle| points.map(|point| side(of, point));
-    let apart = |sides: [Ordering; 3]| sides[0] != Ordering::Equal && sides.iter().all(|side| *side == sides[0]);
+    let apart = |sides: [Ordering; 3]| {
+        sides[0] != Ordering::Equal && sides.iter().all(|side| *side == sides[0])
+    };
     let (of_a, of_b) = (sides(b, a), sides(a, b));
     if apart(of_a) || apart(of_b) {
         return false;
@@ -143,7 +135,8 @@ fn crosses_within_plane(segment: [[f64; 3]; 2], triangle: &Triangle) -> bool {
         })
     });
     let turns = [a, b, c].map(|corner| flat_turn(&[p, q, corner], axis));
-    let parted_by_segment = turns[0] != Ordering::Equal && turns.iter().all(|turn| *turn == turns[0]);
+    let parted_by_segment =
+        turns[0] != Ordering::Equal && turns.iter().all(|turn| *turn == turns[0]);
     !(parted_by_side || parted_by_segment)
 }
 
@@ -153,7 +146,8 @@ fn is_flat(triangle: &Triangle) -> bool {
 
 /// How three points turn, seen along an axis; exact.
 fn flat_turn(points: &Triangle, axis: usize) -> Ordering {
-    let [a, b, c] = points.map(|point| Coord { x: point[(axis + 1) % 3], y: point[(axis + 2) % 3] });
+    let [a, b, c] =
+        points.map(|point| Coord { x: point[(axis + 1) % 3], y: point[(axis + 2) % 3] });
     sign(orient2d(a, b, c))
 }
 

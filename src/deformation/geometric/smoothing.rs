@@ -37,7 +37,10 @@ impl Limits {
     /// would collide again.
     pub fn restore(&self, surface: &Surface, shape: &mut [Vector], pushed: &[f64]) {
         let within = |share: f64| {
-            [self.shortest + share * (1.0 - self.shortest), self.longest - share * (self.longest - 1.0)]
+            [
+                self.shortest + share * (1.0 - self.shortest),
+                self.longest - share * (self.longest - 1.0),
+            ]
         };
         let (least, wanted) = (within(WITHIN / 2.0), within(WITHIN));
         for _ in 0..SWEEPS {

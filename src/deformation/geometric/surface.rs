@@ -1,4 +1,5 @@
 use crate::deformation::SoftBody;
+use parry3d_f64::math::Vector;
 use std::collections::BTreeMap;
 
 /// What of the robot's surface is the same for every shape: which vertices are joined, and how far apart they are at rest.
@@ -40,14 +41,16 @@ impl Surface {
                 });
             }
         }
-        let edges: Vec<Edge> = lengths.into_iter().map(|(ends, length)| Edge { ends, length }).collect();
+        let edges: Vec<Edge> =
+            lengths.into_iter().map(|(ends, length)| Edge { ends, length }).collect();
         let both_ways = edges.iter().flat_map(|edge| {
             let [a, b] = edge.ends;
             [(a, (b, edge.length)), (b, (a, edge.length))]
         });
-        let corners = triangles.iter().zip(0u32..).flat_map(|(corners, index)| {
-            corners.iter().map(move |corner| (*corner, index))
-        });
+        let corners = triangles
+            .iter()
+            .zip(0u32..)
+            .flat_map(|(corners, index)| corners.iter().map(move |corner| (*corner, index)));
         let pieces = body.mesh().pieces();
         let (mut piece_sizes, mut first_vertices) = (Vec::new(), Vec::new());
         for (vertex, piece) in (0u32..).zip(&pieces) {
@@ -69,6 +72,18 @@ impl Surface {
         }
     }
 
+    /// The volume that each piece encloses in a shape with these vertices; negative if its triangles are wound inward.
+    pub fn volumes(&self, shape: &[Vector]) -> Vec<f64> {
+        let mut volumes = vec![0.0; self.first_vertices.len()];
+        for corners in &self.triangles {
+            let Some(piece) = self.pieces[corners[0] as usize] else { continue };
+            let origin = shape[self.first_vertices[piece] as usize];
+            let [a, b, c] = corners.map(|corner| shape[corner as usize] - origin);
+            volumes[piece] += a.dot(b.cross(c)) / 6.0;
+        }
+        volumes
+    }
+
     /// The neighbours of a vertex along edges, and the lengths of the edges at rest.
     pub fn neighbours(&self, vertex: u32) -> &[(u32, f64)] {
         self.neighbours.of(vertex)
@@ -76,7 +91,8 @@ impl Surface {
 
     /// The triangles that have one of the vertices as a corner, in ascending order, each once.
     pub fn triangles_around(&self, vertices: impl Iterator<Item = u32>) -> Vec<u32> {
-        let mut around: Vec<u32> = vertices.flat_map(|vertex| self.triangles_at.of(vertex)).copied().collect();
+        let mut around: Vec<u32> =
+            vertices.flat_map(|vertex| self.triangles_at.of(vertex)).copied().collect();
         around.sort_unstable();
         around.dedup();
         around
@@ -84,7 +100,8 @@ impl Surface {
 
     /// The corners of some triangles, in ascending order, each once.
     pub fn corners_of(&self, triangles: &[u32]) -> Vec<u32> {
-        let mut corners: Vec<u32> = triangles.iter().flat_map(|index| self.triangles[*index as usize]).collect();
+        let mut corners: Vec<u32> =
+            triangles.iter().flat_map(|index| self.triangles[*index as usize]).collect();
         corners.sort_unstable();
         corners.dedup();
         corners

@@ -44,7 +44,8 @@ impl<'a> Trial<'a> {
             [] => self.surface.first_vertices.clone(),
             colliding => self.surface.corners_of(colliding),
         };
-        let within = |corner: &u32| self.obstacles.contains(self.tried[*corner as usize].to_array());
+        let within =
+            |corner: &u32| self.obstacles.contains(self.tried[*corner as usize].to_array());
         !corners.iter().any(within)
     }
 

@@ -95,18 +95,26 @@ pub fn elbow(half: f64, radius: f64, turn: f64, steps: u32, around: u32) -> Mesh
         triangles.push([ends[1], corner(2 * steps, at), corner(2 * steps, at + 1)]);
     }
     let mesh = Mesh { vertices, triangles };
-    let volume: f64 = mesh.triangles.iter().map(|t| {
-        let [a, b, c] = t.map(|corner| mesh.vertices[corner as usize]);
-        determinant(a, b, c)
-    }).sum();
+    let volume: f64 = mesh
+        .triangles
+        .iter()
+        .map(|t| {
+            let [a, b, c] = t.map(|corner| mesh.vertices[corner as usize]);
+            determinant(a, b, c)
+        })
+        .sum();
     match volume < 0.0 {
-        true => Mesh { triangles: mesh.triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect(), ..mesh },
+        true => Mesh {
+            triangles: mesh.triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect(),
+            ..mesh
+        },
         false => mesh,
     }
 }
 
 fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
-    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
 /// A motion without rotation.
