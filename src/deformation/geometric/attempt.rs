@@ -1,7 +1,7 @@
 use super::Geometric;
 use super::directions::directions;
 use super::push::push;
-use super::regions::{Region, regions, whole};
+use super::regions::{Region, filled, regions, whole};
 use super::settle::{Moved, settle};
 use super::trial::Trial;
 use crate::deformation::{Deformed, Refusal};
@@ -21,14 +21,17 @@ const HALVINGS: u32 = 2;
 enum Way {
     /// All in one direction.
     Push,
+    /// All in one direction, together with what is cut off by the colliding triangles.
+    PushAll,
     /// Toward the guide of this number.
     Region(usize),
     /// The whole surface toward the guide of this number, which is free.
     Whole(usize),
 }
 
-/// The ways in the order in which they are tried.
-const WAYS: [Way; 5] = [Way::Push, Way::Region(0), Way::Region(1), Way::Whole(0), Way::Whole(1)];
+/// The ways that are compared, and those that are tried where none of these frees the region.
+const WAYS: [Way; 4] = [Way::Push, Way::PushAll, Way::Region(0), Way::Region(1)];
+const LAST_WAYS: [Way; 2] = [Way::Whole(0), Way::Whole(1)];
 
 /// One pose at which the robot at rest is not free.
 pub(super) struct Attempt<'a> {
@@ -109,8 +112,9 @@ impl<'a> Attempt<'a> {
         Ok(moved)
     }
 
-    /// Where the region's vertices go: by the first of the ways to free it after which the shape can be smoothed within its limits and does not meet
-    /// itself; by the first of all, if there is none such.
+    /// Where the region's vertices go: of the ways to free it after which the shape can be smoothed within its limits and does not meet
+    /// itself, by the one with the least sum of displacements; if there is none such, by the whole guides, by halving the neighbourhood, or, since
+    /// later rounds may mend the limits, by the first way of all.
     fn free_region(
         &self,
         region: &Region,
@@ -119,7 +123,20 @@ impl<'a> Attempt<'a> {
         halvings: u32,
     ) -> Result<Vec<Moved>, Refusal> {
         let mut first = None;
+        let mut best: Option<(f64, Vec<Moved>)> = None;
         for way in WAYS {
+            let Some(moved) = self.by(way, region, shape, reach) else { continue };
+            let sum = displacements(shape, &moved);
+            let is_better = best.as_ref().is_none_or(|(least, _)| sum < *least);
+            match is_better && self.is_good(shape, &moved) {
+                true => best = Some((sum, moved)),
+                false => first = first.or(Some(moved)),
+            }
+        }
+        if let Some((_, best)) = best {
+            return Ok(best);
+        }
+        for way in LAST_WAYS {
             let Some(moved) = self.by(way, region, shape, reach) else { continue };
             if self.is_good(shape, &moved) {
                 return Ok(moved);
@@ -146,17 +163,8 @@ impl<'a> Attempt<'a> {
         let method = self.method;
         let (surface, obstacles) = (&method.surface, &*method.obstacles);
         let (region, guide) = match way {
-            Way::Push => {
-                let directions =
-                    directions(surface, region, shape, obstacles, reach, &method.uniform);
-                let mut trial = Trial::new(surface, region, obstacles, reach, shape);
-                let middle = Vector::from_array(self.pose.apply(method.centroid.to_array()));
-                let push = push(&mut trial, &directions, method.size, middle)?;
-                let target =
-                    |(vertex, weight): &(u32, f64)| shape[*vertex as usize] + push * *weight;
-                let targets: Vec<Vector> = region.vertices.iter().map(target).collect();
-                return Some(settle(&mut trial, &targets));
-            }
+            Way::Push => return self.push(region, shape, reach),
+            Way::PushAll => return self.push(&filled(surface, region)?, shape, reach),
             Way::Region(guide) => (region, self.guide(guide)),
             Way::Whole(guide) => (&whole(surface, 1.0 / region.slope), self.free_guide(guide)?),
         };
@@ -167,6 +175,21 @@ impl<'a> Attempt<'a> {
         let targets: Vec<Vector> = region.vertices.iter().map(target).collect();
         let mut trial = Trial::new(surface, region, obstacles, reach, shape);
         trial.is_free(targets.iter().copied()).then(|| settle(&mut trial, &targets))
+    }
+
+    /// Where the region's vertices go by the shortest push.
+    fn push(&self, region: &Region, shape: &[Vector], reach: f64) -> Option<Vec<Moved>> {
+        let method = self.method;
+        let (surface, obstacles) = (&method.surface, &*method.obstacles);
+        let directions = directions(surface, region, shape, obstacles, reach, &method.uniform);
+        let mut trial = Trial::new(surface, region, obstacles, reach, shape);
+        let middle = Vector::from_array(self.pose.apply(method.centroid.to_array()));
+        let falloff = 1.0 / region.slope + surface.mean_edge;
+        let longest = method.limits.longest_push(falloff).min(method.size);
+        let push = push(&mut trial, &directions, longest, middle)?;
+        let target = |(vertex, weight): &(u32, f64)| shape[*vertex as usize] + push * *weight;
+        let targets: Vec<Vector> = region.vertices.iter().map(target).collect();
+        Some(settle(&mut trial, &targets))
     }
 
     /// Whether the shape, with these vertices moved, can be smoothed within its limits and does not meet itself then.
@@ -255,6 +278,12 @@ fn apply(shape: &[Vector], moved: &[Moved]) -> (Vec<Vector>, Vec<f64>) {
         pushed[vertex] = share.max(pushed[vertex]);
     }
     (after, pushed)
+}
+
+/// The sum of the displacements of vertices.
+fn displacements(shape: &[Vector], moved: &[Moved]) -> f64 {
+    let way = |moved: &Moved| moved.place - shape[moved.vertex as usize];
+    moved.iter().map(way).map(|way| way.dot(way).sqrt()).sum()
 }
 
 fn as_arrays(shape: &[Vector]) -> Vec<[f64; 3]> {

@@ -93,7 +93,7 @@ impl Geometric {
 
 /// What of the settings is out of its range.
 fn check(settings: &GeometricSettings, highest_energy: f64, clearance: f64) -> Result<(), String> {
-    let GeometricSettings { shortest, longest, neighbourhood, guide, .. } = *settings;
+    let GeometricSettings { shortest, longest, neighbourhood, guide, rounds, .. } = *settings;
     let not_negative = |value: f64| value >= 0.0 && value.is_finite();
     let wrong = [
         (
@@ -105,6 +105,7 @@ fn check(settings: &GeometricSettings, highest_energy: f64, clearance: f64) -> R
         (longest >= 1.0 && longest.is_finite(), "longest", longest, "a share of at least 1"),
         (not_negative(neighbourhood), "neighbourhood", neighbourhood, "a length of at least 0"),
         (guide > 0.0 && guide < 1.0, "guide", guide, "a scale above 0 and below 1"),
+        (rounds > 0, "rounds", rounds.into(), "at least 1"),
         (highest_energy >= 0.0, "highest_energy", highest_energy, "a length of at least 0"),
         (not_negative(clearance), "clearance", clearance, "a length of at least 0"),
     ];

@@ -4,7 +4,7 @@
 use super::surface::Surface;
 use petgraph::unionfind::UnionFind;
 use std::cmp::{Ordering, Reverse};
-use std::collections::BinaryHeap;
+use std::collections::{BTreeMap, BinaryHeap};
 
 /// Part of the surface that is moved in one direction.
 #[derive(Clone, Debug)]
@@ -54,6 +54,44 @@ pub(super) fn regions(surface: &Surface, colliding: &[u32], neighbourhood: f64) 
         }
     }
     groups.into_iter().map(|(_, colliding)| region(surface, colliding, neighbourhood)).collect()
+}
+
+/// The region with what its colliding triangles cut off from the rest of the surface: of the parts into which the piece falls without
+/// them, all but the largest by area at rest. They are what has gone through a thin obstacle. `None` if nothing is cut off.
+pub(super) fn filled(surface: &Surface, of: &Region) -> Option<Region> {
+    let piece = surface.pieces[*surface.corners_of(&of.colliding).first()? as usize];
+    let mut is_corner = vec![false; surface.pieces.len()];
+    for corner in surface.corners_of(&of.colliding) {
+        is_corner[corner as usize] = true;
+    }
+    let mut united = UnionFind::<usize>::new(surface.pieces.len());
+    for edge in &surface.edges {
+        let [a, b] = edge.ends.map(|end| end as usize);
+        if !is_corner[a] && !is_corner[b] {
+            united.union(a, b);
+        }
+    }
+    // Per triangle a vertex that says which part it belongs to; none of those between corners of colliding ones.
+    let part = |corners: &[u32; 3]| {
+        let free = corners.iter().find(|corner| !is_corner[**corner as usize])?;
+        (surface.pieces[*free as usize] == piece).then(|| united.find(*free as usize))
+    };
+    let mut areas = BTreeMap::new();
+    for (corners, area) in surface.triangles.iter().zip(&surface.areas) {
+        if let Some(part) = part(corners) {
+            *areas.entry(part).or_insert(0.0) += area;
+        }
+    }
+    let largest = areas.iter().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)))?.0;
+    if areas.len() == 1 {
+        return None;
+    }
+    let is_cut_off = |(index, corners): &(u32, &[u32; 3])| {
+        of.colliding.binary_search(index).is_ok()
+            || part(corners).is_some_and(|part| part != *largest)
+    };
+    let all = (0u32..).zip(&surface.triangles).filter(is_cut_off).map(|(index, _)| index);
+    Some(region(surface, all.collect(), 1.0 / of.slope))
 }
 
 /// The region around triangles of one piece.

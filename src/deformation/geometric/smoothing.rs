@@ -30,6 +30,13 @@ impl Limits {
         })
     }
 
+    /// The longest push that is tried of a region whose weight falls to 0 within `falloff`: twice the longest that leaves edges within
+    /// their limits where the push goes across the surface, or along it. Smoothing spreads a push over more of the surface, but not without end.
+    pub fn longest_push(&self, falloff: f64) -> f64 {
+        let across = (self.longest * self.longest - 1.0).sqrt();
+        2.0 * falloff * across.max(1.0 - self.shortest)
+    }
+
     /// Moves vertices until edges are within the limits: each edge that is not is brought within them by moving its ends
     /// along it, edges in order, up to 200 times (position-based dynamics: M. Müller, B. Heidelberger, M. Hennix and
     /// J. Ratcliff, *Position based dynamics*, J. Visual Communication and Image Representation 18, 2007, §3.3). An edge that is within the limits moves

@@ -6,8 +6,12 @@ use std::collections::BTreeMap;
 pub(super) struct Surface {
     /// Corners of the triangles.
     pub triangles: Vec<[u32; 3]>,
+    /// Their areas at rest.
+    pub areas: Vec<f64>,
     /// The edges, each once, the vertex of the smaller index first; ordered by their vertices.
     pub edges: Vec<Edge>,
+    /// The mean length of the edges at rest.
+    pub mean_edge: f64,
     /// Per vertex its neighbours along edges, and the length of the edge at rest.
     neighbours: Lists<(u32, f64)>,
     /// Per vertex the triangles that have it as a corner.
@@ -61,9 +65,15 @@ impl Surface {
             }
             piece_sizes[piece] += 1;
         }
+        let sum: f64 = edges.iter().map(|edge| edge.length).sum();
         Surface {
+            mean_edge: sum / edges.len() as f64,
             neighbours: Lists::new(vertices.len(), both_ways.collect()),
             triangles_at: Lists::new(vertices.len(), corners.collect()),
+            areas: triangles
+                .iter()
+                .map(|corners| area(corners.map(|corner| vertices[corner as usize])))
+                .collect(),
             triangles: triangles.to_vec(),
             edges,
             pieces,
@@ -106,6 +116,12 @@ impl Surface {
         corners.dedup();
         corners
     }
+}
+
+fn area(corners: [[f64; 3]; 3]) -> f64 {
+    let [a, b, c] = corners.map(Vector::from_array);
+    let across = (b - a).cross(c - a);
+    across.dot(across).sqrt() / 2.0
 }
 
 /// A list per vertex, one after another in one vector.
