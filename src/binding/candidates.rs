@@ -145,13 +145,10 @@ impl Exact {
         stream: &mut Stream,
         scratch: &mut Scratch,
     ) -> f64 {
-        let dimensions = self.cx.space.cube_dimensions() as f64;
         let mut near = vec![0.0; q.len()];
         let mut sum = 0.0;
         for _ in 0..asked.samples {
-            // The volume within a radius is as its power of the number of dimensions.
-            let share = crate::math::exp(crate::math::ln(stream.unit()) / dimensions);
-            self.cx.space.step(q, asked.distance * share, stream, &mut near);
+            self.cx.space.step_within(q, asked.distance, stream, &mut near);
             let energy = self.cx.model.energy(&near, scratch).unwrap_or(f64::INFINITY);
             sum += if energy < asked.highest { energy } else { asked.highest };
         }

@@ -1,6 +1,5 @@
 use super::{Descent, complaint_of_iterations, middle};
 use crate::context::Context;
-use crate::math;
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::scene::LENGTH_MAX;
@@ -42,9 +41,7 @@ impl Descent for LowestNeighbor {
         for _ in 0..self.iterations {
             let before = lowest;
             for _ in 0..2 * dimensions {
-                // The volume within a radius is as its power of the number of dimensions.
-                let share = math::exp(math::ln(stream.unit()) / dimensions as f64);
-                cx.space.step(q, self.radius * share, stream, &mut near);
+                cx.space.step_within(q, self.radius, stream, &mut near);
                 if !cx.space.within_bounds(&near) {
                     continue;
                 }

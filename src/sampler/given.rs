@@ -1,6 +1,5 @@
 use super::{GaveUp, Sampler, collect, default_attempts, zero};
 use crate::context::Context;
-use crate::math;
 use crate::methods::Complaint;
 use crate::model::Scratch;
 use crate::roadmap::Configs;
@@ -49,7 +48,6 @@ impl Sampler for Given {
     ) -> Result<(), GaveUp> {
         let mut stream = seed.stream(Purpose::Sampling);
         let given = self.configurations.len() as u64;
-        let dimensions = cx.space.cube_dimensions() as f64;
         let first = seed.ordinal().0.saturating_mul(count as u64);
         // They were looked at when the problem was read; bytes from elsewhere may hold anything.
         let is_sound = |q: &Vec<f64>| q.len() == cx.space.len();
@@ -66,9 +64,7 @@ impl Sampler for Given {
                 continue;
             }
             collect(1, self.attempts, out, |q| {
-                // The volume within a radius is as its power of the number of dimensions.
-                let share = math::exp(math::ln(stream.unit()) / dimensions);
-                cx.space.step(&about, self.radius * share, &mut stream, q);
+                cx.space.step_within(&about, self.radius, &mut stream, q);
                 cx.model.is_valid(q, scratch)
             })?;
         }

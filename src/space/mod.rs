@@ -349,6 +349,14 @@ impl Space {
         self.along(q, &self.direction(stream), length, out);
     }
 
+    /// A configuration drawn uniformly from the ball of this radius about `q`: its distance, then [`Space::step`].
+    pub fn step_within(&self, q: &[f64], radius: f64, stream: &mut Stream, out: &mut [f64]) {
+        // The volume within a distance is as its power of the number of dimensions.
+        let dimensions = self.cube_dimensions() as f64;
+        let share = crate::math::exp(crate::math::ln(stream.unit()) / dimensions);
+        self.step(q, radius * share, stream, out);
+    }
+
     /// A direction drawn uniformly from the unit sphere of the metric's tangent space. Factors without
     /// weight do not move.
     pub fn direction(&self, stream: &mut Stream) -> Direction {

@@ -31,7 +31,7 @@ pub struct PairCoefficients {
 /// element (C and A, N, NA and NS, …) have the same two numbers, so the element is enough. AutoDock multiplies the sum
 /// of these terms by 0.1662, which is left out here, and it has 12-10 terms in place of these for pairs that can form
 /// hydrogen bonds, which need hydrogens and are left out, too.
-const AUTODOCK4: [(&str, f64, f64); 15] = [
+const AUTODOCK_ELEMENTS: [(&str, f64, f64); 15] = [
     ("H", 2.00, 0.020),
     ("C", 4.00, 0.150),
     ("N", 3.50, 0.160),
@@ -208,7 +208,7 @@ impl ParameterSet {
 /// AutoDock 4's row of an element, if it has one.
 fn autodock4(element: Element) -> Option<(&'static str, f64, f64)> {
     let symbol = element.symbol();
-    AUTODOCK4.iter().find(|(known, ..)| *known == symbol).copied()
+    AUTODOCK_ELEMENTS.iter().find(|(known, ..)| *known == symbol).copied()
 }
 
 /// UFF's row of an element.
