@@ -6,9 +6,13 @@
 //! obstacles, or says that it cannot be.
 
 mod answer;
+mod bounding_box;
+mod bounds;
 mod edge;
+mod geometric;
 mod obstacles;
 mod path;
+mod prepared;
 mod query;
 mod refusal;
 mod robot;
@@ -20,8 +24,11 @@ mod soft_body;
 mod tests;
 
 pub use answer::{DeformingAnswer, NoDeformedPath, RemovedEdge};
+pub use bounding_box::BoundingBox;
+pub use geometric::Geometric;
 pub use obstacles::Obstacles;
 pub use path::{Between, DeformedPath, Frame};
+pub use prepared::PreparedRobot;
 pub use query::{deform_path, deform_query};
 pub use refusal::Refusal;
 pub use robot::{DeformableRobot, Deformations};
