@@ -5,10 +5,12 @@
 //! ([`Deformable`](crate::model::deformable)). What is here deforms the robot along a path of that roadmap until it is free of
 //! obstacles, or says that it cannot be.
 
+mod path;
 mod refusal;
 mod shape;
 mod soft_body;
 
+pub use path::{Between, DeformedPath, Frame};
 pub use refusal::Refusal;
 pub use shape::{Deform, Deformed};
 pub use soft_body::SoftBody;
