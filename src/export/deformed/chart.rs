@@ -21,7 +21,10 @@ pub(super) fn energies(path: &DeformedPath, kept: &[usize]) -> String {
             format!("{x:.1},{y:.1}")
         })
         .collect();
-    frame.put(format_args!("<circle class=\"cursor\" r=\"5\" data-places=\"{}\"/>", places.join(" ")));
+    frame.put(format_args!(
+        "<circle class=\"cursor\" r=\"5\" data-places=\"{}\"/>",
+        places.join(" ")
+    ));
     format!(
         "<section id=\"energy\"><h2>The energy along the path</h2>\n<figure><figcaption>Energy of the deformation \
          <span class=\"legend\">0 where the robot is at rest; a click on the picture goes there</span></figcaption>\n{}</figure></section>\n",

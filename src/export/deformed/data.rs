@@ -27,7 +27,8 @@ pub(super) fn kept(frames: usize, vertices: usize) -> Vec<usize> {
 
 /// The JSON text; `data.js` says what is in it.
 pub(super) fn json(page: &DeformedPage, kept: &[usize]) -> String {
-    let frames: Vec<Vec<[f64; 3]>> = (kept.iter()).map(|index| page.path.frames[*index].in_world()).collect();
+    let frames: Vec<Vec<[f64; 3]>> =
+        (kept.iter()).map(|index| page.path.frames[*index].in_world()).collect();
     let shape = frames.iter().flatten();
     let box_ = shape.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |all: Bounds, point| {
         let least = [0, 1, 2].map(|axis| all[0][axis].min(point[axis]));

@@ -28,7 +28,10 @@ chart.addEventListener("click", (event) => {
   show();
 });
 for (const id of ["show-obstacles", "show-mesh"]) element(id).addEventListener("change", repaint);
-element("home").addEventListener("click", () => { eye = home(); repaint(); });
+// A path is longer than it is wide, so that the whole is seen from nearer as well.
+const near = () => ({ ...home(), away: 0.78 });
+eye = near();
+element("home").addEventListener("click", () => { eye = near(); repaint(); });
 element("ramp").style.background = `linear-gradient(to right,${RAMP.map((rgb) => `rgb(${rgb})`).join(",")})`;
 element("largest").textContent = short(data.largest);
 dark.addEventListener("change", repaint);
