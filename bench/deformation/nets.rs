@@ -5,6 +5,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+/// How often triangles are made more alike.
+const ROUNDS: usize = 4;
+
 /// A closed surface, wound so that it is seen from outside counter-clockwise.
 #[derive(Default)]
 pub struct Surface {
@@ -86,7 +89,29 @@ pub fn surface(width: f64, half: [f64; 3], distance: &dyn Fn([f64; 3]) -> f64) -
             }
         }
     }
+    for _ in 0..ROUNDS {
+        even_out(&mut out, width, distance);
+    }
     out
+}
+
+/// Moves every vertex half of the way to the middle of its neighbours, and back onto the surface: triangles become more alike.
+fn even_out(out: &mut Surface, width: f64, distance: &dyn Fn([f64; 3]) -> f64) {
+    let mut sums = vec![([0.0; 3], 0.0); out.vertices.len()];
+    for corners in &out.triangles {
+        // An edge is seen from both of its triangles, once in each direction.
+        for k in 0..3 {
+            let (sum, count) = &mut sums[corners[k]];
+            let other = out.vertices[corners[(k + 1) % 3]];
+            (0..3).for_each(|axis| sum[axis] += other[axis]);
+            *count += 1.0;
+        }
+    }
+    for (vertex, (sum, count)) in out.vertices.iter_mut().zip(sums) {
+        let middle = sum.map(|sum| sum / count);
+        let half = [0, 1, 2].map(|axis| 0.5 * (vertex[axis] + middle[axis]));
+        *vertex = projected(half, width, distance);
+    }
 }
 
 /// The mean of where the surface crosses the edges of a cell.

@@ -22,10 +22,14 @@ pub fn letter(name: char, [x, y, z]: [f64; 3]) -> f64 {
     };
     let mut flat = bars.iter().map(|bar| to_bar([x, y], *bar)).fold(f64::INFINITY, f64::min);
     flat = match name {
-        'D' => flat.min(to_arc([x + 0.05, y], 0.4, |[x, _]| x < 0.0)),
+        'D' => flat.min(to_arc([x + 0.05, y], 0.4, [[0.0, 0.4], [0.0, -0.4]], |[x, _]| x < 0.0)),
         'S' => flat
-            .min(to_arc([x, y - 0.2], 0.2, |[x, y]| x > 0.0 && y < 0.0))
-            .min(to_arc([x, y + 0.2], 0.2, |[x, y]| x < 0.0 && y > 0.0)),
+            .min(to_arc([x, y - 0.2], 0.2, [[0.15, 0.132], [0.0, -0.2]], |[x, y]| {
+                x > 0.0 && y < 0.88 * x
+            }))
+            .min(to_arc([x, y + 0.2], 0.2, [[-0.15, -0.132], [0.0, 0.2]], |[x, y]| {
+                x < 0.0 && y > 0.88 * x
+            })),
         _ => flat,
     };
     (flat - STROKE).max(z.abs() - THICK)
@@ -38,14 +42,18 @@ fn to_bar([x, y]: [f64; 2], [ax, ay, bx, by]: [f64; 4]) -> f64 {
     length([x - ax - t * ux, y - ay - t * uy, 0.0])
 }
 
-/// The distance from a circle about the origin, of which the points `left_out` are not there; they end where it crosses the axes.
-fn to_arc([x, y]: [f64; 2], radius: f64, left_out: fn([f64; 2]) -> bool) -> f64 {
+/// The distance from a part of a circle about the origin: all but the directions `left_out`, between two ends.
+fn to_arc(
+    [x, y]: [f64; 2],
+    radius: f64,
+    ends: [[f64; 2]; 2],
+    left_out: fn([f64; 2]) -> bool,
+) -> f64 {
     if !left_out([x, y]) {
         return (length([x, y, 0.0]) - radius).abs();
     }
-    let ends = [[radius, 0.0], [-radius, 0.0], [0.0, radius], [0.0, -radius]];
-    let there = ends.iter().filter(|end| !left_out(**end));
-    there.map(|[a, b]| length([x - a, y - b, 0.0])).fold(f64::INFINITY, f64::min)
+    let [one, other] = ends.map(|[a, b]| length([x - a, y - b, 0.0]));
+    one.min(other)
 }
 
 /// The distance from a ball about the origin.
