@@ -140,11 +140,7 @@ fn crossing(
 }
 
 /// A point moved onto the surface, at most by half a cell.
-fn projected(
-    start: [f64; 3],
-    width: f64,
-    distance: &dyn Fn([f64; 3]) -> f64,
-) -> [f64; 3] {
+fn projected(start: [f64; 3], width: f64, distance: &dyn Fn([f64; 3]) -> f64) -> [f64; 3] {
     let mut at = start;
     let by = 1e-4 * width;
     for _ in 0..4 {
@@ -169,10 +165,7 @@ fn push_quad(out: &mut Surface, [a, b, c, d]: [usize; 4]) {
         let (p, q) = (out.vertices[from], out.vertices[to]);
         (0..3).map(|axis| (p[axis] - q[axis]) * (p[axis] - q[axis])).sum::<f64>()
     };
-    let triangles = if length(a, c) <= length(b, d) {
-        [[a, b, c], [a, c, d]]
-    } else {
-        [[b, c, d], [b, d, a]]
-    };
+    let triangles =
+        if length(a, c) <= length(b, d) { [[a, b, c], [a, c, d]] } else { [[b, c, d], [b, d, a]] };
     out.triangles.extend(triangles);
 }

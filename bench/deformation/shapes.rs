@@ -83,7 +83,8 @@ fn to_bone(point: [f64; 3], [a, b]: [[f64; 3]; 2], radii: [f64; 2]) -> f64 {
     let from = [0, 1, 2].map(|axis| point[axis] - a[axis]);
     let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
     let t = (dot(from, along) / dot(along, along)).clamp(0.0, 1.0);
-    length([0, 1, 2].map(|axis| from[axis] - t * along[axis])) - (radii[0] + t * (radii[1] - radii[0]))
+    length([0, 1, 2].map(|axis| from[axis] - t * along[axis]))
+        - (radii[0] + t * (radii[1] - radii[0]))
 }
 
 /// The union of two shapes with a rounded seam.
