@@ -15,7 +15,7 @@ use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
 
-const PROBLEMS: [&str; 11] = [
+const PROBLEMS: [&str; 12] = [
     "judged",
     "settled",
     "meshes",
@@ -27,6 +27,7 @@ const PROBLEMS: [&str; 11] = [
     "growth",
     "directions",
     "neighbors",
+    "deformable",
 ];
 
 fn load(name: &str) -> Problem {

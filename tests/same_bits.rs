@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// The digests that each problem of `problems/` has always had. Whoever changes one bumps
 /// `BITS_VERSION`.
-const GOLDEN: [(&str, &str); 19] = [
+const GOLDEN: [(&str, &str); 21] = [
     ("adaptive", "7b9cc629fc41f79345ed2c2a5b9ea14cde7d5ca9d0a4fa4dc2af4b783ffb542c"),
     ("settled", "e237813a24ad6d78c4dcb301cff52da2071c63d2af6896d9d6e0d33f7ddd62fd"),
     ("judged", "148ea74428efe955e2f3f29c826322052c2015012556b1f3989553efbb0e742a"),
@@ -32,6 +32,8 @@ const GOLDEN: [(&str, &str); 19] = [
     ("retraction", "5381a3a0bfcf2a681111b9c6730bb57bd2a6101a51bf00362c1a076d10521b86"),
     ("hints", "3dead538b59b75362a2158c3cdac26db3473559cf88e9f864881ae57d25a7a9d"),
     ("docking", "e345a8d44f5f2de5224cb1f4470312bac4f068edd7bf7108ef97cfd11e75c26b"),
+    ("deformable", ""),
+    ("penetrating", ""),
 ];
 
 fn problem(name: &str) -> Problem {

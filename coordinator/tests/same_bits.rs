@@ -252,6 +252,12 @@ fn same_bits_for_trees_and_graphs_that_grow_by_steps() {
 }
 
 #[test]
+fn same_bits_for_deformable_robots() {
+    processes_build_what_threads_build("deformable");
+    processes_build_what_threads_build("penetrating");
+}
+
+#[test]
 fn same_bits_for_hints_that_are_pushed_free() {
     processes_build_what_threads_build("hints");
 }

@@ -195,7 +195,7 @@ class Problem:
     max_time: float | None = None
     """Seconds."""
     further: Mapping[str, Any] = field(default_factory=dict)
-    """Further tables of a problem file, as they are: `{"protein": {…}}`."""
+    """Further tables of a problem file, as they are: `{"protein": {…}}`, `{"deformable": {}}`."""
 
     def to_toml(self, meshes: str | os.PathLike[str] = ".") -> str:
         """The problem as a problem file. Meshes that are arrays are written into the folder `meshes`."""

@@ -152,8 +152,8 @@ pub(crate) trait Resolve: Sized {
     /// instead.
     type Spec;
 
-    /// The keys of the tables of the file that describe the model, first the one that it cannot do without; no
-    /// other model has one of them.
+    /// The keys of the tables of the file that describe the model, first the one that it cannot do without. A model that
+    /// takes in the tables of another has a first table that no other model has.
     const TABLES: &'static [&'static str];
 
     /// Reads these tables.

@@ -134,12 +134,17 @@ macro_rules! models {
 
         impl ModelSpec {
             /// The keys of the tables of the model that a problem file describes: the model whose first table it
-            /// has, or else any, or else the first model.
+            /// has, or else any, or else the first model. A model that takes in the tables of another and has a first
+            /// table of its own comes before the other.
             pub(crate) fn tables_in(source: &Source) -> &'static [&'static str] {
                 let listed = [$(<$description as Resolve>::TABLES),+];
                 let has_first = |keys: &&&[&str]| source.has(keys[0]);
                 let has_any = |keys: &&&[&str]| keys.iter().any(|key| source.has(key));
-                let described = listed.iter().find(has_first).or_else(|| listed.iter().find(has_any));
+                let takes_in = |more: &&&[&str], keys: &[&str]| more[1..].contains(&keys[0]);
+                let is_alone = |keys: &&&[&str]| {
+                    has_first(keys) && !listed.iter().filter(has_first).any(|more| takes_in(&more, keys))
+                };
+                let described = listed.iter().find(is_alone).or_else(|| listed.iter().find(has_any));
                 described.unwrap_or(&listed[0])
             }
 
@@ -159,7 +164,8 @@ models! {
     Bodies(bodies::Bodies, bodies::BodiesSpec),
     Landscape(landscape::Landscape, landscape::LandscapeSpec),
     Protein(protein::Protein, protein::ProteinSpec),
-    Docking(docking::Docking, docking::DockingSpec), // new ones at the end, since ledgers know models by number
+    Docking(docking::Docking, docking::DockingSpec),
+    Deformable(deformable::Deformable, deformable::DeformableSpec), // new ones at the end, since ledgers know models by number
 }
 
 impl ModelKind {
@@ -171,7 +177,15 @@ impl ModelKind {
         }
     }
 
-    /// The same, to be changed by tests.
+    /// The description of a deformable robot, if that is what the model is.
+    pub fn deformable(&self) -> Option<&deformable::Deformable> {
+        match self {
+            ModelKind::Deformable(deformable) => Some(deformable),
+            _ => None,
+        }
+    }
+
+    /// The same of bodies, to be changed by tests.
     #[cfg(test)]
     pub(crate) fn bodies_mut(&mut self) -> Option<&mut bodies::Bodies> {
         match self {
@@ -182,13 +196,14 @@ impl ModelKind {
 }
 
 impl ModelSpec {
-    /// Changes what is asked of bodies; what is asked of another model stays as it is.
+    /// Changes what is asked of bodies, also of those of a deformable robot; what is asked of another model stays as it is.
     pub fn change_bodies(
         self,
         change: impl FnOnce(bodies::BodiesSpec) -> bodies::BodiesSpec,
     ) -> ModelSpec {
         match self {
             ModelSpec::Bodies(bodies) => ModelSpec::Bodies(change(bodies)),
+            ModelSpec::Deformable(spec) => ModelSpec::Deformable(spec.change_bodies(change)),
             other => other,
         }
     }

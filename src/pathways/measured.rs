@@ -31,12 +31,18 @@ impl Measured {
     pub fn of(cx: &Context, path: &Path, scratch: &mut Scratch) -> Option<Measured> {
         let configs = &path.configs;
         let ends = [0, configs.len().checked_sub(1)?].map(|index| configs.get(index));
-        let [Some(start), Some(goal)] = ends.map(|q| cx.model.energy(q, scratch)) else {
+        // Motions of models whose nodes have no values cost their lengths.
+        if cx.model.node_values().is_empty() {
             let cost = path.lengths(&cx.space).last().copied().unwrap_or(0.0);
             let way = OneWay { barrier: None, cost };
             return Some(Measured { peak: None, there: way, back: way });
+        }
+        let energies = match ends.map(|q| cx.model.energy(q, scratch)) {
+            [Some(start), Some(goal)] => Some([start, goal]),
+            _ => None,
         };
-        let mut whole = Directed { forward: 0.0, backward: 0.0, peak: start.max(goal) };
+        let highest = energies.map_or(f64::NEG_INFINITY, |[start, goal]| start.max(goal));
+        let mut whole = Directed { forward: 0.0, backward: 0.0, peak: highest };
         for index in 1..configs.len() {
             let (a, b) = (configs.get(index - 1), configs.get(index));
             if a == b {
@@ -47,9 +53,12 @@ impl Measured {
                 Cost::Metric => return None,
             }
         }
-        let way = |energy: f64, cost: f64| OneWay { barrier: Some(whole.peak - energy), cost };
-        let (there, back) = (way(start, whole.forward), way(goal, whole.backward));
-        Some(Measured { peak: Some(whole.peak), there, back })
+        let way = |end: usize, cost: f64| OneWay {
+            barrier: energies.map(|energies| whole.peak - energies[end]),
+            cost,
+        };
+        let (there, back) = (way(0, whole.forward), way(1, whole.backward));
+        Some(Measured { peak: energies.map(|_| whole.peak), there, back })
     }
 
     /// Integers in the order of the ranking from start to goal, the best first.

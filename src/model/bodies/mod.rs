@@ -25,6 +25,8 @@ pub mod validity;
 mod with_function;
 mod write;
 
+pub(in crate::model) use relaxed::{Scaling, centroid};
+pub(in crate::model) use resolve::{FINEST, diagonal_of};
 pub(crate) use sound::body_sound;
 
 pub use import::import;

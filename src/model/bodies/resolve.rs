@@ -13,7 +13,7 @@ use crate::source::{ProblemError, Source};
 use crate::space::BaseJoint;
 
 /// The finest resolution, as a fraction of the diagonal of the bounds.
-pub(super) const FINEST: f64 = 1e-7;
+pub(in crate::model) const FINEST: f64 = 1e-7;
 /// The farthest robot point, as a multiple of the same: with it a motion has at most 10¹⁵ steps.
 const RADIUS_MAX: f64 = 1e6;
 
@@ -161,7 +161,7 @@ pub(super) fn default_resolution(diagonal: f64, robot: &Robot, notes: &mut Vec<S
 }
 
 /// Length of the diagonal of the bounds.
-pub(super) fn diagonal_of(bounds: &Bounds, motion: BaseJoint) -> f64 {
+pub(in crate::model) fn diagonal_of(bounds: &Bounds, motion: BaseJoint) -> f64 {
     let square = |axis: usize| {
         let edge = bounds.max[axis] - bounds.min[axis];
         edge * edge

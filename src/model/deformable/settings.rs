@@ -1,6 +1,7 @@
 //! What of a deformable robot a problem says, beside the bodies themselves: plain data.
 
 use bincode::{Decode, Encode};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// How the rigid robot may collide while the roadmap is built, so that a path of the roadmap can be deformed into a free one
 /// (Bayazit, Lien and Amato, *Probabilistic Roadmap Motion Planning for Deformable Objects*, ICRA 2002, §4).
@@ -38,7 +39,8 @@ pub struct DeformationSettings {
 }
 
 /// The two ways of deforming a robot (§6).
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq, Serialize, Encode, Decode)]
+#[serde(rename_all = "kebab-case")]
 pub enum DeformationMethod {
     /// A lattice around the robot is deformed, and the robot with it (§6.1).
     BoundingBox(BoundingBoxSettings),
@@ -47,13 +49,17 @@ pub enum DeformationMethod {
 }
 
 /// Deformation of the lattice that fills the robot's bounding box: ChainMail, then free-form deformation (§6.1).
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Encode, Decode)]
+#[serde(deny_unknown_fields, default)]
 pub struct BoundingBoxSettings {
     /// Points of the lattice along x, y and z of the robot's frame, each at least 2; `13 × 9 × 7` in the paper.
+    #[serde(deserialize_with = "per_axis")]
     pub lattice: [u32; 3],
     /// The least distance of neighbouring points along each axis, as a share of their distance at rest: above 0, at most 1.
+    #[serde(deserialize_with = "per_axis")]
     pub least: [f64; 3],
     /// The greatest distance of neighbouring points along each axis, as a share of their distance at rest: at least 1.
+    #[serde(deserialize_with = "per_axis")]
     pub greatest: [f64; 3],
     /// How far neighbouring points may be displaced against one another along the two other axes, as a share of the
     /// distance at rest: at least 0.
@@ -66,8 +72,40 @@ pub struct BoundingBoxSettings {
     pub interpolation: LatticeInterpolation,
 }
 
+impl Default for BoundingBoxSettings {
+    fn default() -> BoundingBoxSettings {
+        BoundingBoxSettings {
+            lattice: [13, 9, 7],
+            least: [0.5; 3],
+            greatest: [1.5; 3],
+            shear: 0.5,
+            order: ChainMailOrder::MostReached,
+            relaxation: 10,
+            interpolation: LatticeInterpolation::Trilinear,
+        }
+    }
+}
+
+/// One number for all axes, or one for each.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a number, or three for x, y and z")]
+enum PerAxis<T> {
+    Same(T),
+    Each([T; 3]),
+}
+
+fn per_axis<'de, D: Deserializer<'de>, T: Deserialize<'de> + Copy>(
+    deserializer: D,
+) -> Result<[T; 3], D::Error> {
+    PerAxis::deserialize(deserializer).map(|given| match given {
+        PerAxis::Same(value) => [value; 3],
+        PerAxis::Each(values) => values,
+    })
+}
+
 /// In which order ChainMail propagates movements. The accepted shape is the same with either.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Encode, Decode)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
+#[serde(rename_all = "kebab-case")]
 pub enum ChainMailOrder {
     /// By a queue, first in, first out: the paper's algorithm, after Gibson (1997).
     Queue,
@@ -77,7 +115,8 @@ pub enum ChainMailOrder {
 }
 
 /// How points between those of the lattice follow them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Encode, Decode)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Encode, Decode)]
+#[serde(rename_all = "kebab-case")]
 pub enum LatticeInterpolation {
     /// Trilinear within each cell: local, and exact for affine maps.
     Trilinear,
@@ -86,7 +125,7 @@ pub enum LatticeInterpolation {
 }
 
 /// Deformation of the robot's own triangles (§6.2).
-#[derive(Clone, Debug, PartialEq, Encode, Decode)]
+#[derive(Clone, Debug, PartialEq, Serialize, Encode, Decode)]
 pub struct GeometricSettings {
     /// How many directions, uniformly distributed, are tried beside the normals of colliding triangles.
     pub directions: u32,

@@ -11,6 +11,7 @@ mod scaling;
 mod thin;
 
 pub(super) use penetration::BodiesWithPenetration;
+pub(in crate::model) use scaling::{Scaling, centroid};
 
 use super::{Bodies, sound};
 use crate::model::relaxation::{CannotRelax, Relaxation, RelaxedModel};

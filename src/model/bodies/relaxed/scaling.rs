@@ -5,7 +5,7 @@ use crate::scene::{Body, Mesh, Pose, Shape, box_surface};
 use std::f64::consts::PI;
 
 /// A map of space onto itself: each axis is multiplied by a factor about a point that stays.
-pub(super) struct Scaling {
+pub(in crate::model) struct Scaling {
     /// What stays in its place.
     pub centre: [f64; 3],
     /// Per axis the factor.
@@ -94,7 +94,7 @@ fn similar(shape: &Shape, factor: f64) -> Shape {
 
 /// The centroid of the surfaces of bodies, each weighed by its area, in the frame in which they are given; of bodies without a
 /// surface the mean of their origins, and without bodies the origin.
-pub(super) fn centroid(bodies: &[Body]) -> [f64; 3] {
+pub(in crate::model) fn centroid(bodies: &[Body]) -> [f64; 3] {
     let parts: Vec<(f64, [f64; 3])> = bodies.iter().flat_map(surface_parts).collect();
     let area: f64 = parts.iter().map(|(area, _)| area).sum();
     let weight = |own: f64| if area > 0.0 { own / area } else { 1.0 / parts.len() as f64 };

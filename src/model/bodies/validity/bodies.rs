@@ -243,7 +243,8 @@ impl BodyValidity {
         self.bounds.meaning == BoundsMeaning::Reference || self.ball_inside(q)
     }
 
-    pub(super) fn look(&self, q: &[f64], scratch: &mut BodyScratch) -> Validity {
+    /// Whether the robot is free at `q`; see [`Model::validity`]. Nothing is counted.
+    pub(in crate::model) fn look(&self, q: &[f64], scratch: &mut BodyScratch) -> Validity {
         if !self.space.within_bounds(q) {
             return Validity::OutOfBounds;
         }

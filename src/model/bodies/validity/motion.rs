@@ -19,8 +19,8 @@ const FINENESS: u64 = 1 << 16;
 const SAMPLES_MAX: u64 = 1 << 50;
 
 impl BodyValidity {
-    /// See [`Model::motion`](crate::model::Model::motion).
-    pub(super) fn judge(
+    /// Whether the motion is free; see [`Model::motion`](crate::model::Model::motion). Nothing is counted.
+    pub(in crate::model) fn judge(
         &self,
         a: &[f64],
         b: &[f64],
