@@ -1,4 +1,5 @@
 use super::SoftBody;
+use super::robot::placed;
 use crate::scene::Pose;
 use std::sync::Arc;
 
@@ -39,11 +40,7 @@ pub struct Frame {
 impl Frame {
     /// The vertices in the world's frame.
     pub fn in_world(&self) -> Vec<[f64; 3]> {
-        let pose = self.pose.to_parry();
-        self.vertices
-            .iter()
-            .map(|vertex| pose.transform_point(vertex.to_owned().into()).to_array())
-            .collect()
+        placed(&self.vertices, &self.pose)
     }
 }
 
@@ -61,6 +58,17 @@ pub enum Between {
 }
 
 impl DeformedPath {
+    /// The path with these frames, at which the robot keeps a clearance from the obstacles.
+    pub(super) fn new(frames: Vec<Frame>, edges: usize, clearance: f64) -> DeformedPath {
+        let path = DeformedPath { frames, edges, between: Between::Sampled };
+        // A point of the surface is at most half of the movement away from where it is at one of the two frames.
+        let kept = clearance - path.largest_movement() / 2.0;
+        match kept > 0.0 {
+            true => DeformedPath { between: Between::Proved { clearance: kept }, ..path },
+            false => path,
+        }
+    }
+
     /// The farthest that a vertex moves from one frame to the next, in the world's frame, a length.
     pub fn largest_movement(&self) -> f64 {
         let mut largest = 0.0;

@@ -13,7 +13,7 @@ use parry3d_f64::shape::{Ball, Capsule, Cuboid, Cylinder, Segment, Shape, Suppor
 
 /// A convex shape. Cylinders and capsules stand along y.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Convex {
+pub(crate) enum Convex {
     Ball(Ball),
     Cuboid(Cuboid),
     Cylinder(Cylinder),
@@ -148,7 +148,7 @@ pub(super) fn meet(one: (&Convex, &Pose), other: (&Convex, &Pose)) -> bool {
 }
 
 /// The nearest points of two shapes, each in the frame in which the pose of its shape is given; `None` where they meet.
-pub(super) fn nearest(one: (&Convex, &Pose), other: (&Convex, &Pose)) -> Option<(Vector, Vector)> {
+pub(crate) fn nearest(one: (&Convex, &Pose), other: (&Convex, &Pose)) -> Option<(Vector, Vector)> {
     let pair = Pair::new(one, other);
     let (first, second) = (pair.one.as_support_map(), pair.other.as_support_map());
     match closest_points_support_map_support_map(&pair.between, first, second, f64::MAX) {

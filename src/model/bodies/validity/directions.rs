@@ -9,7 +9,7 @@ use fearless_simd::prelude::*;
 use parry3d_f64::math::Vector;
 
 /// A triangle's corners.
-pub(super) type Triangle = [Vector; 3];
+pub(crate) type Triangle = [Vector; 3];
 
 /// Whether two triangles meet, touching included. By the separating axis theorem two triangles are apart exactly if
 /// one of 17 axes separates them: the two normals, the nine cross products of edges, and, for triangles in one
@@ -31,7 +31,7 @@ pub(super) fn triangles_meet(lanes: Lanes, first: &Triangle, second: &Triangle) 
 
 /// A unit vector from the second triangle towards the first along which there is a gap of more than `margin`, and that
 /// gap. Only the 17 axes are tried, so that there may be none although the distance is more than `margin`.
-pub(super) fn separating_axis(
+pub(crate) fn separating_axis(
     lanes: Lanes,
     first: &Triangle,
     second: &Triangle,

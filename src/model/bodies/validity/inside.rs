@@ -12,7 +12,7 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 /// shells that overlap is inside as well. Which shells are cavities depends on how they are turned beside the shells
 /// around them, not on which side normals look to: a surface of which all triangles are turned round has the same inside.
 #[derive(Debug)]
-pub(super) struct Inside {
+pub(crate) struct Inside {
     shells: Vec<Prepared>,
     /// The boxes of the shells.
     tree: Bvh,
@@ -31,7 +31,7 @@ struct Prepared {
 }
 
 impl Inside {
-    pub(super) fn new(mesh: &Mesh) -> Inside {
+    pub(crate) fn new(mesh: &Mesh) -> Inside {
         let mut shells: Vec<Prepared> =
             shells(mesh).iter().map(|shell| Prepared::new(mesh, shell)).collect();
         let boxes: Vec<Aabb> = shells.iter().map(|shell| shell.aabb).collect();
@@ -43,7 +43,7 @@ impl Inside {
     }
 
     /// Whether the surface encloses `point`.
-    pub(super) fn contains(&self, point: Vector) -> bool {
+    pub(crate) fn contains(&self, point: Vector) -> bool {
         let mut solids = 0i64;
         for index in around(&self.tree, point) {
             let shell = &self.shells[index];
@@ -135,7 +135,7 @@ impl Prepared {
 
 /// 1 or −1 if the ray from `point` along +x crosses the triangle, by the direction in which the ray sees it turn;
 /// otherwise 0.
-fn crossing(corners: &[[f64; 3]; 3], [x, y, z]: [f64; 3]) -> i64 {
+pub(crate) fn crossing(corners: &[[f64; 3]; 3], [x, y, z]: [f64; 3]) -> i64 {
     // The winding number of the triangle's outline in the y–z plane, half open in z.
     let mut covered = 0;
     let mut at_height = x;

@@ -34,6 +34,11 @@ pub use scratch::BodyScratch;
 pub use touching::PairTouches;
 pub use work::Work;
 
+pub(crate) use convex::{Convex, nearest};
+pub(crate) use directions::separating_axis;
+pub(crate) use inside::{Inside, crossing};
+pub(crate) use triangles::nearest_points;
+
 #[cfg(test)]
 mod gaps_tests;
 #[cfg(test)]

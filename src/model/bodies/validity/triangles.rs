@@ -7,7 +7,7 @@ use parry3d_f64::math::Vector;
 /// The nearest points of two convex hulls of three corners, which may coincide: the one of the first hull, then the
 /// one of the second; if the hulls meet, the same point twice. Ties go to pairs of edges before pairs of a face and
 /// a corner, and among these to the first in the order of corners.
-pub(super) fn nearest_points(
+pub(crate) fn nearest_points(
     lanes: Lanes,
     first: &Triangle,
     second: &Triangle,
