@@ -140,7 +140,18 @@ impl Element {
             Element::Facet(other) => *other,
             Element::Round(round, pose) => {
                 let (near, _) = nearest_points(lanes, corners, &round.core(pose));
-                let (at, normal) = round.surface_near(pose.inverse_transform_point(near));
+                let flat = round.flat.and_then(|(shape, at)| {
+                    let (triangle, triangle_at) = Convex::triangle(*corners, &Pose::IDENTITY);
+                    nearest((&shape, &(*pose * at)), (&triangle, &triangle_at))
+                });
+                let between = flat.and_then(|(p, q)| Some((p, (q - p).try_normalize()?)));
+                let (at, normal) = match between {
+                    Some((on_surface, outward)) => (
+                        pose.inverse_transform_point(on_surface),
+                        pose.rotation.inverse() * outward,
+                    ),
+                    None => round.surface_near(pose.inverse_transform_point(near)),
+                };
                 let u = normal.any_orthonormal_vector() * round.radius.max(f64::MIN_POSITIVE);
                 let v = normal.cross(u);
                 let half = 0.75f64.sqrt();
