@@ -14,7 +14,7 @@ pub struct Scene {
     /// The files of meshes with their names.
     pub meshes: Vec<(String, Surface)>,
     /// The sampler of the experiment, as a problem file names it.
-    sampler: &'static str,
+    pub sampler: &'static str,
     /// The environmental resolution, of which penetration depths are multiples.
     pub resolution: f64,
     /// The longest edge that the robot's triangles may have: none is halved.
@@ -48,7 +48,7 @@ impl Scene {
         let (tables, sampler, longest) = (&self.tables, self.sampler, self.longest_edge);
         format!(
             "{tables}\n[deformable]\nfeasibility = {feasibility}\nmethod = {method}\nlongest_edge = {longest}\n\n\
-             [img]\nsets_per_round = 1\n\n[[strategies]]\nlabel = \"all\"\nnodes = {nodes}\nsampler = {sampler}\n\n\
+             [img]\nsets_per_round = 1\n\n[[strategies]]\nlabel = \"all\"\nnodes = {nodes}\nsampler = {{ {sampler} }}\n\n\
              [limits]\nsets = 1\n"
         )
     }
@@ -85,7 +85,7 @@ fn sliding() -> Scene {
             [query]\nstart = [-2.2, 0.0, 0.0]\ngoal = [2.2, 0.0, 0.0]\n"
             .to_owned(),
         meshes: LETTERS.iter().map(|name| mesh(*name)).collect(),
-        sampler: "{ obprm = { step = 0.1 } }",
+        sampler: "obprm = { step = 0.1 }",
         resolution: 0.03,
         longest_edge: 0.25,
     }
@@ -116,7 +116,7 @@ fn narrow() -> Scene {
         name: "narrow",
         tables,
         meshes: vec![("ball.obj".to_owned(), robot), ("shell.obj".to_owned(), shell)],
-        sampler: "{ uniform = {} }",
+        sampler: "uniform = {}",
         resolution: 0.06,
         longest_edge: 0.5,
     }
@@ -135,7 +135,7 @@ fn stamping() -> Scene {
             ("teapot.obj".to_owned(), surface(0.11, [1.45, 1.0, 1.0], &teapot)),
             ("seal.obj".to_owned(), surface(0.12, [1.85, 1.85, 0.65], &seal)),
         ],
-        sampler: "{ uniform = {} }",
+        sampler: "uniform = {}",
         resolution: 0.05,
         longest_edge: 0.4,
     }
