@@ -6,7 +6,7 @@
 //! obstacles, or says that it cannot be.
 
 mod answer;
-mod bounding_box;
+pub mod bounding_box;
 mod bounds;
 mod edge;
 mod geometric;

@@ -61,8 +61,7 @@ fn configurations_in(
         true => read_parasol_path(&text, space),
         false => read_csv(&text, space),
     };
-    let configurations =
-        read.map_err(|(line, message)| ProblemError::line(path, line, message))?;
+    let configurations = read.map_err(|(line, message)| ProblemError::line(path, line, message))?;
     match configurations.len() > CONFIGURATIONS_MAX {
         true => Err(ProblemError::file(path, too_long())),
         false => Ok(configurations),
