@@ -5,11 +5,13 @@
 //! ([`Deformable`](crate::model::deformable)). What is here deforms the robot along a path of that roadmap until it is free of
 //! obstacles, or says that it cannot be.
 
+mod geometric;
 mod obstacles;
 mod refusal;
 mod shape;
 mod soft_body;
 
+pub use geometric::Geometric;
 pub use obstacles::Obstacles;
 pub use refusal::Refusal;
 pub use shape::{Deform, Deformed};
