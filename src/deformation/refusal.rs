@@ -15,6 +15,11 @@ pub enum Refusal {
     SelfCollision,
     /// The shape is free, but its energy is this, higher than is accepted.
     Energy(f64),
+    /// Between two configurations that are almost the same the shape jumps: a vertex moves as far as this, and a blend of the two shapes
+    /// meets an obstacle.
+    Jump(f64),
+    /// A motion would have more frames than can be made: the step, or the clearance, is too short for it.
+    Frames,
 }
 
 impl fmt::Display for Refusal {
@@ -26,6 +31,8 @@ impl fmt::Display for Refusal {
             Refusal::OutOfBounds => write!(f, "the shape leaves the bounds"),
             Refusal::SelfCollision => write!(f, "the shape meets itself"),
             Refusal::Energy(energy) => write!(f, "an energy of {energy}"),
+            Refusal::Jump(moved) => write!(f, "the shape jumps: a vertex by {moved}"),
+            Refusal::Frames => write!(f, "more frames than can be made"),
         }
     }
 }

@@ -18,4 +18,13 @@ pub trait Deform {
     /// # Errors
     /// Why there is none.
     fn deform(&self, pose: &Pose) -> Result<Deformed, Refusal>;
+
+    /// Whether a blend of two shapes that the method gave, vertex by vertex in straight lines, is one that the method allows as far as the
+    /// material is concerned, where the robot's frame has this pose. That it is free of obstacles is tested by whoever asks.
+    ///
+    /// Every blend is, unless a method says otherwise: where all that a method demands of a shape are bounds of linear functions of its
+    /// vertices, what two shapes keep their blends keep.
+    fn accepts_blend(&self, _pose: &Pose, _vertices: &[[f64; 3]]) -> bool {
+        true
+    }
 }

@@ -52,21 +52,8 @@ impl Extent {
             }
         }
         let bounds = figure.bounds();
-        let mut all = if is_fixed { robot } else { union(robot, bounds) };
-        // What is very flat is given some depth, so that there is a box at all.
-        let size = (0..3).map(|axis| all[1][axis] - all[0][axis]).fold(0.0, f64::max);
-        let beyond = BEYOND * size;
-        let near = [0, 1].map(|side| {
-            [0, 1, 2].map(|axis| all[side][axis] + if side == 0 { -beyond } else { beyond })
-        });
-        for body in figure.obstacles() {
-            let mut obstacle = EMPTY;
-            corners(body).into_iter().for_each(|corner| hold(&mut obstacle, corner));
-            let shown = intersection(obstacle, near);
-            if (0..3).all(|axis| shown[0][axis] <= shown[1][axis]) {
-                all = union(all, shown);
-            }
-        }
+        let shown = if is_fixed { robot } else { union(robot, bounds) };
+        let mut all = with_obstacles(shown, figure.obstacles());
         if planar {
             all = all.map(|[x, y, _]| [x, y, 0.0]);
         }
@@ -90,6 +77,26 @@ impl Extent {
     pub fn corners(&self) -> [[f64; 3]; 8] {
         corners_of(self.all)
     }
+}
+
+/// A box, made larger by what of the obstacles is near it.
+pub(super) fn with_obstacles(shown: Bounds, obstacles: &[Body]) -> Bounds {
+    // What is very flat is given some depth, so that there is a box at all.
+    let size = (0..3).map(|axis| shown[1][axis] - shown[0][axis]).fold(0.0, f64::max);
+    let beyond = BEYOND * size;
+    let near = [0, 1].map(|side| {
+        [0, 1, 2].map(|axis| shown[side][axis] + if side == 0 { -beyond } else { beyond })
+    });
+    let mut all = shown;
+    for body in obstacles {
+        let mut obstacle = EMPTY;
+        corners(body).into_iter().for_each(|corner| hold(&mut obstacle, corner));
+        let shown = intersection(obstacle, near);
+        if (0..3).all(|axis| shown[0][axis] <= shown[1][axis]) {
+            all = union(all, shown);
+        }
+    }
+    all
 }
 
 const EMPTY: Bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];

@@ -25,6 +25,7 @@ mod coarse;
 mod contours;
 mod csv;
 mod dcd;
+mod deformed;
 mod drawing;
 mod extent;
 mod format;
@@ -52,6 +53,9 @@ mod xtc;
 pub use chimerax::chimerax;
 pub use csv::{edges_csv, nodes_csv};
 pub use dcd::dcd;
+pub use deformed::{
+    DeformedPage, deformed_page, energies_csv, frame_name, frame_obj, obstacles_obj,
+};
 pub use format::{CannotExport, ExportFile, Exported, RoadmapFormat};
 pub use graphml::graphml;
 pub use npz::npz;

@@ -1,13 +1,6 @@
 // What the page shows: the scene, paths, and a roadmap if there is one.
 let data = JSON.parse(element("data").textContent);
 
-// A column of numbers of 32 bits, lowest byte first.
-function column(text, kind) {
-  const binary = atob(text), bytes = new Uint8Array(binary.length);
-  for (let i = 0; i < bytes.length; i++) bytes[i] = binary.charCodeAt(i);
-  return new kind(bytes.buffer);
-}
-
 // A roadmap with its columns. A stop is the end of a round: how many rounds, sets, nodes, edges and components there are
 // until then, and how many nodes and edges of them the page has.
 function decoded(roadmap) {

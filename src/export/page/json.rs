@@ -3,23 +3,23 @@
 use base64::prelude::{BASE64_STANDARD, Engine};
 
 /// A list of values that are JSON already.
-pub(super) fn list(items: impl IntoIterator<Item = String>) -> String {
+pub(in crate::export) fn list(items: impl IntoIterator<Item = String>) -> String {
     format!("[{}]", items.into_iter().collect::<Vec<_>>().join(","))
 }
 
 /// An object of values that are JSON already, its keys in this order.
-pub(super) fn object(entries: &[(&str, String)]) -> String {
+pub(in crate::export) fn object(entries: &[(&str, String)]) -> String {
     let entries = entries.iter().map(|(key, value)| format!("\"{key}\":{value}"));
     format!("{{{}}}", entries.collect::<Vec<_>>().join(",\n"))
 }
 
 /// A list of numbers, rounded to the 24 bits that graphics cards draw with.
-pub(super) fn numbers(values: impl IntoIterator<Item = f64>) -> String {
+pub(in crate::export) fn numbers(values: impl IntoIterator<Item = f64>) -> String {
     list(values.into_iter().map(number))
 }
 
 /// A number, rounded to 24 bits; one that JSON cannot say becomes `null`.
-pub(super) fn number(value: f64) -> String {
+pub(in crate::export) fn number(value: f64) -> String {
     let value = value as f32 + 0.0;
     if value.is_finite() { value.to_string() } else { "null".to_owned() }
 }
@@ -30,13 +30,17 @@ pub(super) fn floats(values: impl IntoIterator<Item = f64>) -> String {
 }
 
 /// A column of integers of 32 bits with the lowest byte first, as a string of base64.
-pub(super) fn integers(values: impl IntoIterator<Item = u32>) -> String {
+pub(in crate::export) fn integers(values: impl IntoIterator<Item = u32>) -> String {
     column(values.into_iter().map(u32::to_le_bytes))
 }
 
 fn column(values: impl Iterator<Item = [u8; 4]>) -> String {
-    let bytes: Vec<u8> = values.flatten().collect();
-    format!("\"{}\"", BASE64_STANDARD.encode(bytes))
+    bytes(values.flatten())
+}
+
+/// Bytes as a string of base64.
+pub(in crate::export) fn bytes(values: impl Iterator<Item = u8>) -> String {
+    format!("\"{}\"", BASE64_STANDARD.encode(values.collect::<Vec<u8>>()))
 }
 
 #[cfg(test)]

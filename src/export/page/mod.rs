@@ -1,9 +1,9 @@
 //! Pages in which a scene can be walked around in: they show a roadmap, and play the robot along paths.
 
-mod json;
+pub(super) mod json;
 mod roadmap;
 mod sample;
-mod scene;
+pub(super) mod scene;
 
 pub use scene::NamedPath;
 
@@ -20,14 +20,24 @@ use scene::{played, surfaces};
 /// The page without its styles, its script and its data.
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("style.css");
-/// The script, part by part: each part uses only what parts before it have.
-const SCRIPT: &[&str] = &[
+/// The renderer, without data: vectors, WebGL, surfaces, and columns of numbers.
+pub(super) const RENDERER: [&str; 4] = [
     include_str!("vectors.js"),
     include_str!("graphics.js"),
     include_str!("surface.js"),
+    include_str!("column.js"),
+];
+/// What stands still, once there are data, and the eye that looks at it.
+pub(super) const SCENE: [&str; 2] = [include_str!("scene.js"), include_str!("eye.js")];
+/// The script, part by part: each part uses only what parts before it have.
+const SCRIPT: &[&str] = &[
+    RENDERER[0],
+    RENDERER[1],
+    RENDERER[2],
+    RENDERER[3],
     include_str!("data.js"),
-    include_str!("scene.js"),
-    include_str!("eye.js"),
+    SCENE[0],
+    SCENE[1],
     include_str!("path.js"),
     include_str!("colours.js"),
     include_str!("roadmap.js"),

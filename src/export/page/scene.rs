@@ -22,7 +22,7 @@ pub struct NamedPath<'a> {
 
 /// Surfaces of bodies in the frame of their owner, each as its vertices and triangles; a point becomes a ball of the radius
 /// `dot`.
-pub(super) fn surfaces(bodies: &[Body], dot: f64) -> String {
+pub(in crate::export) fn surfaces(bodies: &[Body], dot: f64) -> String {
     list(bodies.iter().map(|body| {
         let surface = tessellate(&body.shape, dot);
         let pose: &Pose = &body.pose;

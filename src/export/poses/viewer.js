@@ -1,4 +1,3 @@
-"use strict";
 // Shows the poses of a ligand at a protein. The data: `protein`, a PDB file; `reference`, an SDF record or null; for every
 // pose its `sdf`, its `colour`, and its way out: the coordinates of its atoms in every frame as whole multiples of `unit` in 16
 // bits, x y z, and `told`, how far along and with which energy.
@@ -11,7 +10,6 @@
   const ways = [...document.querySelectorAll(".way")];
   const framesOf = (pose) => data.poses[pose].told.length;
   let chosen = 0;
-  let [timer, direction] = [null, 1];
 
   // Of a way out: the coordinates of all frames, once they are wanted.
   const decoded = data.poses.map(() => null);
@@ -193,27 +191,13 @@
     viewer.setView([...viewer.getView().slice(0, 4), ...turn]);
   };
 
-  const pause = () => {
-    clearInterval(timer);
-    timer = null;
-    element("play").textContent = "play";
-  };
-  const step = () => {
-    const slider = element("frame");
-    const [frame, last] = [Number(slider.value), Number(slider.max)];
-    if (frame + direction > last) direction = -1;
-    if (frame + direction < 0) direction = 1;
-    slider.value = Math.min(last, Math.max(0, frame + direction));
+  const { begin } = player(() => {
     tell();
     render();
-  };
+  }, 90);
   const choose = (pose) => {
-    pause();
     chosen = pose;
-    direction = 1;
-    const slider = element("frame");
-    slider.max = Math.max(0, framesOf(pose) - 1);
-    slider.value = 0;
+    begin(framesOf(pose));
     mark();
     tell();
     if (viewer) {
@@ -233,16 +217,6 @@
       choose(pose);
     };
   }
-  element("play").onclick = () => {
-    if (timer !== null) return pause();
-    timer = setInterval(step, 90);
-    element("play").textContent = "pause";
-  };
-  element("frame").oninput = () => {
-    pause();
-    tell();
-    render();
-  };
   for (const id of ["protein", "pocket"]) {
     element(id).onchange = () => {
       if (viewer) drawProtein();

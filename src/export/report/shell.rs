@@ -9,6 +9,9 @@ const PAGE: &str = include_str!("page.html");
 pub(in crate::export) const MOLECULES: &str = include_str!("3Dmol-min.js");
 pub(in crate::export) const LICENCE: &str = include_str!("3Dmol-LICENSE.txt");
 
+/// What plays frames in any of the pages.
+pub(in crate::export) const PLAYER: &str = include_str!("player.js");
+
 /// The page of this name, with styles beside those of all pages, and a body.
 pub(in crate::export) fn page(name: &str, style: &str, body: &str) -> String {
     // A text that comes from files is put in last, so that nothing is looked for in it.
@@ -24,6 +27,6 @@ pub(in crate::export) fn viewer(data: &str, script: &str) -> String {
     let licence = LICENCE.replace("*/", "* /");
     format!(
         "<script type=\"application/json\" id=\"data\">{data}</script>\n\
-         <script>/*! 3Dmol.js 2.5.5\n{licence}*/\n{MOLECULES}</script>\n<script>{script}</script>\n"
+         <script>/*! 3Dmol.js 2.5.5\n{licence}*/\n{MOLECULES}</script>\n<script>{PLAYER}{script}</script>\n"
     )
 }

@@ -1,4 +1,3 @@
-"use strict";
 // Plays the paths of the report as structures. The data: `pdb`, the start with the atoms that are kept; for every path the
 // coordinates of these atoms in every frame, as whole multiples of `unit` in 16 bits, x y z; `told`, what stands beside the
 // slider at each frame; `motion`, how far the Cα of each residue moves between the ends.
@@ -127,41 +126,16 @@
     element("told").textContent =
       `frame ${number}, ${length} Å along, energy ${energy}, ${fromStart} Å from the start (grey), ${fromGoal} Å from the goal (yellow)`;
   };
+  // About twelve frames a second.
+  const { begin } = player(show, 80);
   const choose = () => {
     const path = Number(element("path").value);
-    const slider = element("frame");
-    slider.max = framesOf(path) - 1;
-    slider.value = 0;
+    begin(framesOf(path));
     place(start, path, 0);
     place(goal, path, framesOf(path) - 1);
     show();
     viewer.zoomTo();
     viewer.render();
-  };
-
-  // To and fro, about twelve frames a second.
-  let [timer, way] = [null, 1];
-  const pause = () => {
-    clearInterval(timer);
-    timer = null;
-    element("play").textContent = "play";
-  };
-  const step = () => {
-    const slider = element("frame");
-    const [frame, last] = [Number(slider.value), Number(slider.max)];
-    if (frame + way > last) way = -1;
-    if (frame + way < 0) way = 1;
-    slider.value = Math.min(last, Math.max(0, frame + way));
-    show();
-  };
-  element("play").onclick = () => {
-    if (timer !== null) return pause();
-    timer = setInterval(step, 80);
-    element("play").textContent = "pause";
-  };
-  element("frame").oninput = () => {
-    pause();
-    show();
   };
   element("path").onchange = choose;
   for (const id of ["style", "colours", "show-ends"]) element(id).onchange = show;
