@@ -70,6 +70,9 @@ pub fn letter_file(name: char) -> String {
     format!("letter-{}.obj", name.to_ascii_lowercase())
 }
 
+/// OBPRM moves milestones to where the smallest robot touches, which is where deforming is hardest, so that half of the milestones are
+/// drawn uniformly.
+///
 /// A letter, 1 high, slides upright through a gap of 0.8 between two cylinders. The path is found for D and applied to the others.
 fn sliding() -> Scene {
     let mesh = |name: char| {
@@ -85,7 +88,7 @@ fn sliding() -> Scene {
             [query]\nstart = [-2.2, 0.0, 0.0]\ngoal = [2.2, 0.0, 0.0]\n"
             .to_owned(),
         meshes: LETTERS.iter().map(|name| mesh(*name)).collect(),
-        sampler: "obprm = { step = 0.1 }",
+        sampler: "mix = [{ sampler = { obprm = { step = 0.1 } } }, { sampler = { uniform = {} } }]",
         resolution: 0.03,
         longest_edge: 0.25,
     }

@@ -6,7 +6,9 @@
 //! obstacles, or says that it cannot be.
 
 mod answer;
+pub mod bounding_box;
 mod edge;
+pub mod geometric;
 mod obstacles;
 mod path;
 mod query;
@@ -20,6 +22,8 @@ mod soft_body;
 mod tests;
 
 pub use answer::{DeformingAnswer, NoDeformedPath, RemovedEdge};
+pub use bounding_box::BoundingBox;
+pub use geometric::Geometric;
 pub use obstacles::Obstacles;
 pub use path::{Between, DeformedPath, Frame};
 pub use query::{deform_path, deform_query};
