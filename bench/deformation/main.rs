@@ -23,6 +23,7 @@ mod shapes;
 mod show;
 mod speed;
 mod tables;
+#[allow(dead_code, reason = "rows have a median of their own")]
 #[path = "../support/timing.rs"]
 mod timing;
 

@@ -70,7 +70,10 @@ pub fn letter_file(name: char) -> String {
     format!("letter-{}.obj", name.to_ascii_lowercase())
 }
 
-/// A letter, 1 high, slides upright through a gap of 0.78 between two cylinders. The path is found for D and applied to the others.
+/// OBPRM moves milestones to where the smallest robot touches, which is where deforming is hardest, so that half of the milestones are
+/// drawn uniformly.
+///
+/// A letter, 1 high, slides upright through a gap of 0.8 between two cylinders. The path is found for D and applied to the others.
 fn sliding() -> Scene {
     let mesh = |name: char| {
         let shape = move |point| letter(name, point);
@@ -80,12 +83,12 @@ fn sliding() -> Scene {
         name: "sliding",
         tables: "[space]\nmotion = \"translation-3d\"\nmin = [-3.0, -1.6, -0.5]\nmax = [3.0, 1.6, 0.5]\nbounds = \"body\"\nresolution = 0.03\n\n\
             [robot]\nbodies = [{ shape = { mesh = { file = \"letter-d.obj\" } } }]\n\n\
-            [[obstacles]]\nshape = { cylinder = { radius = 0.8, height = 1.2 } }\nposition = [0.0, -1.3, 0.0]\n\
-            [[obstacles]]\nshape = { cylinder = { radius = 1.2, height = 1.2 } }\nposition = [0.0, 1.48, 0.0]\n\n\
+            [[obstacles]]\nshape = { cylinder = { radius = 2.4, height = 1.2 } }\nposition = [0.0, -2.9, 0.0]\n\
+            [[obstacles]]\nshape = { cylinder = { radius = 3.0, height = 1.2 } }\nposition = [0.0, 3.3, 0.0]\n\n\
             [query]\nstart = [-2.2, 0.0, 0.0]\ngoal = [2.2, 0.0, 0.0]\n"
             .to_owned(),
         meshes: LETTERS.iter().map(|name| mesh(*name)).collect(),
-        sampler: "obprm = { step = 0.1 }",
+        sampler: "mix = [{ sampler = { obprm = { step = 0.1 } } }, { sampler = { uniform = {} } }]",
         resolution: 0.03,
         longest_edge: 0.25,
     }

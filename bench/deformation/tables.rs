@@ -102,7 +102,8 @@ pub fn table1(mut asked: Asked) {
             continue;
         }
         let depth = format!("{{ depth = {} }}", 25.0 * scene(name).resolution);
-        let text = if feasibility == "scaled" { "{ scales = 6, least = 0.5 }" } else { &depth };
+        let text: &str =
+            if feasibility == "scaled" { "{ scales = 6, least = 0.5 }" } else { &depth };
         let [boxes, geometric] = METHODS.map(|(label, method)| {
             let ways = Ways { feasibility: text, method, nodes };
             is_asked(&asked, label)
@@ -135,8 +136,7 @@ pub fn table1(mut asked: Asked) {
 /// Table VIII.
 pub fn table2(mut asked: Asked) {
     let r = scene("narrow").resolution;
-    let (large, small) =
-        (format!("{{ depth = {} }}", 25.0 * r), format!("{{ depth = {} }}", 15.0 * r));
+    let [large, small] = [25.0, 15.0].map(|times| format!("{{ depth = {} }}", times * r));
     let paper = [
         ("2-scales", "{ scales = [1.0, 0.5] }", "22 | 2.8", "619 | 617 | 1403 | 25", "–"),
         (
@@ -146,8 +146,8 @@ pub fn table2(mut asked: Asked) {
             "82 | 81 | 199 | 0",
             "322 | 322 | 212 | 1",
         ),
-        ("depth-25r", &large, "3 | 14.9", "144 | 144 | 328 | 4", "514 | 514 | 344 | 3"),
-        ("depth-15r", &small, "14 | 25.6", "75 | 75 | 162 | 2", "255 | 255 | 174 | 1"),
+        ("depth-25r", large.as_str(), "3 | 14.9", "144 | 144 | 328 | 4", "514 | 514 | 344 | 3"),
+        ("depth-15r", small.as_str(), "14 | 25.6", "75 | 75 | 162 | 2", "255 | 255 | 174 | 1"),
     ];
     let nodes = asked.nodes.unwrap_or(350);
     println!(

@@ -24,7 +24,8 @@ function normalsOf(v) {
   return out;
 }
 // Of every corner of a triangle, the triangles that make its normal: those about its vertex that lie flatly to its own in the
-// first frame. And the lines: those between triangles that do not, and all.
+// first frame. And the lines: sharp edges, and all.
+const SHARP = 0.4;
 const [smooth, creases, mesh] = (() => {
   const n = normalsOf(verticesAt(0)), faces = triangles.length / 3;
   const normal = Array.from({ length: faces }, (_, f) => unit([n[3 * f], n[3 * f + 1], n[3 * f + 2]]));
@@ -35,7 +36,7 @@ const [smooth, creases, mesh] = (() => {
     edges.set(key, [...edges.get(key) || [], f]);
   }
   const ends = (key) => [Math.floor(key / count), key % count];
-  const isSharp = ([, met]) => met.length !== 2 || dot(normal[met[0]], normal[met[1]]) < FLAT;
+  const isSharp = ([, met]) => met.length !== 2 || dot(normal[met[0]], normal[met[1]]) < SHARP;
   return [
     Array.from(triangles, (v, i) => about[v].filter((f) => dot(normal[Math.floor(i / 3)], normal[f]) > FLAT)),
     [...edges].filter(isSharp).flatMap(([key]) => ends(key)),
