@@ -224,7 +224,7 @@ fn wrong_tables_are_refused_with_their_lines() {
 
 #[test]
 fn robots_that_cannot_be_deformed_are_refused() {
-    let link = "\n[[robot.links]]\nbodies = [{ shape = { sphere = { radius = 0.1 } } }]\n\
+    let link = "\n[[robot.links]]\nname = \"fore\"\nbodies = [{ shape = { sphere = { radius = 0.1 } } }]\n\
                 joint = { kind = { revolute = { axis = [0, 0, 1] } } }\n";
     let error = parse(&(with("") + link)).unwrap_err();
     assert!(error.contains("robot.links: 2 links found beside [deformable]; a robot of one body or several without joints expected"), "{error}");

@@ -81,7 +81,7 @@ fn a_motion_is_feasible_at_all_its_steps() {
     let (scratch, own) = (&mut Scratch::new(), &mut Scratch::new());
     let (mut stream, mut q) = (draws("penetrating"), vec![0.0; space.len()]);
     let mut ends: Vec<(Vec<f64>, f64)> = Vec::new();
-    while ends.len() < 24 {
+    while ends.len() < 16 {
         space.sample_uniform(&mut stream, &mut q);
         ends.extend(depth(&*model, &q, own).map(|depth| (q.clone(), depth)));
     }
