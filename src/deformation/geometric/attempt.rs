@@ -155,7 +155,7 @@ impl<'a> Attempt<'a> {
                 return Ok(parts);
             }
         }
-        first.ok_or(Refusal::NoGuide)
+        first.ok_or(Refusal::Collides)
     }
 
     /// Where the region's vertices go in one of the ways to free it; `None` if it is not freed.

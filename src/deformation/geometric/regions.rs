@@ -22,12 +22,11 @@ pub(super) struct Region {
     pub has_rest: bool,
 }
 
-/// Puts colliding triangles, given in ascending order, into regions: two belong to the same one if a walk along edges of at
-/// most `neighbourhood` leads from one to the other, or from each to a third of the region, and so on. Regions are ordered by their first
-/// triangles.
+/// Puts colliding triangles, given in ascending order, into regions: two that a walk along edges of at most `neighbourhood` joins
+/// belong to the same one, and so do all that are joined by way of others (single linkage). Regions are ordered by their first triangles.
 ///
-/// Lengths along the surface are those at rest, so that what a neighbour is does not depend on the shape. A vertex that is moved with one region is
-/// never a corner of another's colliding triangle.
+/// Lengths along the surface are those at rest, so that what is near does not depend on the shape. A vertex that is moved with one
+/// region is never a corner of another's colliding triangle.
 pub(super) fn regions(surface: &Surface, colliding: &[u32], neighbourhood: f64) -> Vec<Region> {
     let corners = surface.corners_of(colliding);
     let (distances, nearest) = walk(surface, &corners, neighbourhood);

@@ -8,7 +8,7 @@ use parry3d_f64::math::Vector;
 /// How often triangles that still collide are moved on, before the whole region is.
 const PASSES: u32 = 3;
 /// How often the share of the way is bisected.
-const BISECTIONS: u32 = 10;
+const BISECTIONS: u32 = 14;
 
 /// A vertex of a region where it was moved to.
 pub(super) struct Moved {

@@ -1,4 +1,5 @@
 mod limits;
+mod measure;
 mod parts;
 mod scenes;
 mod shapes;

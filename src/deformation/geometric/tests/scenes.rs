@@ -40,7 +40,8 @@ fn the_shape_follows_the_pose() {
     for step in 1..20 {
         let [before, now] = [step - 1, step].map(|at| (pose(at), &shapes[at as usize]));
         let far = scene.step((&before.0, before.1), (&now.0, now.1));
-        assert!(far < 3e-4, "{step} {far}");
+        // A vertex that is raised because a triangle beside it collides moves faster than the pose.
+        assert!(far < 1e-3, "{step} {far}");
     }
 }
 
