@@ -32,8 +32,8 @@ const GOLDEN: [(&str, &str); 21] = [
     ("retraction", "5381a3a0bfcf2a681111b9c6730bb57bd2a6101a51bf00362c1a076d10521b86"),
     ("hints", "3dead538b59b75362a2158c3cdac26db3473559cf88e9f864881ae57d25a7a9d"),
     ("docking", "e345a8d44f5f2de5224cb1f4470312bac4f068edd7bf7108ef97cfd11e75c26b"),
-    ("deformable", ""),
-    ("penetrating", ""),
+    ("deformable", "1b634bf11cd1cefd2249529da011458c04c4faff0be142586d97a9372f876798"),
+    ("penetrating", "bc8a1623b8689a9b9714ca7dc6adccad93b2824d27cf3201e64b161d7f5de4cc"),
 ];
 
 fn problem(name: &str) -> Problem {

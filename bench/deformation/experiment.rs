@@ -141,7 +141,6 @@ fn timed(
         body,
         method: &method,
         obstacles: &obstacles,
-        bounds: None,
         highest_energy: settings.highest_energy,
         clearance: settings.clearance,
         step: settings.step,

@@ -2,6 +2,7 @@
 
 mod agent;
 mod compare;
+mod deform;
 mod examples;
 mod fold;
 mod job;
@@ -16,6 +17,7 @@ mod view;
 
 pub use agent::{AgentArguments, AgentsArguments};
 pub use compare::CompareArguments;
+pub use deform::{DeformArguments, DeformBy};
 pub use fold::FoldArguments;
 pub use job::JobArguments;
 pub use ligand::{
@@ -76,6 +78,9 @@ pub enum Command {
     /// Find several ways through a roadmap, ranked and compared, and write them for other programs
     #[command(allow_negative_numbers = true)]
     Paths(PathsArguments),
+    /// Deform a robot that gives way along a path of its roadmap until it is free of obstacles
+    #[command(allow_negative_numbers = true)]
+    Deform(DeformArguments),
     /// Say in which order the parts of a protein's native structure form, over all pathways of a run
     Orders(OrdersArguments),
     /// Write a page about a run: its map, several paths in numbers and pictures, structures that move

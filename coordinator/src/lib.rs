@@ -64,6 +64,7 @@ fn run(command: cli::Command) -> Result<Code, Failure> {
         cli::Command::Log(arguments) => commands::log(&arguments),
         cli::Command::Query(arguments) => commands::query(&arguments),
         cli::Command::Paths(arguments) => commands::paths(&arguments),
+        cli::Command::Deform(arguments) => commands::deform(&arguments),
         cli::Command::Orders(arguments) => commands::orders(&arguments),
         cli::Command::Report(arguments) => commands::report(&arguments),
         cli::Command::Compare(arguments) => commands::compare(&arguments),

@@ -7,10 +7,12 @@
 
 mod answer;
 pub mod bounding_box;
+mod bounds;
 mod edge;
-pub mod geometric;
+mod geometric;
 mod obstacles;
 mod path;
+mod prepared;
 mod query;
 mod refusal;
 mod robot;
@@ -26,6 +28,7 @@ pub use bounding_box::BoundingBox;
 pub use geometric::Geometric;
 pub use obstacles::Obstacles;
 pub use path::{Between, DeformedPath, Frame};
+pub use prepared::PreparedRobot;
 pub use query::{deform_path, deform_query};
 pub use refusal::Refusal;
 pub use robot::{DeformableRobot, Deformations};

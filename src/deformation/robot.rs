@@ -18,9 +18,6 @@ pub struct DeformableRobot<'a> {
     pub method: &'a dyn Deform,
     /// What the robot must be free of.
     pub obstacles: &'a Obstacles,
-    /// The least and the greatest corner of the box that must hold the robot, in the world's frame, if there is one. The method of
-    /// deformation keeps it by itself; blends of shapes are compared with it.
-    pub bounds: Option<[[f64; 3]; 2]>,
     /// The highest energy of a shape that is accepted, a length; it may be infinite.
     pub highest_energy: f64,
     /// The distance from the obstacles that the method of deformation keeps, a length: at least 0.
@@ -96,18 +93,12 @@ impl DeformableRobot<'_> {
         movement(&placed(rest, from), &placed(rest, to))
     }
 
-    /// Whether a blend of two shapes is free of obstacles where the robot's frame has a pose, within the bounds, and accepted by the method.
+    /// Whether a blend of two shapes is free of obstacles where the robot's frame has a pose, and accepted by the method.
     fn accepts_blend(&self, pose: &Pose, vertices: &[[f64; 3]]) -> bool {
-        let world = placed(vertices, pose);
-        let is_within = |[min, max]: [[f64; 3]; 2]| {
-            let holds = |point: &[f64; 3]| {
-                (0..3).all(|axis| min[axis] <= point[axis] && point[axis] <= max[axis])
-            };
-            world.iter().all(holds)
+        let is_free = |world: &[[f64; 3]]| {
+            self.obstacles.is_free(world, self.body.triangles(), self.clearance)
         };
-        self.bounds.is_none_or(is_within)
-            && self.method.accepts_blend(pose, vertices)
-            && self.obstacles.is_free(&world, self.body.triangles(), self.clearance)
+        self.method.accepts_blend(pose, vertices) && is_free(&placed(vertices, pose))
     }
 }
 

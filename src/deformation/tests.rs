@@ -1,5 +1,6 @@
 //! Paths deformed by methods so simple that what must come out is known.
 
+use super::bounds::sides;
 use super::edge::{Unfinished, deform_motion};
 use super::path::movement;
 use super::robot::{Shapes, placed};
@@ -7,6 +8,7 @@ use super::search::Search;
 use super::*;
 use crate::cancel::Cancel;
 use crate::math;
+use crate::model::bodies::validity::{Bounds, BoundsMeaning};
 use crate::numbers::NodeId;
 use crate::roadmap::{Edge, Graph};
 use crate::scene::{Body, Mesh, Pose, Shape, box_surface};
@@ -88,7 +90,6 @@ fn robot<'a>(
         body,
         method,
         obstacles,
-        bounds: None,
         highest_energy: f64::INFINITY,
         clearance,
         step,
@@ -208,12 +209,42 @@ fn shapes_that_leap_in_free_space_are_blended_and_the_blends_are_free() {
     let answer = deform_path(&path, asked, &Cancel::new());
     assert_eq!(answer.path, Err(NoDeformedPath::Refused));
     assert!(matches!(answer.removed[0].refusal, Refusal::Jump(moved) if moved > 1.0));
-    // Blends leave the bounds, though the shapes at the frames do not.
-    let low = [-5.0, -5.0, -5.0];
-    let asked = DeformableRobot { method: &method, bounds: Some([low, [5.0, 5.0, 0.9]]), ..asked };
-    assert_eq!(deform_path(&path, asked, &Cancel::new()).path, Err(NoDeformedPath::Refused));
-    let asked = DeformableRobot { bounds: Some([low, [5.0, 5.0, 1.2]]), ..asked };
-    assert!(deform_path(&path, asked, &Cancel::new()).path.is_ok());
+}
+
+/// The sides of a box from -2 to 2 along all three axes, or two of them.
+fn sides_of(axes: usize, clearance: f64, meaning: BoundsMeaning) -> Vec<Body> {
+    let bounds = Bounds { min: [-2.0; 3], max: [2.0; 3], meaning };
+    sides(&bounds, axes, clearance, 1.0)
+}
+
+#[test]
+fn the_sides_of_bounds_are_obstacles_that_a_shape_may_come_up_to() {
+    let body = body([1.0; 3]);
+    let at = |x: f64, y: f64, z: f64| {
+        placed(body.vertices(), &Pose { translation: [x, y, z], ..Pose::IDENTITY })
+    };
+    for (axes, clearance) in [(3, 0.25), (2, 0.25), (3, 0.0)] {
+        let sides = Obstacles::new(&sides_of(axes, clearance, BoundsMeaning::Body));
+        let is_free = |shape: &[[f64; 3]]| sides.is_free(shape, body.triangles(), clearance);
+        for axis in 0..3 {
+            for sign in [-1.0, 1.0] {
+                let moved = |by: f64| {
+                    let mut place = [0.0; 3];
+                    place[axis] = sign * by;
+                    at(place[0], place[1], place[2])
+                };
+                // The box of edge length 1 touches the bounds at 1.5.
+                assert!(is_free(&moved(1.5 - 1e-9)));
+                let is_bounded = axis < axes;
+                assert_eq!(is_free(&moved(1.5 + 1e-9)), !is_bounded);
+                // As far as a robot goes whose reference point is within the bounds.
+                assert_eq!(is_free(&moved(2.0)), !is_bounded);
+            }
+        }
+        // Nothing is free in the corners, either.
+        assert!(!is_free(&at(2.0, 2.0, 0.0)) && is_free(&at(1.4, 1.4, 0.0)));
+    }
+    assert_eq!(sides_of(3, 0.1, BoundsMeaning::Reference), []);
 }
 
 #[test]

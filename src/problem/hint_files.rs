@@ -1,14 +1,16 @@
 //! Approximate paths as files: CSV as `roadmill query` writes it, or Parasol's `.path`.
 
+use crate::context::Context;
 use crate::digest::SourceFile;
 use crate::generator::{CONFIGURATIONS_MAX, HintPath, too_long};
 use crate::internal::csv_field::csv_field;
 use crate::model::{is_parasol_path, read_parasol_path};
 use crate::source::Step::{Index, Key};
 use crate::source::{NoText, ProblemError, Source, read_file, text_of};
-use crate::space::{Dof, Space};
+use crate::space::{Configs, Dof, Space};
 use crate::strategy::Strategy;
 use std::fmt::Write;
+use std::path::Path;
 
 /// Reads the approximate paths that generators go by.
 pub(super) fn take_in_hints(
@@ -41,20 +43,48 @@ fn read(
         Ok(bytes) => bytes,
         Err(error) => return Ok(Err(format!("{file}: cannot read the approximate path: {error}"))),
     };
-    let text = text_of(&bytes).map_err(|NoText { line, found }| {
-        ProblemError::line(&path, line, format!("{found}; a path, which is text, expected"))
+    let configurations = configurations_in(&path, &bytes, space)?;
+    source.read(SourceFile::new(file, &bytes));
+    Ok(Ok(configurations))
+}
+
+/// The configurations in the bytes of a file.
+fn configurations_in(
+    path: &Path,
+    bytes: &[u8],
+    space: &Space,
+) -> Result<Vec<Vec<f64>>, ProblemError> {
+    let text = text_of(bytes).map_err(|NoText { line, found }| {
+        ProblemError::line(path, line, format!("{found}; a path, which is text, expected"))
     })?;
     let read = match is_parasol_path(&text) {
         true => read_parasol_path(&text, space),
         false => read_csv(&text, space),
     };
-    let configurations =
-        read.map_err(|(line, message)| ProblemError::line(&path, line, message))?;
-    if configurations.len() > CONFIGURATIONS_MAX {
-        return Err(ProblemError::file(&path, too_long()));
+    let configurations = read.map_err(|(line, message)| ProblemError::line(path, line, message))?;
+    match configurations.len() > CONFIGURATIONS_MAX {
+        true => Err(ProblemError::file(path, too_long())),
+        false => Ok(configurations),
     }
-    source.read(SourceFile::new(file, &bytes));
-    Ok(Ok(configurations))
+}
+
+/// The configurations of a path in a file, CSV as `roadmill query` writes it or Parasol's `.path`, in stored form. Whether they are valid is
+/// not asked.
+///
+/// # Errors
+/// The file cannot be read; or the line where something is wrong, what was found there and what is expected.
+pub fn read_path(cx: &Context, file: &Path) -> Result<Configs, ProblemError> {
+    let bytes = read_file(file)
+        .map_err(|error| ProblemError::file(file, format!("cannot read the path: {error}")))?;
+    let mut path = Configs::new(cx.space.len());
+    let read = configurations_in(file, &bytes, &cx.space)?;
+    for (index, mut q) in read.into_iter().enumerate() {
+        cx.stored(&mut q).map_err(|message| {
+            ProblemError::file(file, format!("configuration {}: {message}", index + 1))
+        })?;
+        path.push(&q);
+    }
+    Ok(path)
 }
 
 /// The configurations of a table: a column per degree of freedom, in their order, and a line per configuration. The first line may name the columns, with or

@@ -34,6 +34,7 @@ pub use builder::ProblemBuilder;
 pub use changes::ChangedKey;
 pub use chapter::EarlierSchedule;
 pub use configuration::{configuration, configuration_at_all};
+pub use hint_files::read_path;
 pub use docking::{AffinitySearch, PoseSearch, affinity, docking};
 pub use ends::ConfigurationSpec;
 pub use folding::folding;

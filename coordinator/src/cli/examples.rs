@@ -109,6 +109,23 @@ const EXAMPLES: &[(&[&str], &[Example])] = &[
         ],
     ),
     (
+        &["deform"],
+        &[
+            (
+                "A page that plays how the robot gives way",
+                "roadmill deform runs/squeeze --html squeeze.html",
+            ),
+            (
+                "By its own triangles, with at most so much energy",
+                "roadmill deform runs/squeeze --method geometric --highest-energy 20",
+            ),
+            (
+                "Another body along a path that was found",
+                "roadmill deform runs/letters --path path.csv --robot letter.obj --csv energies.csv",
+            ),
+        ],
+    ),
+    (
         &["paths"],
         &[
             ("Three ways that differ", "roadmill paths runs/a --count 3 --dissimilar --out ways"),

@@ -7,10 +7,11 @@ use crate::files::{is_standard_output, write_out};
 use crate::output::{json, line, lines, told};
 use crate::waiting::waiting;
 use roadmill::export::svg_at;
-use roadmill::model::Reason;
+use roadmill::model::{NodeValue, Reason, Scratch};
 use roadmill::problem::{Problem, configuration_at_all};
 use roadmill::survey::Survey;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Says what is wrong with a problem, or what it would build; or of one configuration why it is not valid.
 pub fn check(arguments: &CheckArguments) -> Result<Code, Failure> {
@@ -40,6 +41,9 @@ struct Answer {
     configuration: Vec<f64>,
     valid: bool,
     reasons: Vec<Reason>,
+    /// What a node there would carry, by its names, of a valid configuration of a model whose nodes have values.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    values: BTreeMap<&'static str, f64>,
 }
 
 fn check_at(problem: &Problem, text: &str, arguments: &CheckArguments) -> Result<Code, Failure> {
@@ -66,13 +70,23 @@ fn check_at(problem: &Problem, text: &str, arguments: &CheckArguments) -> Result
         write_out(file, picture.ok_or_else(refused)?)?;
     }
     let valid = reasons.is_empty();
+    let named = cx.model().node_values();
+    let mut numbers = Vec::new();
+    if valid && !named.is_empty() {
+        cx.model().values(&q, &mut numbers, &mut Scratch::new());
+    }
     if arguments.json {
-        json(&Answer { configuration: q, valid, reasons });
+        let values = named.iter().map(|value| value.name).zip(numbers).collect();
+        json(&Answer { configuration: q, valid, reasons, values });
     } else {
         // Standard output is for the picture alone where it goes there.
         let is_taken = arguments.picture.as_deref().is_some_and(is_standard_output);
         if valid {
             told("valid", is_taken);
+        }
+        for (NodeValue { name, unit }, number) in named.iter().zip(numbers) {
+            let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
+            told(format_args!("{name:<16} {number}{unit}"), is_taken);
         }
         reasons.iter().for_each(|reason| told(reason, is_taken));
     }

@@ -126,4 +126,12 @@ impl Deform for Geometric {
         }
         Attempt::new(self, pose, rest).deform()
     }
+
+    /// The edges of a blend must keep their lengths within the limits, which two shapes may do and their blend not; and where shapes
+    /// that meet themselves are refused, so are such blends.
+    fn accepts_blend(&self, _pose: &Pose, vertices: &[[f64; 3]]) -> bool {
+        let shape: Vec<Vector> = vertices.iter().copied().map(Vector::from_array).collect();
+        self.limits.are_kept(&self.surface, &shape)
+            && !self.self_collision.as_ref().is_some_and(|own| own.is_met(&self.surface, &shape))
+    }
 }

@@ -30,7 +30,7 @@ use super::{
     CannotRelax, Description, Documents, Figure, Model, ModelKind, NodeValue, PoseFound, PoseGoal,
     Relaxation, RelaxedModel, Resolve, SceneChange,
 };
-use crate::scene::Mesh;
+use crate::scene::{Body, Mesh, Pose, Shape};
 use crate::seed::Seed;
 use crate::source::{ProblemError, Source, place_of};
 use crate::space::Space;
@@ -83,6 +83,24 @@ impl Deformable {
     /// [`Deformable::longest_edge`] are halved until none is.
     pub fn surface(&self) -> Mesh {
         surface::surface(&self.bodies, self.longest_edge)
+    }
+
+    /// The method of deformation that is asked for; what it leaves open follows from the size of the robot, as in a problem file.
+    pub fn method(&self, asked: &MethodSpec) -> DeformationMethod {
+        resolve::method(asked, surface::longest_side(&self.bodies))
+    }
+
+    /// The same with another robot, a mesh in the robot's frame: a path that was found for one robot can be given to another, as in the paper's
+    /// sliding experiment (§7). Only how that robot is deformed is meant by it; the roadmap is the first robot's.
+    ///
+    /// # Errors
+    /// What is wrong with the mesh: it is not closed, say.
+    pub fn with_robot(&self, mesh: Mesh) -> Result<Deformable, String> {
+        let mut other = self.clone();
+        let body = Body { shape: Shape::Mesh(mesh), pose: Pose::IDENTITY, solid: true };
+        let links = &mut other.bodies.robot.links;
+        links.iter_mut().for_each(|link| link.bodies = vec![body.clone()]);
+        other.sound().map(|()| other)
     }
 
     /// The bodies with the robot, and its padding, scaled about a point of the robot's frame that stays in its place. At a scale of 1

@@ -72,6 +72,17 @@ fn made(bodies: Bodies, table: &Table, notes: &mut Vec<String>) -> Deformable {
     Deformable { bodies, feasibility, deformation, longest_edge }
 }
 
+/// The method of deformation that is asked for, of a robot of this longest edge.
+pub(super) fn method(spec: &MethodSpec, size: f64) -> DeformationMethod {
+    match spec {
+        MethodSpec::BoundingBox(settings) => DeformationMethod::BoundingBox(settings.clone()),
+        MethodSpec::Geometric(spec) => {
+            let reach = spec.neighbourhood.unwrap_or(size * NEIGHBOURHOOD);
+            DeformationMethod::Geometric(geometric(spec, reach))
+        }
+    }
+}
+
 fn geometric(spec: &GeometricSpec, neighbourhood: f64) -> GeometricSettings {
     let GeometricSpec {
         directions,
