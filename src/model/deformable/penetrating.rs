@@ -76,6 +76,11 @@ impl PenetratingBodies {
         }
     }
 
+    /// The length of the longest vector.
+    fn longest(&self) -> f64 {
+        self.vectors.last().map_or(0.0, |vector| vector.length)
+    }
+
     /// The depth of a configuration of a motion. Everything that is looked at is counted.
     fn depth_on_way(&self, q: &[f64], moved: &mut Vec<f64>, scratch: &mut Scratch) -> Option<f64> {
         let Found { depth, looks } = self.found(q, moved, scratch.of_model());
@@ -122,10 +127,13 @@ impl Model for PenetratingBodies {
             Err(Validity::OutOfBounds) => self.bodies.reasons(q, depths),
             Err(_) => {
                 let mut reasons = self.bodies.reasons(q, depths);
-                let longest = self.vectors.last().map_or(0.0, |vector| vector.length);
-                let count = self.vectors.len();
-                let text = format!("no vector frees the robot: {count} of up to {longest} tried");
-                reasons.push(Reason::Other { text });
+                // As of scaled robots: not where reasons are counted over many configurations.
+                if depths {
+                    let (count, longest) = (self.vectors.len(), self.longest());
+                    let text =
+                        format!("no vector frees the robot: {count} of up to {longest} tried");
+                    reasons.push(Reason::Other { text });
+                }
                 reasons
             }
         }
@@ -147,7 +155,6 @@ impl Model for PenetratingBodies {
     /// The depth; of a configuration that is not valid that of the longest vector.
     fn values(&self, q: &[f64], out: &mut Vec<f64>, scratch: &mut Scratch) {
         let found = self.found(q, &mut Vec::new(), scratch.of_model());
-        let longest = self.vectors.last().map_or(0.0, |vector| vector.length);
-        out.push(found.depth.unwrap_or(longest));
+        out.push(found.depth.unwrap_or(self.longest()));
     }
 }

@@ -95,9 +95,11 @@ impl Model for ScaledBodies {
         }
         let Rung { scale, bodies } = self.least();
         let mut reasons = bodies.reasons(q, depths);
-        let (count, text) = (self.rungs.len(), "the robot is free at no scale");
-        let text = format!("{text}: {count} tried, what else is said is of the least, {scale}");
-        reasons.push(Reason::Other { text });
+        // Who asks for depths asks about one configuration; who counts reasons over many is helped by no reason of all of them.
+        if depths {
+            let text = format!("the robot is free at no scale: at the least, {scale}, this holds");
+            reasons.insert(0, Reason::Other { text });
+        }
         reasons
     }
 
