@@ -5,11 +5,11 @@ use super::timing::cpu_seconds;
 use roadmill::Cancel;
 use roadmill::Context;
 use roadmill::deformation::{
-    BoundingBox, Deform, DeformableRobot, Deformed, DeformingAnswer, Geometric, Obstacles, Refusal,
-    SoftBody, deform_path, deform_query,
+    Deform, DeformableRobot, Deformed, DeformingAnswer, PreparedRobot, Refusal, deform_path,
+    deform_query,
 };
 use roadmill::img::{Setup, build};
-use roadmill::model::deformable::{Deformable, DeformationMethod};
+use roadmill::model::deformable::Deformable;
 use roadmill::model::{ModelKind, Scratch};
 use roadmill::numbers::Ordinal;
 use roadmill::problem::Problem;
@@ -75,39 +75,21 @@ pub fn deformable(problem: &Problem) -> &Deformable {
     deformable
 }
 
-/// The robot at rest.
-pub fn soft_body(problem: &Problem) -> SoftBody {
-    let body = SoftBody::new(deformable(problem).surface());
-    body.unwrap_or_else(|error| panic!("{error}"))
-}
-
 /// The obstacles of a problem.
 pub fn obstacles(problem: &Problem) -> &[Body] {
     deformable(problem).bodies().obstacles()
 }
 
-/// The method of deformation that a problem names.
-pub fn deforming(
-    problem: &Problem,
-    body: &SoftBody,
-    obstacles: &Arc<Obstacles>,
-) -> Box<dyn Deform> {
-    let settings = deformable(problem).deformation();
-    let (energy, clearance, among) =
-        (settings.highest_energy, settings.clearance, obstacles.clone());
-    let made: Result<Box<dyn Deform>, String> = match &settings.method {
-        DeformationMethod::BoundingBox(of) => BoundingBox::new(body, of, energy, clearance, among)
-            .map(|method| Box::new(method) as Box<dyn Deform>),
-        DeformationMethod::Geometric(of) => Geometric::new(body, of, energy, clearance, among)
-            .map(|method| Box::new(method) as Box<dyn Deform>),
-    };
+/// The robot of a problem, ready to be deformed.
+pub fn prepared(problem: &Problem) -> PreparedRobot {
+    let deformable = deformable(problem);
+    let made = PreparedRobot::new(deformable, deformable.deformation().clone());
     made.unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Answers the problem's query, until deforming has taken `limit` CPU seconds.
 pub fn query(built: &Built, limit: f64) -> Outcome {
-    let body = soft_body(&built.problem);
-    timed(&built.problem, &body, limit, &|robot, cancel| {
+    timed(&prepared(&built.problem), limit, &|robot, cancel| {
         let (cx, ends): (&Context, _) = (built.setup.context(), built.problem.query());
         let ends = ends.expect("scenes have a query");
         let (attachment, scratch) = (Attachment::default(), &mut Scratch::new());
@@ -115,50 +97,32 @@ pub fn query(built: &Built, limit: f64) -> Outcome {
     })
 }
 
-/// Deforms a body along a path that was found for another.
-pub fn along(problem: &Problem, body: &SoftBody, path: &Configs, limit: f64) -> Outcome {
-    timed(problem, body, limit, &|robot, cancel| deform_path(path, robot, cancel))
+/// Deforms the robot of a problem along a path that was found for another.
+pub fn along(problem: &Problem, path: &Configs, limit: f64) -> Outcome {
+    timed(&prepared(problem), limit, &|robot, cancel| deform_path(path, robot, cancel))
 }
 
 /// What a query came to, with the times of its deformations.
 fn timed(
-    problem: &Problem,
-    body: &SoftBody,
+    prepared: &PreparedRobot,
     limit: f64,
     ask: &dyn Fn(DeformableRobot, &Cancel) -> DeformingAnswer,
 ) -> Outcome {
-    let settings = deformable(problem).deformation();
-    let obstacles = Arc::new(Obstacles::new(obstacles(problem)));
-    let inner = deforming(problem, body, &obstacles);
     let cancel = Cancel::new();
     let times = RefCell::default();
-    let method =
-        Timed { inner: &*inner, rest: body.vertices(), limit, cancel: &cancel, times: &times };
-    let space = problem.space();
-    let robot = DeformableRobot {
-        space: &space,
-        pose: &pose,
-        body,
-        method: &method,
-        obstacles: &obstacles,
-        highest_energy: settings.highest_energy,
-        clearance: settings.clearance,
-        step: settings.step,
+    let robot = prepared.robot();
+    let method = Timed {
+        inner: robot.method,
+        rest: prepared.body().vertices(),
+        limit,
+        cancel: &cancel,
+        times: &times,
     };
     let begun = cpu_seconds();
-    let answer = ask(robot, &cancel);
+    let answer = ask(DeformableRobot { method: &method, ..robot }, &cancel);
     let seconds = cpu_seconds() - begun;
     let Times { all, deformed } = times.into_inner();
     Outcome { answer, seconds, deforming: all, deformed }
-}
-
-/// The pose of the robot's frame at a configuration of a base that is moved in three directions, and perhaps turned.
-pub fn pose(q: &[f64]) -> Pose {
-    let rotation = match q {
-        [_, _, _, w, x, y, z] => [*w, *x, *y, *z],
-        _ => Pose::IDENTITY.rotation,
-    };
-    Pose { translation: [q[0], q[1], q[2]], rotation }
 }
 
 /// CPU seconds.

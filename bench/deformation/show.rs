@@ -1,7 +1,7 @@
 //! The three experiments, each written down as a page, a table and OBJ files.
 
 use super::Asked;
-use super::experiment::{Built, Outcome, along, built, deformable, obstacles, query, soft_body};
+use super::experiment::{Built, Outcome, along, built, deformable, obstacles, prepared, query};
 use super::scenes::{Ways, letter_file, scene};
 use super::shapes::LETTERS;
 use roadmill::deformation::SoftBody;
@@ -29,9 +29,10 @@ pub fn run(name: &str, asked: &Asked) {
         built.seconds[0],
         built.seconds[1]
     );
-    let body = soft_body(&built.problem);
+    let robot = prepared(&built.problem);
+    let body = robot.body();
     let outcome = query(&built, asked.limit);
-    let Some(path) = written(&folder, name, &built, (&body, label), &outcome) else { return };
+    let Some(path) = written(&folder, name, &built, (body, label), &outcome) else { return };
     if name != "sliding" {
         return;
     }
@@ -40,10 +41,10 @@ pub fn run(name: &str, asked: &Asked) {
         let file = folder.join(format!("sliding-{letter}.toml"));
         fs::write(&file, text).expect("a problem can be written");
         let problem = Problem::load(&file).unwrap_or_else(|error| panic!("{error}"));
-        let body = soft_body(&problem);
-        let outcome = along(&problem, &body, &path, asked.limit);
+        let robot = prepared(&problem);
+        let outcome = along(&problem, &path, asked.limit);
         let name = format!("sliding-{letter}");
-        written(&folder.join(&name), &name, &built, (&body, label), &outcome);
+        written(&folder.join(&name), &name, &built, (robot.body(), label), &outcome);
     }
 }
 

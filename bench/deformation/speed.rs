@@ -1,13 +1,12 @@
 //! How long one deformation by the lattice of 13 × 9 × 7 = 819 points takes.
 
 use super::Asked;
-use super::experiment::{deforming, obstacles, pose, soft_body};
+use super::experiment::prepared;
 use super::rows::median;
 use super::scenes::{Ways, scene};
 use super::timing::cpu_seconds;
-use roadmill::deformation::Obstacles;
 use roadmill::problem::Problem;
-use std::sync::Arc;
+use roadmill::scene::Pose;
 
 /// How many places along the axis are looked at, and how often each is timed.
 const PLACES: usize = 201;
@@ -27,13 +26,12 @@ pub fn run(asked: &Asked) {
         let ways = Ways { feasibility: "{ scales = 6 }", method: &method, nodes: 1 };
         let path = scene("narrow").write(&asked.out.join(format!("speed-{label}")), &ways);
         let problem = Problem::load(&path).unwrap_or_else(|error| panic!("{error}"));
-        let body = soft_body(&problem);
-        let around = Arc::new(Obstacles::new(obstacles(&problem)));
-        let method = deforming(&problem, &body, &around);
+        let robot = prepared(&problem);
+        let (body, method) = (robot.body(), robot.robot().method);
         let (mut free, mut refused, mut times) = (0, 0, Vec::new());
         for place in 0..PLACES {
             let x = -1.5 + 3.0 * place as f64 / (PLACES - 1) as f64;
-            let pose = pose(&[x, 0.0, 0.0]);
+            let pose = Pose { translation: [x, 0.0, 0.0], ..Pose::IDENTITY };
             let once = || {
                 let begun = cpu_seconds();
                 let found = method.deform(&pose);
