@@ -7,13 +7,16 @@ use crate::scene::Pose;
 use crate::space::Space;
 use std::sync::Arc;
 
+/// The pose of the robot's frame in the world's at a configuration.
+type PoseAt = Box<dyn Fn(&[f64]) -> Pose>;
+
 /// The deformable robot of a problem, made ready to be deformed among the problem's obstacles.
 ///
 /// Where the problem's bounds must hold the whole robot, and not its reference point alone, their sides are obstacles, too: shapes are pushed back
 /// from them. A shape may come up to the bounds themselves.
 pub struct PreparedRobot {
     space: Space,
-    pose: Box<dyn Fn(&[f64]) -> Pose>,
+    pose: PoseAt,
     body: SoftBody,
     obstacles: Arc<Obstacles>,
     method: Box<dyn Deform>,

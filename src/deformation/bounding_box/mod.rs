@@ -119,10 +119,9 @@ impl BoundingBox {
         let mut vertices = rest.to_vec();
         for round in 0..ROUNDS {
             // Where no ray meets anything the first round has nothing to push.
-            if round > 0 || pushes.shares.iter().all(|share| *share == 0.0) {
-                if !pushes.deepen(&self.cells, &self.body, &vertices, step, &scene) {
-                    return Err(Refusal::Collides);
-                }
+            let is_to_deepen = round > 0 || pushes.shares.iter().all(|share| *share == 0.0);
+            if is_to_deepen && !pushes.deepen(&self.cells, &self.body, &vertices, step, &scene) {
+                return Err(Refusal::Collides);
             }
             work.rounds += 1;
             let displacements = self.displacements(&pushes, work)?;

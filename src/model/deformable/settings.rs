@@ -79,7 +79,7 @@ impl Default for BoundingBoxSettings {
             least: [0.5; 3],
             greatest: [1.5; 3],
             shear: 0.5,
-            order: ChainMailOrder::MostReached,
+            order: ChainMailOrder::Queue,
             relaxation: 10,
             interpolation: LatticeInterpolation::Trilinear,
         }
