@@ -15,6 +15,8 @@ pub struct Scene {
     pub meshes: Vec<(String, Surface)>,
     /// The sampler of the experiment, as a problem file names it.
     pub sampler: &'static str,
+    /// The settings of the method `bounding-box`; none: the defaults.
+    material: &'static str,
     /// The environmental resolution, of which penetration depths are multiples.
     pub resolution: f64,
     /// The longest edge that the robot's triangles may have: none is halved.
@@ -42,6 +44,12 @@ pub fn scene(name: &str) -> Scene {
 }
 
 impl Scene {
+    /// A method of deformation with the settings of the scene, as a problem file names it.
+    pub fn method(&self, label: &str) -> String {
+        let settings = if label == "bounding-box" { self.material } else { "" };
+        format!("{{ {label} = {{ {settings} }} }}")
+    }
+
     /// The text of the problem file.
     pub fn problem(&self, ways: &Ways) -> String {
         let Ways { feasibility, method, nodes } = ways;
@@ -89,6 +97,8 @@ fn sliding() -> Scene {
             .to_owned(),
         meshes: LETTERS.iter().map(|name| mesh(*name)).collect(),
         sampler: "mix = [{ sampler = { obprm = { step = 0.1 } } }, { sampler = { uniform = {} } }]",
+        // A letter is thin: with the default lattice its points along z are too near to one another to be displaced past.
+        material: "lattice = [9, 9, 3], shear = 2.0, least = 0.3, greatest = 2.0",
         resolution: 0.03,
         longest_edge: 0.25,
     }
@@ -120,6 +130,7 @@ fn narrow() -> Scene {
         tables,
         meshes: vec![("ball.obj".to_owned(), robot), ("shell.obj".to_owned(), shell)],
         sampler: "uniform = {}",
+        material: "",
         resolution: 0.06,
         longest_edge: 0.5,
     }
@@ -139,6 +150,7 @@ fn stamping() -> Scene {
             ("seal.obj".to_owned(), surface(0.12, [1.85, 1.85, 0.65], &seal)),
         ],
         sampler: "uniform = {}",
+        material: "",
         resolution: 0.05,
         longest_edge: 0.4,
     }

@@ -16,10 +16,10 @@ use std::path::Path;
 /// Runs an experiment with the first seed.
 pub fn run(name: &str, asked: &Asked) {
     let label = asked.method.as_deref().unwrap_or("bounding-box");
-    let method = format!("{{ {label} = {{}} }}");
     let feasibility = "{ scales = 6, least = 0.5 }";
-    let ways = Ways { feasibility, method: &method, nodes: asked.nodes.unwrap_or(1000) };
     let scene = scene(name);
+    let method = scene.method(label);
+    let ways = Ways { feasibility, method: &method, nodes: asked.nodes.unwrap_or(1000) };
     let folder = asked.out.join(format!("{name}-{label}"));
     let built = built(&scene, &folder, &ways, *asked.seeds.start());
     println!(

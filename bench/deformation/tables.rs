@@ -7,8 +7,7 @@ use super::scenes::{Ways, scene};
 
 /// The head of the rows.
 const HEAD: &str = "study,scene,feasibility,method,nodes,seed,components,generation,connection,solved,query,deforming,tried,failed,mean_deformation,frames,highest_energy,removed";
-const METHODS: [(&str, &str); 2] =
-    [("bounding-box", "{ bounding-box = {} }"), ("geometric", "{ geometric = {} }")];
+const METHODS: [&str; 2] = ["bounding-box", "geometric"];
 
 /// The medians of a row's columns over the seeds.
 struct Row {
@@ -104,8 +103,9 @@ pub fn table1(mut asked: Asked) {
         let depth = format!("{{ depth = {} }}", 25.0 * scene(name).resolution);
         let text: &str =
             if feasibility == "scaled" { "{ scales = 6, least = 0.5 }" } else { &depth };
-        let [boxes, geometric] = METHODS.map(|(label, method)| {
-            let ways = Ways { feasibility: text, method, nodes };
+        let [boxes, geometric] = METHODS.map(|label| {
+            let method = scene(name).method(label);
+            let ways = Ways { feasibility: text, method: &method, nodes };
             is_asked(&asked, label)
                 .then(|| row(&mut asked, "table1", name, &ways, [feasibility, label]))
         });
@@ -155,11 +155,12 @@ pub fn table2(mut asked: Asked) {
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
     for (label, text, roadmap, boxes, geometric) in paper {
-        for ((name, method), of_paper) in METHODS.into_iter().zip([boxes, geometric]) {
+        for (name, of_paper) in METHODS.into_iter().zip([boxes, geometric]) {
             if !is_asked(&asked, name) {
                 continue;
             }
-            let ways = Ways { feasibility: text, method, nodes };
+            let method = scene("narrow").method(name);
+            let ways = Ways { feasibility: text, method: &method, nodes };
             let row = row(&mut asked, "table2", "narrow", &ways, [label, name]);
             let unit = if name == "geometric" { " (min)" } else { " (s)" };
             println!(
