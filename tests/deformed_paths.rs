@@ -77,7 +77,8 @@ fn least_distance(
                 let place = Pose::from_translation(Vector::from_array(middle));
                 let cuboid = Cuboid::new(Vector::from_array(half));
                 let triangle = Triangle::new(a, b, c);
-                least = least.min(distance(&Pose::IDENTITY, &triangle, &place, &cuboid).unwrap());
+                let found = distance(&Pose::IDENTITY, &triangle, &place, &cuboid).unwrap();
+                least = least.min(found.distance);
             }
         }
     }
