@@ -4,19 +4,21 @@
 //! cargo bench --bench deformation -- sliding | narrow | stamping [--method bounding-box|geometric] [--seeds 1] [--out FOLDER]
 //! cargo bench --bench deformation -- table1 [--csv FILE] [--seeds 1-3] [--nodes 1000] [--limit 600] [SCENE …]
 //! cargo bench --bench deformation -- table2 [--csv FILE] [--seeds 1-3] [--nodes 350] [--limit 600]
-//! cargo bench --bench deformation -- speed
+//! cargo bench --bench deformation -- speed | lattice
 //! ```
 //!
 //! The first three write the scene as a problem file with its meshes to FOLDER (default: in the target folder), build a roadmap of scaled robots, deform the robot along a
 //! path, and write the path as a page, as a table of energies and as OBJ files; in `sliding` the path of D is given to the
 //! other letters. `table1` is the dissertation's Table VII: 1000 nodes by scaled robots and by penetration, both methods. `table2` is its
 //! Table VIII: 350 nodes in the narrow passage, two and six scales, depths of 25 and 15 times the resolution. A query ends when
-//! deforming has taken `--limit` CPU seconds. `speed` times single deformations by the lattice of 13 × 9 × 7 points in the narrow passage. With `--csv` a run's row is appended as it ends, and
+//! deforming has taken `--limit` CPU seconds. `speed` times single deformations by the lattice of 13 × 9 × 7 points in the narrow passage, and `lattice`
+//! compares settings of the lattice in scenes of its own. With `--csv` a run's row is appended as it ends, and
 //! runs that stand there are not made again. Times are CPU seconds of this thread, and medians over the seeds.
 
 mod experiment;
+mod lattice;
 mod nets;
-#[path = "../docking/rows.rs"]
+#[path = "../support/rows.rs"]
 mod rows;
 mod scenes;
 mod shapes;
@@ -81,9 +83,10 @@ fn main() {
         "table1" => tables::table1(asked),
         "table2" => tables::table2(asked),
         "speed" => speed::run(&asked),
+        "lattice" => lattice::run(),
         other => {
             eprintln!(
-                "study `{other}` found; sliding, narrow, stamping, table1, table2 or speed expected"
+                "study `{other}` found; sliding, narrow, stamping, table1, table2, speed or lattice expected"
             );
             std::process::exit(2);
         }

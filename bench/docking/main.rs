@@ -15,6 +15,7 @@ mod complexes;
 mod generators;
 mod grid;
 mod poses;
+#[path = "../support/rows.rs"]
 mod rows;
 mod run;
 mod speed;
