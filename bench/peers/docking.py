@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """AutoDock Vina on the complexes that `roadmill ligand` is measured on, and both beside each other.
 
-    python3 -m venv peers && peers/bin/pip install vina meeko rdkit gemmi numpy
+    python3 -m venv peers && peers/bin/pip install vina meeko rdkit gemmi numpy scipy
     export ROADMILL_DATA=/path/to/data
     peers/bin/python bench/peers/docking.py prepare --crystal crystal          # boxes, and the crystal ligands as SDF
     peers/bin/python bench/peers/docking.py dock --seeds 1-10 --csv vina.csv   # runs that are in the file are not made again
