@@ -36,14 +36,6 @@ fn ask(
 ) -> (PreparedRobot, DeformingAnswer) {
     let description = description(built.problem());
     let mut settings = description.deformation().clone();
-    // Softer than the problem's own material, which does not get through.
-    settings.method = DeformationMethod::BoundingBox(BoundingBoxSettings {
-        lattice: [7; 3],
-        least: [0.1; 3],
-        greatest: [3.0; 3],
-        shear: 2.0,
-        ..BoundingBoxSettings::default()
-    });
     change(&mut settings);
     let prepared = PreparedRobot::new(description, settings).unwrap();
     let ends = built.problem().query().unwrap();

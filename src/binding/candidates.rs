@@ -182,7 +182,11 @@ pub fn candidates(
     }
     let energies: Vec<f64> = improved.iter().map(|of| of.energy).collect();
     let clusters = clusters(&energies, asked.radius, |leader, pose| {
-        distance(&improved[leader].positions, &improved[pose].positions)
+        // What is not compared by then joins nothing: a distance that is no number is within no radius.
+        match cancel.is_cancelled() {
+            true => f64::NAN,
+            false => distance(&improved[leader].positions, &improved[pose].positions),
+        }
     });
     let ways = asked.ways_out.then(|| WaysOut::of(exact, roadmap));
     let candidate = |cluster: &Cluster| {

@@ -27,7 +27,7 @@ pub use amino_acid::AminoAcid;
 pub use error::StructureError;
 pub use mmcif::mmcif;
 pub use read::{COORDINATE_MAX, read, read_bytes};
-pub use residue::{Atom, Residue, ResidueNumber};
+pub use residue::{Atom, Residue, ResidueNumber, is_water};
 pub use selection::{ChainSelection, find_chain, parse_range, select_chain, select_model};
 pub use torsion::torsion;
 

@@ -71,20 +71,24 @@ pub struct Residue {
     pub atoms: Vec<Atom>,
 }
 
+/// Whether a residue of this name is a molecule of water, by the names that the wwPDB and programs give it.
+pub fn is_water(name: &str) -> bool {
+    matches!(name, "HOH" | "DOD" | "WAT" | "H2O" | "SOL" | "TIP")
+        || matches!(
+            name.as_bytes(),
+            [b'T', b'I', b'P', _] | [b'T', b'P', b'3'] | [b'S', b'P', b'C'] | [b'S', b'P', b'C', _]
+        )
+}
+
 impl Residue {
     /// The position of the atom of this name.
     pub fn position(&self, name: &str) -> Option<Point> {
         self.atoms.iter().find(|atom| atom.name == name).map(|atom| atom.position)
     }
 
-    /// Whether it is a molecule of water, by the names that the wwPDB and programs give it.
+    /// Whether it is a molecule of water ([`is_water`]).
     pub fn is_water(&self) -> bool {
-        let name = self.name.as_str();
-        matches!(name, "HOH" | "DOD" | "WAT" | "H2O" | "SOL" | "TIP")
-            || matches!(
-                name.as_bytes(),
-                [b'T', b'I', b'P', _] | [b'S', b'P', b'C'] | [b'S', b'P', b'C', _]
-            )
+        is_water(&self.name)
     }
 
     /// The atoms of the side chain: the heavy ones that are not N, CA, C, O or OXT.
@@ -115,13 +119,7 @@ mod tests {
 
     #[test]
     fn water_has_many_names() {
-        let named = |name: &str| Residue {
-            number: ResidueNumber { number: 1, insertion: None },
-            name: name.to_owned(),
-            amino_acid: None,
-            atoms: Vec::new(),
-        };
-        assert!(["HOH", "TIP3", "SOL", "SPCE"].iter().all(|name| named(name).is_water()));
-        assert!(!["TIPX5", "ALA", ""].iter().any(|name| named(name).is_water()));
+        assert!(["HOH", "TIP3", "TP3", "SOL", "SPCE"].into_iter().all(is_water));
+        assert!(!["TIPX5", "ALA", ""].into_iter().any(is_water));
     }
 }

@@ -16,6 +16,8 @@ pub(super) struct Lattice {
     low: [f64; 3],
     /// Where the points rest, x fastest, then y, then z.
     pub points: Vec<[f64; 3]>,
+    /// In which place along each axis each point stands: looked up for each neighbour, which is faster than dividing its index.
+    places: Vec<[u32; 3]>,
 }
 
 impl Lattice {
@@ -29,16 +31,17 @@ impl Lattice {
         let counts = counts.map(|count| count as usize);
         let spacing =
             [0, 1, 2].map(|axis| (extent[axis] + 2.0 * margin[axis]) / (counts[axis] as f64 - 1.0));
-        let mut points = Vec::with_capacity(counts.iter().product());
-        for z in 0..counts[2] {
-            for y in 0..counts[1] {
-                for x in 0..counts[0] {
-                    let at = [x, y, z];
-                    points.push([0, 1, 2].map(|axis| low[axis] + spacing[axis] * at[axis] as f64));
-                }
+        let mut places = Vec::with_capacity(counts.iter().product());
+        for z in 0..counts[2] as u32 {
+            for y in 0..counts[1] as u32 {
+                places.extend((0..counts[0] as u32).map(|x| [x, y, z]));
             }
         }
-        Lattice { counts, spacing, low, points }
+        let at = |place: &[u32; 3]| {
+            [0, 1, 2].map(|axis| low[axis] + spacing[axis] * f64::from(place[axis]))
+        };
+        let points = places.iter().map(at).collect();
+        Lattice { counts, spacing, low, points, places }
     }
 
     /// How far apart the indices of neighbours along each axis are.
@@ -48,8 +51,7 @@ impl Lattice {
 
     /// In which place along each axis a point stands.
     pub fn place(&self, index: usize) -> [usize; 3] {
-        let [x, y, _] = self.counts;
-        [index % x, index / x % y, index / (x * y)]
+        self.places[index].map(|place| place as usize)
     }
 
     /// The neighbours of a point: the axis, whether it is the next one along the axis or the one before, and the index.

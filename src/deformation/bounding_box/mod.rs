@@ -44,6 +44,8 @@ pub struct BoundingBox {
     limits: Limits,
     free_form: FreeForm,
     cells: Cells,
+    /// The guide of all poses at which the centre of the box is free.
+    centre: Guide,
     /// A vertex of each connected piece of the robot.
     witnesses: Vec<u32>,
 }
@@ -79,6 +81,7 @@ impl BoundingBox {
             limits: Limits::new(settings, lattice.spacing),
             free_form: FreeForm::new(&lattice, settings.interpolation, body.vertices()),
             cells: Cells::new(&lattice, body.vertices()),
+            centre: Guide::centre(&lattice),
             witnesses: Obstacles::first_vertices(body.mesh()),
             lattice,
             body: body.clone(),
@@ -113,7 +116,7 @@ impl BoundingBox {
         let least = self.lattice.spacing.iter().fold(f64::INFINITY, |a, b| f64::min(a, *b));
         let (clearance, beyond) = (self.clearance, self.clearance + BEYOND * least);
         let scene = Scene { obstacles, pose, clearance, beyond };
-        let guide = Guide::choose(&self.lattice, &scene).ok_or(Refusal::NoGuide)?;
+        let guide = Guide::choose(&self.lattice, &self.centre, &scene).ok_or(Refusal::NoGuide)?;
         let mut pushes = Pushes::new(&self.lattice, &self.cells, rest, self.rays, guide, &scene);
         let step = STEP * least;
         let mut vertices = rest.to_vec();

@@ -63,16 +63,22 @@ impl Scene<'_> {
 }
 
 impl Guide {
+    /// The centre of the box, and the lattice points nearest to it.
+    pub fn centre(lattice: &Lattice) -> Guide {
+        let at = lattice.centre();
+        Guide { at, held: nearest(lattice, at, |_| true) }
+    }
+
     /// The centre of the box; where that is within an obstacle, the lattice point nearest to it that is not: of those equally near the
     /// one from which the most points of the box's surface are seen, and of these the first. `None` if all are within obstacles.
-    pub fn choose(lattice: &Lattice, scene: &Scene) -> Option<Guide> {
-        let centre = lattice.centre();
-        if !scene.obstacles.contains(scene.pose.apply(centre)) {
-            return Some(Guide { at: centre, held: nearest(lattice, centre, |_| true) });
+    /// `centre` is the guide of [`Guide::centre`], which is the same at all poses.
+    pub fn choose(lattice: &Lattice, centre: &Guide, scene: &Scene) -> Option<Guide> {
+        if !scene.obstacles.contains(scene.pose.apply(centre.at)) {
+            return Some(centre.clone());
         }
         let free =
             |index: &usize| !scene.obstacles.contains(scene.pose.apply(lattice.points[*index]));
-        let candidates = nearest(lattice, centre, |index| free(&index));
+        let candidates = nearest(lattice, centre.at, |index| free(&index));
         let surface: Vec<usize> =
             (0..lattice.points.len()).filter(|index| lattice.is_on_surface(*index)).collect();
         let seen = |index: &usize| {

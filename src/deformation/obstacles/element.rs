@@ -119,9 +119,21 @@ impl Element {
                 }
             }
             Element::Round(round, pose) => {
+                let reach = round.radius + margin;
+                // Most triangles near a ball have a corner within reach of it, or are beside it along an axis.
+                if round.half == 0.0 && round.flat.is_none() {
+                    let away = corners.map(|corner| corner - pose.translation);
+                    if away.iter().any(|corner| corner.length_squared() <= reach * reach) {
+                        return true;
+                    }
+                    let [a, b, c] = away;
+                    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+                    if low.max(-high).max_element() > reach {
+                        return false;
+                    }
+                }
                 let core = round.core(pose);
                 let (p, q) = nearest_points(lanes, corners, &core);
-                let reach = round.radius + margin;
                 let near = (p - q).length_squared() <= reach * reach;
                 // A cylinder is within the capsule around it.
                 near && round.flat.is_none_or(|(shape, at)| {

@@ -5,6 +5,7 @@ use super::super::error::{LigandError, LigandFault};
 use super::super::perceive::bonds_by_distance;
 use super::super::{Atom, Bond, BondOrder, BondSource, Element, Ligand, graph};
 use super::{columns, expect_ascii, expect_molecule, ligand, number, position};
+use crate::structure::is_water;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -39,9 +40,6 @@ impl fmt::Display for Group {
     }
 }
 
-/// Molecules of water by the names that they have in files, of longer names the first three letters: `TIP3`.
-const WATERS: [&str; 7] = ["HOH", "DOD", "WAT", "H2O", "SOL", "TIP", "TP3"];
-
 /// A residue of HETATM records.
 #[derive(Default)]
 struct Residue<'a> {
@@ -70,10 +68,6 @@ impl<'a> Key<'a> {
             && wanted.chain.as_deref().is_none_or(|chain| chain == self.chain)
             && wanted.number.is_none_or(|number| self.number.parse() == Ok(number))
             && wanted.insertion.is_none_or(|code| self.insertion.chars().eq([code]))
-    }
-
-    fn is_water(&self) -> bool {
-        self.residue.get(..3).is_some_and(|residue| WATERS.contains(&residue))
     }
 }
 
@@ -168,7 +162,7 @@ impl<'a> Groups<'a> {
     /// The residues that may be meant when none is named.
     fn candidates(&self) -> impl Iterator<Item = &(Key<'a>, Residue<'a>)> {
         let is_candidate =
-            |(key, residue): &&(Key, Residue)| !key.is_water() && residue.chosen().len() > 1;
+            |(key, residue): &&(Key, Residue)| !is_water(key.residue) && residue.chosen().len() > 1;
         self.residues.iter().filter(is_candidate)
     }
 }

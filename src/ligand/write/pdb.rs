@@ -5,7 +5,7 @@ use super::super::{Atom, BondOrder, Ligand};
 use super::names::atom_names;
 use super::{check_positions, cut, too_wide};
 use crate::internal::plain::plain;
-use crate::structure::Point;
+use crate::structure::{Point, is_water};
 use std::fmt::Write;
 
 /// What the residue is called.
@@ -41,9 +41,6 @@ const MODELS_MAX: usize = 9_999;
 const NUMBERS: std::ops::RangeInclusive<i32> = -999..=9_999;
 const COORDINATES: std::ops::RangeInclusive<f64> = -999.999_4..=9_999.999_4;
 const REMARK_MAX: usize = 69;
-
-/// Names of water, which readers pass over where they look for ligands.
-const WATERS: [&str; 7] = ["HOH", "DOD", "WAT", "H2O", "SOL", "TIP", "TP3"];
 
 /// The poses of a ligand as a PDB file: each one residue of HETATM records, several as models, and the bonds as CONECT records at
 /// the end. Positions have three decimals; atoms have the serial numbers from 1 on in every model.
@@ -118,7 +115,7 @@ fn record(
     let [x, y, z] = [position.x, position.y, position.z].map(|x| x + 0.0);
     let is_name = (1..=3).contains(&residue.name.len())
         && residue.name.bytes().all(|byte| byte.is_ascii_alphanumeric())
-        && !WATERS.contains(&&*residue.name);
+        && !is_water(&residue.name);
     let residue_name = if is_name { &residue.name } else { "UNL" };
     let symbol = atom.element.symbol();
     // Symbols of one letter begin in the second column of the name.
