@@ -6,7 +6,7 @@ use super::rows::median;
 use super::scenes::{Ways, scene};
 
 /// The head of the rows.
-const HEAD: &str = "study,scene,feasibility,method,nodes,seed,components,generation,connection,solved,query,deforming,tried,failed,mean_deformation,frames,highest_energy,removed";
+const HEAD: &str = "study,scene,feasibility,vectors,method,nodes,seed,components,generation,connection,solved,query,deforming,tried,failed,mean_deformation,frames,highest_energy,removed";
 const METHODS: [&str; 2] = ["bounding-box", "geometric"];
 
 /// The medians of a row's columns over the seeds.
@@ -31,7 +31,8 @@ fn row(asked: &mut Asked, study: &str, name: &str, ways: &Ways, labels: [&str; 2
     let limit = asked.limit;
     let rows: Vec<Vec<f64>> = (asked.seeds.clone())
         .flat_map(|seed| {
-            let key = format!("{study},{name},{feasibility},{method},{nodes},{seed}");
+            let vectors = asked.vectors;
+            let key = format!("{study},{name},{feasibility},{vectors},{method},{nodes},{seed}");
             let folder = asked.out.join(format!("{study}-{name}-{feasibility}-{method}"));
             asked.rows.of(HEAD, &key, || {
                 eprintln!("{key}");
@@ -100,7 +101,7 @@ pub fn table1(mut asked: Asked) {
         if !asked.scenes.is_empty() && !asked.scenes.iter().any(|of| of == name) {
             continue;
         }
-        let depth = format!("{{ depth = {} }}", 25.0 * scene(name).resolution);
+        let depth = penetration(&asked, 25.0 * scene(name).resolution);
         let text: &str =
             if feasibility == "scaled" { "{ scales = 6, least = 0.5 }" } else { &depth };
         let [boxes, geometric] = METHODS.map(|label| {
@@ -136,7 +137,7 @@ pub fn table1(mut asked: Asked) {
 /// Table VIII.
 pub fn table2(mut asked: Asked) {
     let r = scene("narrow").resolution;
-    let [large, small] = [25.0, 15.0].map(|times| format!("{{ depth = {} }}", times * r));
+    let [large, small] = [25.0, 15.0].map(|times| penetration(&asked, times * r));
     let paper = [
         ("2-scales", "{ scales = [1.0, 0.5] }", "22 | 2.8", "619 | 617 | 1403 | 25", "–"),
         (
@@ -155,6 +156,9 @@ pub fn table2(mut asked: Asked) {
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
     for (label, text, roadmap, boxes, geometric) in paper {
+        if !asked.scenes.is_empty() && !asked.scenes.iter().any(|of| of == label) {
+            continue;
+        }
         for (name, of_paper) in METHODS.into_iter().zip([boxes, geometric]) {
             if !is_asked(&asked, name) {
                 continue;
@@ -179,6 +183,11 @@ pub fn table2(mut asked: Asked) {
             );
         }
     }
+}
+
+/// The feasibility by penetration up to a depth.
+fn penetration(asked: &Asked, depth: f64) -> String {
+    format!("{{ depth = {depth}, vectors = {} }}", asked.vectors)
 }
 
 fn is_asked(asked: &Asked, method: &str) -> bool {

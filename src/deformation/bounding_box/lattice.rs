@@ -57,11 +57,11 @@ impl Lattice {
     /// The neighbours of a point: the axis, whether it is the next one along the axis or the one before, and the index.
     pub fn neighbours(&self, index: usize) -> impl Iterator<Item = (usize, bool, usize)> + use<> {
         let (place, strides, counts) = (self.place(index), self.strides(), self.counts);
-        (0..3).flat_map(move |axis| {
-            let before = (place[axis] > 0).then(|| (axis, false, index - strides[axis]));
-            let next =
-                (place[axis] + 1 < counts[axis]).then(|| (axis, true, index + strides[axis]));
-            before.into_iter().chain(next)
+        (0..6).filter_map(move |side| {
+            let (axis, next) = (side / 2, side % 2 == 1);
+            let is_there = if next { place[axis] + 1 < counts[axis] } else { place[axis] > 0 };
+            let neighbour = || if next { index + strides[axis] } else { index - strides[axis] };
+            is_there.then(|| (axis, next, neighbour()))
         })
     }
 

@@ -31,7 +31,8 @@ pub(super) fn relax(
                     }
                 }
             }
-            *new = intervals[index].nearest(sum.map(|s| s / 6.0));
+            let [x, y, z] = sum;
+            *new = intervals[index].nearest([x / 6.0, y / 6.0, z / 6.0]);
         }
         std::mem::swap(displacements, &mut next);
     }

@@ -84,16 +84,16 @@ impl Interval {
     }
 
     /// The displacement within the interval that is nearest to another.
-    pub fn nearest(&self, to: [f64; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|k| {
-            if to[k] < self.least[k] {
-                self.least[k]
-            } else if to[k] > self.greatest[k] {
-                self.greatest[k]
-            } else {
-                to[k]
+    pub fn nearest(&self, mut to: [f64; 3]) -> [f64; 3] {
+        // A loop, since `map` of arrays is not always compiled in place, and relaxation asks this ten times for every point.
+        for (k, to) in to.iter_mut().enumerate() {
+            if *to < self.least[k] {
+                *to = self.least[k];
+            } else if *to > self.greatest[k] {
+                *to = self.greatest[k];
             }
-        })
+        }
+        to
     }
 
     /// Where the neighbour of a point with this interval may be, the next one along `axis` or the one before.
