@@ -55,6 +55,7 @@ impl Lattice {
     }
 
     /// The neighbours of a point: the axis, whether it is the next one along the axis or the one before, and the index.
+    #[inline]
     pub fn neighbours(&self, index: usize) -> impl Iterator<Item = (usize, bool, usize)> + use<> {
         let (place, strides, counts) = (self.place(index), self.strides(), self.counts);
         (0..6).filter_map(move |side| {

@@ -15,24 +15,33 @@ pub(super) fn relax(
     sweeps: u32,
     displacements: &mut Vec<[f64; 3]>,
 ) {
-    let strides = lattice.strides();
+    let [width, rows, layers] = lattice.counts;
     let mut next = vec![[0.0; 3]; displacements.len()];
     for _ in 0..sweeps {
-        for (index, new) in next.iter_mut().enumerate() {
-            let place = lattice.place(index);
-            let mut sum = [0.0; 3];
-            for axis in 0..3 {
-                let before = if place[axis] > 0 { index - strides[axis] } else { index };
-                let is_last = place[axis] + 1 == lattice.counts[axis];
-                let after = if is_last { index } else { index + strides[axis] };
-                for neighbour in [before, after] {
-                    for k in 0..3 {
-                        sum[k] += displacements[neighbour][k];
+        for row in 0..rows * layers {
+            // The rows beside this one along y and z; this one itself where none is.
+            let (y, z) = (row % rows, row / rows);
+            let at = |row: usize| &displacements[row * width..][..width];
+            let beside = [
+                at(if y > 0 { row - 1 } else { row }),
+                at(if y + 1 < rows { row + 1 } else { row }),
+                at(if z > 0 { row - rows } else { row }),
+                at(if z + 1 < layers { row + rows } else { row }),
+            ];
+            let own = at(row);
+            for x in 0..width {
+                let mut sum = [0.0; 3];
+                for k in 0..3 {
+                    let (before, after) = (x.saturating_sub(1), (x + 1).min(width - 1));
+                    sum[k] += own[before][k] + own[after][k];
+                    for row in beside {
+                        sum[k] += row[x][k];
                     }
                 }
+                sum.iter_mut().for_each(|sum| *sum /= 6.0);
+                let index = row * width + x;
+                next[index] = intervals[index].nearest(sum);
             }
-            let [x, y, z] = sum;
-            *new = intervals[index].nearest([x / 6.0, y / 6.0, z / 6.0]);
         }
         std::mem::swap(displacements, &mut next);
     }

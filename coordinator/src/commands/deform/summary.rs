@@ -34,9 +34,11 @@ pub(super) fn summary(
     match legs {
         true => facts.push(("legs", format!("{edges} deformed, {removed} refused"))),
         false => {
-            let searches = answer.searches;
-            let text =
-                format!("{edges} deformed, {removed} removed, in {searches} searches for a path");
+            let searches = match answer.searches {
+                1 => "one search".to_owned(),
+                searches => format!("{searches} searches"),
+            };
+            let text = format!("{edges} deformed, {removed} removed, in {searches} for a path");
             facts.push(("edges", text));
         }
     }

@@ -84,6 +84,7 @@ impl Interval {
     }
 
     /// The displacement within the interval that is nearest to another.
+    #[inline]
     pub fn nearest(&self, mut to: [f64; 3]) -> [f64; 3] {
         // A loop, since `map` of arrays is not always compiled in place, and relaxation asks this ten times for every point.
         for (k, to) in to.iter_mut().enumerate() {
@@ -97,6 +98,7 @@ impl Interval {
     }
 
     /// Where the neighbour of a point with this interval may be, the next one along `axis` or the one before.
+    #[inline]
     fn of_neighbour(&self, limits: &Limits, axis: usize, next: bool) -> Interval {
         let [mut least, mut greatest] = [self.least, self.greatest];
         for k in 0..3 {
@@ -110,16 +112,22 @@ impl Interval {
     }
 
     /// Narrows the interval to what it has in common with another. Whether that changed it.
+    #[inline]
     fn narrow(&mut self, to: &Interval) -> bool {
         let mut changed = false;
         for k in 0..3 {
-            if to.least[k] > self.least[k] {
-                self.least[k] = to.least[k];
-                changed = true;
-            }
-            if to.greatest[k] < self.greatest[k] {
-                self.greatest[k] = to.greatest[k];
-                changed = true;
+            changed |= to.least[k] > self.least[k];
+            changed |= to.greatest[k] < self.greatest[k];
+        }
+        // Most looks at a neighbour change nothing.
+        if changed {
+            for k in 0..3 {
+                if to.least[k] > self.least[k] {
+                    self.least[k] = to.least[k];
+                }
+                if to.greatest[k] < self.greatest[k] {
+                    self.greatest[k] = to.greatest[k];
+                }
             }
         }
         changed
