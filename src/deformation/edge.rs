@@ -96,7 +96,11 @@ pub(super) fn deform_motion(
         for next in stops_after {
             let gap = match before.is_closed {
                 true => Gap::Closed(Vec::new()),
-                false => gap(motion, [&before, &next], shapes)?,
+                // What is refused after the end of the search is no verdict, as the method may have been stopped.
+                false => match gap(motion, [&before, &next], shapes) {
+                    Err(_) if cancel.is_cancelled() => return Err(Unfinished::Cancelled),
+                    found => found?,
+                },
             };
             match gap {
                 Gap::Closed(blends) => {
@@ -109,13 +113,14 @@ pub(super) fn deform_motion(
                     finer.push(stop(motion, at, shapes, cancel)?);
                 }
             }
-            if finer.len() > FRAMES_MAX {
+            if finer.len() > FRAMES_MAX.min(shapes.room) {
                 return Err(Refusal::Frames.into());
             }
             before = next;
         }
         finer.push(before);
         if is_done {
+            shapes.room = shapes.room.saturating_sub(finer.len());
             return Ok(DeformedMotion { stops: finer });
         }
         stops = finer;
@@ -134,7 +139,12 @@ fn stop(
     }
     let configuration = configuration(motion, at, shapes);
     let is_turn = at.fract() == 0.0;
-    let shape = if is_turn { shapes.at_end(&configuration) } else { shapes.at(&configuration) }?;
+    let shape = if is_turn { shapes.at_end(&configuration) } else { shapes.at(&configuration) };
+    // A deformation may take long. What it came to after the end of the search is no verdict of the search.
+    if cancel.is_cancelled() {
+        return Err(Unfinished::Cancelled);
+    }
+    let shape = shape?;
     let pose = (shapes.robot.pose)(&configuration);
     Ok(Stop { at, configuration, pose, shape, is_blend: false, is_closed: false })
 }
@@ -181,7 +191,7 @@ fn blends(
 ) -> Option<Vec<Stop>> {
     let longest = shapes.robot.longest_movement();
     let pieces = (moved / longest).ceil();
-    if pieces >= FRAMES_MAX as f64 {
+    if pieces >= FRAMES_MAX.min(shapes.room) as f64 {
         return None;
     }
     // The pose turns meanwhile, so that the pieces are unequal by a little.

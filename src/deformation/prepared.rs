@@ -34,6 +34,9 @@ impl PreparedRobot {
     ) -> Result<PreparedRobot, String> {
         let body = SoftBody::new(description.surface())?;
         let bodies = description.bodies();
+        if let Some(complaint) = settings.complaint(bodies) {
+            return Err(complaint);
+        }
         let robot = bodies.robot().clone();
         let reach = movement(&vec![[0.0; 3]; body.vertices().len()], body.vertices());
         let DeformationSettings { highest_energy, clearance, .. } = settings;

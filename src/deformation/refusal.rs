@@ -9,8 +9,6 @@ pub enum Refusal {
     Limits,
     /// After all rounds of the method the shape still meets an obstacle, or is nearer to one than it may be.
     Collides,
-    /// The shape leaves the bounds of the space.
-    OutOfBounds,
     /// The surface of the shape meets itself.
     SelfCollision,
     /// The shape is free, but its energy is this, higher than is accepted.
@@ -28,9 +26,10 @@ impl fmt::Display for Refusal {
             Refusal::NoGuide => write!(f, "its middle is within an obstacle"),
             Refusal::Limits => write!(f, "the limits of the material"),
             Refusal::Collides => write!(f, "no shape that was tried is free"),
-            Refusal::OutOfBounds => write!(f, "the shape leaves the bounds"),
             Refusal::SelfCollision => write!(f, "the shape meets itself"),
-            Refusal::Energy(energy) => write!(f, "an energy of {energy}"),
+            Refusal::Energy(energy) => {
+                write!(f, "an energy of {energy}, above the highest that is accepted")
+            }
             Refusal::Jump(moved) => write!(f, "the shape jumps: a vertex by {moved}"),
             Refusal::Frames => write!(f, "more frames than can be made"),
         }

@@ -57,7 +57,12 @@ pub(super) struct Shapes<'a> {
     rest: Arc<[[f64; 3]]>,
     at_ends: BTreeMap<Vec<u64>, Result<Shape, Refusal>>,
     pub took: Deformations,
+    /// How many more frames can be kept.
+    pub room: usize,
 }
+
+/// The most vertices of all frames that a query keeps, 800 MB of them.
+const VERTICES_MAX: usize = 1 << 25;
 
 impl DeformableRobot<'_> {
     /// What is wrong with the lengths, in words: the field, what was found and what is expected.
@@ -95,17 +100,16 @@ impl DeformableRobot<'_> {
 
     /// Whether a blend of two shapes is free of obstacles where the robot's frame has a pose, and accepted by the method.
     fn accepts_blend(&self, pose: &Pose, vertices: &[[f64; 3]]) -> bool {
-        let is_free = |world: &[[f64; 3]]| {
-            self.obstacles.is_free(world, self.body.triangles(), self.clearance)
-        };
-        self.method.accepts_blend(pose, vertices) && is_free(&placed(vertices, pose))
+        self.method.accepts_blend(pose, vertices)
+            && self.obstacles.is_free_body(self.body, &placed(vertices, pose), self.clearance)
     }
 }
 
 impl<'a> Shapes<'a> {
     pub fn new(robot: DeformableRobot<'a>) -> Shapes<'a> {
         let rest = robot.body.vertices().into();
-        Shapes { robot, rest, at_ends: BTreeMap::new(), took: Deformations::default() }
+        let room = VERTICES_MAX / robot.body.vertices().len().max(1);
+        Shapes { robot, rest, at_ends: BTreeMap::new(), took: Deformations::default(), room }
     }
 
     /// The shape at a configuration.

@@ -36,8 +36,15 @@ impl<'a> Search<'a> {
         if self.cancel.is_cancelled() {
             return Err(NoDeformedPath::Cancelled);
         }
-        self.shapes.at_end(start).map_err(NoDeformedPath::Start)?;
-        self.shapes.at_end(goal).map_err(NoDeformedPath::Goal)?;
+        let ends: [(_, fn(Refusal) -> _); 2] =
+            [(start, NoDeformedPath::Start), (goal, NoDeformedPath::Goal)];
+        for (end, refused) in ends {
+            let found = self.shapes.at_end(end);
+            if self.cancel.is_cancelled() {
+                return Err(NoDeformedPath::Cancelled);
+            }
+            found.map_err(refused)?;
+        }
         Ok(())
     }
 

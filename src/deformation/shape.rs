@@ -28,3 +28,17 @@ pub trait Deform {
         true
     }
 }
+
+/// Checks the lengths that every method of deformation has.
+pub(super) fn lengths(highest_energy: f64, clearance: f64) -> Result<(), String> {
+    // Each written so that NaN fails it.
+    let fits = highest_energy >= 0.0;
+    if !fits {
+        return Err(format!("highest_energy: {highest_energy} found; at least 0 expected"));
+    }
+    let fits = clearance >= 0.0 && clearance.is_finite();
+    if !fits {
+        return Err(format!("clearance: {clearance} found; a length of at least 0 expected"));
+    }
+    Ok(())
+}

@@ -29,21 +29,52 @@ impl Mesh {
         odd_edges(&self.triangles)
     }
 
+    /// Number of edges along which triangles are not turned the same way: walked in one direction more often than in the other, where every
+    /// triangle is walked around counter-clockwise. 0 for a closed surface that tells inside from outside.
+    pub fn unevenly_turned_edges(&self) -> usize {
+        let mut walked = BTreeMap::new();
+        for [a, b, c] in &self.triangles {
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                let along = if from < to { 1i64 } else { -1 };
+                *walked.entry((from.min(to), from.max(to))).or_insert(0) += along;
+            }
+        }
+        walked.values().filter(|sum| **sum != 0).count()
+    }
+
     /// Whether the surface is closed, so that it has an inside.
     pub fn is_closed(&self) -> bool {
         self.odd_edges() == 0
     }
 
+    /// Why the mesh is not the surface of something solid, if it is not: it is open, or inside and outside cannot be told.
+    pub fn surface_complaint(&self) -> Option<String> {
+        match (self.odd_edges(), self.unevenly_turned_edges()) {
+            (0, 0) => None,
+            (0, uneven) => Some(format!(
+                "a mesh with {uneven} edges along which triangles are not turned the same way found; triangles all counter-clockwise, seen from outside, expected"
+            )),
+            (open, _) => {
+                Some(format!("a mesh with {open} open edges found; a closed mesh expected"))
+            }
+        }
+    }
+
     /// A point of each connected piece of the surface: its first vertex. Pieces are connected by vertices
     /// in common.
     pub(crate) fn witnesses(&self) -> Vec<[f64; 3]> {
-        let mut witnesses = Vec::new();
-        for (vertex, piece) in self.vertices.iter().zip(self.pieces()) {
-            if piece == Some(witnesses.len()) {
-                witnesses.push(*vertex);
+        self.first_vertices().into_iter().map(|index| self.vertices[index as usize]).collect()
+    }
+
+    /// The first vertex of each connected piece of the surface, by its number.
+    pub(crate) fn first_vertices(&self) -> Vec<u32> {
+        let mut first = Vec::new();
+        for (vertex, piece) in (0u32..).zip(self.pieces()) {
+            if piece == Some(first.len()) {
+                first.push(vertex);
             }
         }
-        witnesses
+        first
     }
 
     /// Per vertex the number of the connected piece of the surface that it belongs to, in the order of the pieces' first

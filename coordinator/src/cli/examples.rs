@@ -116,8 +116,8 @@ const EXAMPLES: &[(&[&str], &[Example])] = &[
                 "roadmill deform runs/squeeze --html squeeze.html",
             ),
             (
-                "By its own triangles, with at most so much energy",
-                "roadmill deform runs/squeeze --method geometric --highest-energy 20",
+                "With at most so much energy, and farther from the obstacles",
+                "roadmill deform runs/squeeze --highest-energy 40 --clearance 0.015",
             ),
             (
                 "Another body along a path that was found",

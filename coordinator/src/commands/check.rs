@@ -21,7 +21,9 @@ pub fn check(arguments: &CheckArguments) -> Result<Code, Failure> {
     }
     if let Some(samples) = arguments.touching {
         let Some(bodies) = problem.model().bodies() else {
-            return Err(Failure::usage("--touching found; a robot of links expected"));
+            return Err(Failure::usage(
+                "--touching found; a robot of links without the table [deformable] expected",
+            ));
         };
         lines(bodies.may_touch_lines(samples, problem.seed()).trim_end());
         return Ok(Code::Done);

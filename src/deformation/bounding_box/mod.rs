@@ -11,6 +11,7 @@ mod tests;
 
 pub use push::Rays;
 
+use super::shape::lengths;
 use super::{Deform, Deformed, Obstacles, Refusal, SoftBody};
 use crate::model::deformable::BoundingBoxSettings;
 use crate::scene::Pose;
@@ -29,9 +30,6 @@ const STEP: f64 = 0.1;
 /// How far beyond the clearance points are pushed, as a share of the least spacing of the lattice.
 const BEYOND: f64 = 0.02;
 
-/// The largest number of lattice points.
-const POINTS_MAX: u64 = 1 << 20;
-
 /// Deforms a robot by its bounding box.
 pub struct BoundingBox {
     body: SoftBody,
@@ -46,8 +44,6 @@ pub struct BoundingBox {
     cells: Cells,
     /// The guide of all poses at which the centre of the box is free.
     centre: Guide,
-    /// A vertex of each connected piece of the robot.
-    witnesses: Vec<u32>,
 }
 
 /// How one shape was found.
@@ -66,8 +62,7 @@ impl BoundingBox {
     /// are nearer to an obstacle than `clearance`; both are lengths. The energy is the sum of the displacements of all lattice points.
     ///
     /// # Errors
-    /// What is wrong with the settings: the lattice has fewer than 2 points along an axis, or more than 2²⁰ in all; the limits are
-    /// inside out; a length is negative or no number.
+    /// What is wrong with the settings ([`BoundingBoxSettings::complaint`]), or with a length: it is negative or no number.
     pub fn new(
         body: &SoftBody,
         settings: &BoundingBoxSettings,
@@ -75,14 +70,16 @@ impl BoundingBox {
         clearance: f64,
         obstacles: Arc<Obstacles>,
     ) -> Result<BoundingBox, String> {
-        check(settings, highest_energy, clearance)?;
+        if let Some((key, message)) = settings.complaint() {
+            return Err(format!("{key}: {message}"));
+        }
+        lengths(highest_energy, clearance)?;
         let lattice = Lattice::around(body.mesh(), settings.lattice);
         Ok(BoundingBox {
             limits: Limits::new(settings, lattice.spacing),
             free_form: FreeForm::new(&lattice, settings.interpolation, body.vertices()),
             cells: Cells::new(&lattice, body.vertices()),
             centre: Guide::centre(&lattice),
-            witnesses: Obstacles::first_vertices(body.mesh()),
             lattice,
             body: body.clone(),
             settings: settings.clone(),
@@ -181,8 +178,7 @@ impl BoundingBox {
     }
 
     fn is_free(&self, in_world: &[[f64; 3]]) -> bool {
-        let triangles = self.body.triangles();
-        self.obstacles.is_free_with(in_world, triangles, &self.witnesses, self.clearance)
+        self.obstacles.is_free_body(&self.body, in_world, self.clearance)
     }
 }
 
@@ -195,49 +191,4 @@ impl Deform for BoundingBox {
 /// The sum of all lengths.
 fn energy(displacements: &[[f64; 3]]) -> f64 {
     displacements.iter().map(|[x, y, z]| (x * x + y * y + z * z).sqrt()).sum()
-}
-
-fn check(
-    settings: &BoundingBoxSettings,
-    highest_energy: f64,
-    clearance: f64,
-) -> Result<(), String> {
-    let [x, y, z] = settings.lattice;
-    if settings.lattice.iter().any(|count| *count < 2) {
-        return Err(format!(
-            "a lattice of {x} × {y} × {z} found; at least 2 points along each axis expected"
-        ));
-    }
-    // Counts fit, so that products of two do, too.
-    if u64::from(x) * u64::from(y) > POINTS_MAX
-        || u64::from(x) * u64::from(y) * u64::from(z) > POINTS_MAX
-    {
-        return Err(format!(
-            "a lattice of {x} × {y} × {z} found; at most {POINTS_MAX} points expected"
-        ));
-    }
-    for share in settings.least {
-        if !(share > 0.0 && share <= 1.0) {
-            return Err(format!(
-                "{share} as a least distance found; a share above 0 and at most 1 expected"
-            ));
-        }
-    }
-    for share in settings.greatest {
-        if !(share >= 1.0 && share.is_finite()) {
-            return Err(format!(
-                "{share} as a greatest distance found; a share of at least 1 expected"
-            ));
-        }
-    }
-    if !(settings.shear >= 0.0 && settings.shear.is_finite()) {
-        return Err(format!("{} as shear found; a share of at least 0 expected", settings.shear));
-    }
-    if highest_energy.is_nan() || highest_energy < 0.0 {
-        return Err(format!("{highest_energy} as the highest energy found; at least 0 expected"));
-    }
-    if !(clearance >= 0.0 && clearance.is_finite()) {
-        return Err(format!("{clearance} as the clearance found; at least 0 expected"));
-    }
-    Ok(())
 }

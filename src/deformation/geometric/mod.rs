@@ -25,6 +25,7 @@ use self::attempt::Attempt;
 use self::self_collision::SelfCollision;
 use self::smoothing::Limits;
 use self::surface::Surface;
+use super::shape::lengths;
 use super::{Deform, Deformed, Obstacles, Refusal, SoftBody};
 use crate::model::deformable::GeometricSettings;
 use crate::scene::Pose;
@@ -65,7 +66,10 @@ impl Geometric {
         clearance: f64,
         obstacles: Arc<Obstacles>,
     ) -> Result<Geometric, String> {
-        check(settings, highest_energy, clearance)?;
+        if let Some((key, message)) = settings.complaint() {
+            return Err(format!("{key}: {message}"));
+        }
+        lengths(highest_energy, clearance)?;
         let surface = Surface::new(body);
         let rest: Vec<Vector> = body.vertices().iter().copied().map(Vector::from_array).collect();
         let centroid = guide::centroid(body);
@@ -91,37 +95,11 @@ impl Geometric {
     }
 }
 
-/// What of the settings is out of its range.
-fn check(settings: &GeometricSettings, highest_energy: f64, clearance: f64) -> Result<(), String> {
-    let GeometricSettings { shortest, longest, neighbourhood, guide, rounds, .. } = *settings;
-    let not_negative = |value: f64| value >= 0.0 && value.is_finite();
-    let wrong = [
-        (
-            (0.0..=1.0).contains(&shortest),
-            "shortest",
-            shortest,
-            "a share of at least 0 and at most 1",
-        ),
-        (longest >= 1.0 && longest.is_finite(), "longest", longest, "a share of at least 1"),
-        (not_negative(neighbourhood), "neighbourhood", neighbourhood, "a length of at least 0"),
-        (guide > 0.0 && guide < 1.0, "guide", guide, "a scale above 0 and below 1"),
-        (rounds > 0, "rounds", rounds.into(), "at least 1"),
-        (highest_energy >= 0.0, "highest_energy", highest_energy, "a length of at least 0"),
-        (not_negative(clearance), "clearance", clearance, "a length of at least 0"),
-    ];
-    match wrong.into_iter().find(|(is_right, ..)| !is_right) {
-        None => Ok(()),
-        Some((_, key, value, expected)) => {
-            Err(format!("{key} of {value} found; {expected} expected"))
-        }
-    }
-}
-
 impl Deform for Geometric {
     fn deform(&self, pose: &Pose) -> Result<Deformed, Refusal> {
         let rest: Vec<[f64; 3]> =
             self.body.vertices().iter().map(|vertex| pose.apply(*vertex)).collect();
-        if self.obstacles.is_free(&rest, self.body.triangles(), self.clearance) {
+        if self.obstacles.is_free_body(&self.body, &rest, self.clearance) {
             return Ok(Deformed { vertices: self.body.vertices().to_vec(), energy: 0.0 });
         }
         Attempt::new(self, pose, rest).deform()

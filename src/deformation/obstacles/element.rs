@@ -1,6 +1,5 @@
 //! Parts of obstacles' surfaces: triangles and round shapes.
 
-use super::convex;
 use super::hits;
 use crate::lanes::Lanes;
 use crate::model::bodies::validity::{Convex, nearest, nearest_points, separating_axis};
@@ -43,7 +42,7 @@ impl Round {
                 Some(Round { radius: *radius, half: height / 2.0, flat: None })
             }
             Shape::Cylinder { radius, height } => {
-                Some(Round { radius: *radius, half: height / 2.0, flat: convex(shape) })
+                Some(Round { radius: *radius, half: height / 2.0, flat: Convex::of(shape) })
             }
             Shape::Point | Shape::Box { .. } | Shape::Mesh(_) => None,
         }

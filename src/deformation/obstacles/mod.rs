@@ -11,7 +11,7 @@ mod surface;
 mod tests;
 
 use crate::lanes::Lanes;
-use crate::model::bodies::validity::{Convex, Inside};
+use crate::model::bodies::validity::Inside;
 use crate::scene::{Body, Shape, box_surface};
 use element::{Element, Round};
 use parry3d_f64::bounding_volume::Aabb;
@@ -129,7 +129,7 @@ impl Obstacles {
                 && hits::line_meets_box(from, to, node.mins(), node.maxs())
         };
         let mut found: Option<(f64, f64)> = None;
-        for leaf in self.leaves(crossed) {
+        for leaf in self.tree.leaves(crossed) {
             self.elements[leaf as usize].hits(from, to, &mut |share| {
                 let (first, last) = found.unwrap_or((share, share));
                 found = Some((first.min(share), last.max(share)));
@@ -143,7 +143,7 @@ impl Obstacles {
     pub fn is_near(&self, triangle: [[f64; 3]; 3], clearance: f64) -> bool {
         let corners = triangle.map(Vector::from_array);
         let (margin, low, high) = self.margin(&corners, clearance);
-        self.leaves(|node| overlap(node, low, high, margin)).any(|leaf| {
+        self.tree.leaves(|node| overlap(node, low, high, margin)).any(|leaf| {
             self.elements[leaf as usize].is_near(self.lanes, &corners, margin, self.size)
         })
     }
@@ -160,7 +160,7 @@ impl Obstacles {
         let corners = triangle.map(Vector::from_array);
         let (margin, low, high) = self.margin(&corners, clearance);
         let mut near: SmallVec<[u32; 32]> =
-            self.leaves(|node| overlap(node, low, high, margin)).collect();
+            self.tree.leaves(|node| overlap(node, low, high, margin)).collect();
         near.sort_unstable();
         for leaf in near {
             let element = &self.elements[leaf as usize];
@@ -176,11 +176,6 @@ impl Obstacles {
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let size = self.size.max(low.abs().max(high.abs()).max_element());
         (clearance.max(0.0) + TOUCHING * size, low, high)
-    }
-
-    /// The parts of surfaces whose boxes, and all boxes around which, are not ruled out.
-    fn leaves(&self, may: impl Fn(&BvhNode) -> bool) -> impl Iterator<Item = u32> {
-        self.tree.leaves(may)
     }
 }
 
@@ -202,9 +197,4 @@ impl Solid {
             Filled::Mesh(inside) => inside.contains(local),
         }
     }
-}
-
-/// The shape of a round obstacle for parry, with its pose in the obstacle's frame.
-fn convex(shape: &Shape) -> Option<(Convex, ParryPose)> {
-    Convex::of(shape)
 }

@@ -1,6 +1,7 @@
 //! Whether a closed surface is free of obstacles.
 
 use super::{Obstacles, overlap};
+use crate::deformation::SoftBody;
 use crate::model::bodies::validity::{Inside, crossing};
 use crate::scene::Mesh;
 use parry3d_f64::math::Vector;
@@ -15,29 +16,12 @@ impl Obstacles {
             && !self.are_within(vertices, triangles)
     }
 
-    /// The same of a surface whose connected pieces are known already: `witnesses` are vertices, one of each piece
-    /// ([`first_vertices`](Obstacles::first_vertices)).
-    pub fn is_free_with(
-        &self,
-        vertices: &[[f64; 3]],
-        triangles: &[[u32; 3]],
-        witnesses: &[u32],
-        clearance: f64,
-    ) -> bool {
-        !witnesses.iter().any(|index| self.contains(vertices[*index as usize]))
+    /// The same of a shape of a robot, whose pieces are known already.
+    pub fn is_free_body(&self, body: &SoftBody, vertices: &[[f64; 3]], clearance: f64) -> bool {
+        let triangles = body.triangles();
+        !body.witnesses().iter().any(|index| self.contains(vertices[*index as usize]))
             && self.surfaces_are_apart(vertices, triangles, clearance)
             && !self.are_within(vertices, triangles)
-    }
-
-    /// The first vertex of each connected piece of a surface.
-    pub fn first_vertices(mesh: &Mesh) -> Vec<u32> {
-        let mut first = Vec::new();
-        for (vertex, piece) in mesh.pieces().into_iter().enumerate() {
-            if piece == Some(first.len()) {
-                first.push(vertex as u32);
-            }
-        }
-        first
     }
 
     /// Whether no triangle is nearer than `clearance` to an obstacle's surface.
@@ -50,7 +34,7 @@ impl Obstacles {
         let (low, high) = bounding_box(vertices, triangles);
         let (margin, ..) = self.margin(&[low, high, low], clearance);
         // Obstacles are often all far away.
-        self.leaves(|node| overlap(node, low, high, margin)).next().is_none()
+        self.tree.leaves(|node| overlap(node, low, high, margin)).next().is_none()
             || !triangles.iter().any(|corners| {
                 self.is_near(corners.map(|corner| vertices[corner as usize]), clearance)
             })

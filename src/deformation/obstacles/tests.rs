@@ -1,4 +1,5 @@
 use super::*;
+use crate::deformation::SoftBody;
 use crate::numbers::Ordinal;
 use crate::scene::{Mesh, Pose, Surface, tessellate};
 use crate::seed::{Purpose, Seed, Stream};
@@ -157,10 +158,9 @@ proptest! {
                 || obstacles.contains(mesh.vertices[0]);
             let expected = least > clearance && !inside;
             prop_assert_eq!(obstacles.is_free(&mesh.vertices, &mesh.triangles, clearance), expected);
-            let first = Obstacles::first_vertices(&mesh);
-            prop_assert_eq!(first.len(), 1);
-            let with = obstacles.is_free_with(&mesh.vertices, &mesh.triangles, &first, clearance);
-            prop_assert_eq!(with, expected);
+            let robot = SoftBody::new(mesh.clone()).unwrap();
+            prop_assert_eq!(robot.witnesses().len(), 1);
+            prop_assert_eq!(obstacles.is_free_body(&robot, &mesh.vertices, clearance), expected);
         }
     }
 

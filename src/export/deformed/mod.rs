@@ -70,9 +70,8 @@ pub fn deformed_page(page: &DeformedPage) -> String {
     let mut body = format!("<header><h1>{}</h1>\n<dl>\n", escaped(page.title));
     let [least, greatest] = path.volumes().map(|share| 100.0 * share);
     let own = [
-        ("frames", path.frames.len().to_string()),
         ("triangles of the robot", page.body.triangles().len().to_string()),
-        ("highest energy", format!("{:.4}", path.highest_energy())),
+        ("highest energy", format!("{:.6}", path.highest_energy())),
         ("volume, % of that at rest", format!("{least:.1} to {greatest:.1}")),
         ("largest movement of a vertex between frames", format!("{:.4}", path.largest_movement())),
     ];

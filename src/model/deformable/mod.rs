@@ -91,15 +91,25 @@ impl Deformable {
     }
 
     /// The same with another robot, a mesh in the robot's frame: a path that was found for one robot can be given to another, as in the paper's
-    /// sliding experiment (§7). Only how that robot is deformed is meant by it; the roadmap is the first robot's.
+    /// sliding experiment (§7). Only how that robot is deformed is meant by it; the roadmap is the first robot's. The longest edge and, of the
+    /// geometric method, the neighbourhood are scaled by the longest sides of the two robots' bounding boxes.
     ///
     /// # Errors
     /// What is wrong with the mesh: it is not closed, say.
-    pub fn with_robot(&self, mesh: Mesh) -> Result<Deformable, String> {
+    pub fn with_robot(&self, mesh: &Mesh) -> Result<Deformable, String> {
         let mut other = self.clone();
-        let body = Body { shape: Shape::Mesh(mesh), pose: Pose::IDENTITY, solid: true };
+        let body = Body { shape: Shape::Mesh(mesh.clone()), pose: Pose::IDENTITY, solid: true };
         let links = &mut other.bodies.robot.links;
         links.iter_mut().for_each(|link| link.bodies = vec![body.clone()]);
+        if let Some(complaint) = mesh.surface_complaint() {
+            return Err(complaint);
+        }
+        // Lengths that follow from the size of the robot grow with it.
+        let grown = surface::longest_side(&other.bodies) / surface::longest_side(&self.bodies);
+        other.longest_edge *= grown;
+        if let DeformationMethod::Geometric(settings) = &mut other.deformation.method {
+            settings.neighbourhood *= grown;
+        }
         other.sound().map(|()| other)
     }
 

@@ -39,8 +39,12 @@ fn made(bodies: Bodies, table: &Table, notes: &mut Vec<String>) -> Deformable {
             length
         })
     };
-    let clearance =
-        chosen(*clearance, "clearance", resolution * CLEARANCE, "a quarter of the resolution");
+    let padding = bodies.robot.padding.iter().copied().fold(0.0, f64::max);
+    let (usual, reason) = match padding > resolution * CLEARANCE {
+        true => (padding, "the padding of the robot"),
+        false => (resolution * CLEARANCE, "a quarter of the resolution"),
+    };
+    let clearance = chosen(*clearance, "clearance", usual, reason);
     let step = chosen(*step, "step", resolution, "the resolution");
     let reason = "a 16th of the longest edge of the robot's bounding box";
     let longest_edge = chosen(*longest_edge, "longest_edge", size / EDGES, reason);

@@ -16,12 +16,13 @@ pub(super) const SCALES_MAX: usize = 64;
 const SCALE_MIN: f64 = 0.01;
 /// The most random vectors.
 const VECTORS_MAX: u32 = 10_000;
-/// The most points of a lattice along an axis.
-const POINTS_MAX: u32 = 200;
+/// The most points of a lattice along an axis, and in all. A deformation looks at every point many times, and is to take seconds at most.
+const ROW_MAX: u32 = 200;
+const POINTS_MAX: u64 = 1 << 15;
 /// The largest shares of distances at rest.
 const STRETCH_MAX: f64 = 1e6;
 /// The most sweeps of relaxation, rounds of pushing and directions.
-const ROUNDS_MAX: u32 = 10_000;
+const ROUNDS_MAX: u32 = 1000;
 /// Into so many parts the longest edge of the robot's bounding box can be cut.
 const EDGES_MAX: f64 = 64.0;
 
@@ -88,10 +89,7 @@ fn of_robot(bodies: &Bodies) -> Option<Complaint> {
             Shape::Point => {
                 "a point found, which has no surface; a shape with an extent expected".to_owned()
             }
-            Shape::Mesh(mesh) => match mesh.odd_edges() {
-                0 => return None,
-                open => format!("a mesh with {open} open edges found; a closed mesh expected"),
-            },
+            Shape::Mesh(mesh) => mesh.surface_complaint()?,
             _ => return None,
         };
         Some((vec![Key("robot"), Key("bodies"), Index(index), Key("shape")], message))
@@ -141,6 +139,32 @@ fn of_penetration(bodies: &Bodies, depth: f64, vectors: u32) -> Option<Complaint
     })
 }
 
+impl DeformationSettings {
+    /// What is wrong with the settings for a robot among these bodies, if anything: the key, what was found and what is expected.
+    pub(crate) fn complaint(&self, bodies: &Bodies) -> Option<String> {
+        let (place, message) = of_deformation(bodies, self)?;
+        let key = place.iter().rev().find_map(|step| match step {
+            Key(key) => Some(*key),
+            Index(_) => None,
+        });
+        Some(format!("{}: {message}", key.unwrap_or_default()))
+    }
+}
+
+impl BoundingBoxSettings {
+    /// What is wrong with the settings, if anything: the key, what was found and what is expected.
+    pub fn complaint(&self) -> Option<(&'static str, String)> {
+        of_box(self)
+    }
+}
+
+impl GeometricSettings {
+    /// What is wrong with the settings, if anything: the key, what was found and what is expected.
+    pub fn complaint(&self) -> Option<(&'static str, String)> {
+        of_geometric(self)
+    }
+}
+
 fn of_deformation(bodies: &Bodies, settings: &DeformationSettings) -> Option<Complaint> {
     let DeformationSettings { method, highest_energy, clearance, step } = settings;
     let (name, complaint) = match method {
@@ -157,11 +181,11 @@ fn of_deformation(bodies: &Bodies, settings: &DeformationSettings) -> Option<Com
         let expected = "an energy of at least 0, or \"none\", expected";
         return Some((place("highest_energy"), format!("{highest_energy} found; {expected}")));
     }
-    if !(0.0..=LENGTH_MAX).contains(clearance) {
-        let expected = "a length of at least 0 expected";
+    let finest = FINEST * diagonal_of(&bodies.bounds, bodies.robot.motion);
+    if *clearance != 0.0 && !(finest..=LENGTH_MAX).contains(clearance) {
+        let expected = format!("0, or a length of at least {finest:e}, expected");
         return Some((place("clearance"), format!("{clearance} found; {expected}")));
     }
-    let finest = FINEST * diagonal_of(&bodies.bounds, bodies.robot.motion);
     (!(finest..=LENGTH_MAX).contains(step)).then(|| {
         let expected = format!("a length of at least {finest:e} expected");
         (place("step"), format!("{step} found; {expected}"))
@@ -179,10 +203,18 @@ fn of_box(settings: &BoundingBoxSettings) -> Option<(&'static str, String)> {
         order: _,
         interpolation: _,
     } = settings;
-    if let Some(points) = lattice.iter().find(|points| !(2..=POINTS_MAX).contains(points)) {
+    if let Some(points) = lattice.iter().find(|points| !(2..=ROW_MAX).contains(points)) {
         return Some((
             "lattice",
-            format!("{points} found; 2 to {POINTS_MAX} points along each axis expected"),
+            format!("{points} found; 2 to {ROW_MAX} points along each axis expected"),
+        ));
+    }
+    let all = lattice.iter().map(|points| u64::from(*points)).product::<u64>();
+    if all > POINTS_MAX {
+        let [x, y, z] = lattice;
+        return Some((
+            "lattice",
+            format!("{x} × {y} × {z} = {all} found; at most {POINTS_MAX} points expected"),
         ));
     }
     // Each written so that NaN fails it.

@@ -69,7 +69,7 @@ pub fn deform(arguments: &DeformArguments) -> Result<Code, Failure> {
     }
     let path = match &answer.path {
         Ok(path) => path,
-        Err(no) => return Err(failure(*no, signals.came())),
+        Err(no) => return Err(failure(*no, signals.came(), way.is_given())),
     };
     if let Way::Between(ends) = &way
         && let Some(number) =
@@ -85,9 +85,8 @@ pub fn deform(arguments: &DeformArguments) -> Result<Code, Failure> {
 /// The description by which the robot is deformed: the run's, or, with `--robot`, the same with another robot.
 fn described(arguments: &DeformArguments, description: &Deformable) -> Result<Deformable, Failure> {
     let Some(file) = &arguments.robot else { return Ok(description.clone()) };
-    let mesh = read_mesh(file, 1.0)
-        .map_err(|error| Failure::usage(format!("{}: {error}", file.display())))?;
-    let other = description.with_robot(mesh);
+    let mesh = read_mesh(file, 1.0).map_err(Failure::usage)?;
+    let other = description.with_robot(&mesh);
     other.map_err(|message| Failure::usage(format!("{}: {message}", file.display())))
 }
 
@@ -122,7 +121,21 @@ enum Way {
 impl Way {
     fn of(arguments: &DeformArguments, run: &Recorded) -> Result<Way, Failure> {
         match &arguments.path {
-            Some(file) => read_path(run.context(), file).map(Way::Given).map_err(Failure::usage),
+            Some(file) => {
+                let configs = read_path(run.context(), file).map_err(Failure::usage)?;
+                let space = run.context().space();
+                // Bounds that hold the whole robot keep its shapes in only where its reference point is within them.
+                let outside =
+                    (0..configs.len()).find(|index| !space.within_bounds(configs.get(*index)));
+                match outside {
+                    None => Ok(Way::Given(configs)),
+                    Some(index) => Err(Failure::usage(format!(
+                        "{}: configuration {} is beyond the bounds of the space; configurations within them expected",
+                        file.display(),
+                        index + 1
+                    ))),
+                }
+            }
             None => ends(run, &arguments.start, &arguments.goal).map(Way::Between),
         }
     }
@@ -141,13 +154,17 @@ impl Way {
     }
 }
 
-fn failure(no: NoDeformedPath, signal_came: bool) -> Failure {
+fn failure(no: NoDeformedPath, signal_came: bool, is_given: bool) -> Failure {
     match (no, signal_came) {
         (NoDeformedPath::Cancelled, true) => {
             Failure::new(Code::Interrupted, "no path: a signal came before one was found")
         }
         (NoDeformedPath::Cancelled, false) => {
             Failure::new(Code::NoSuccess, "no path: the time was up before one was found")
+        }
+        (NoDeformedPath::Refused, _) if is_given => {
+            let message = "no path: the robot cannot be deformed along a leg of the path";
+            Failure::new(Code::NoSuccess, message)
         }
         (why, _) => Failure::new(Code::NoSuccess, format!("no path: {why}")),
     }
@@ -185,7 +202,13 @@ impl Given<'_> {
         if let Some(file) = &arguments.html {
             let title = run.problem().name();
             let body = robot.body();
-            let page = DeformedPage { title, facts, body, obstacles, path };
+            // The page tells of the path itself, and is the same however long the search took.
+            let facts: Vec<_> = facts
+                .iter()
+                .filter(|(term, _)| !summary::LEFT_OUT.contains(term))
+                .cloned()
+                .collect();
+            let page = DeformedPage { title, facts: &facts, body, obstacles, path };
             write_whole(file, deformed_page(&page))?;
         }
         Ok(())

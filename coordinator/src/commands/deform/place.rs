@@ -22,12 +22,28 @@ impl Places {
         let DeformArguments { csv, obj, html, force, .. } = arguments;
         csv.as_deref().map_or(Ok(()), |file| check_place("--csv", file))?;
         html.as_deref().map_or(Ok(()), |file| check_page("--html", file))?;
+        if csv.is_some() && csv == html {
+            return Err(Failure::usage("--csv and --html name one file; two files expected"));
+        }
         let files = [csv, html].into_iter().flatten().filter(|file| !is_standard_output(file));
         for file in files {
-            if !force && file.try_exists().unwrap_or(true) {
-                let message =
-                    format!("{}: it is there already; --force replaces it", file.display());
-                return Err(Failure::usage(message));
+            let refused = |why: &str| Err(Failure::usage(format!("{}: {why}", file.display())));
+            // Devices and pipes are written to, not replaced.
+            if !force && file.is_file() {
+                return refused("it is there already; --force replaces it");
+            }
+            let folder = match file.parent() {
+                None => Path::new("/"),
+                Some(here) if here.as_os_str().is_empty() => Path::new("."),
+                Some(folder) => folder,
+            };
+            if obj.as_deref().is_some_and(|frames| is_same(frames, folder)) {
+                return refused(
+                    "the folder of --obj holds nothing but frames; another folder expected",
+                );
+            }
+            if !folder.is_dir() {
+                return refused("its folder is not there; a folder that is there expected");
             }
         }
         let places = Places { force: *force };
@@ -41,6 +57,7 @@ impl Places {
             let found = folder.display();
             return Err(Failure::usage(format!("--obj: {found} found, a file; a folder expected")));
         }
+        let is_ours = |name: &String| is_ours(name) && folder.join(name).is_file();
         match names_in(folder).iter().find(|name| !(self.force && is_ours(name))) {
             None => Ok(()),
             Some(name) => Err(Failure::usage(format!(
@@ -59,6 +76,14 @@ impl Places {
         }
         make_empty(folder)
     }
+}
+
+/// Whether two names are of one folder, which need not be there.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let absolute = |folder: &Path| {
+        folder.canonicalize().or_else(|_| std::path::absolute(folder)).unwrap_or(folder.to_owned())
+    };
+    absolute(one) == absolute(other)
 }
 
 fn names_in(folder: &Path) -> Vec<String> {

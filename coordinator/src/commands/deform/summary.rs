@@ -5,6 +5,15 @@ use roadmill::deformation::{Between, DeformedPath, DeformingAnswer, RemovedEdge}
 /// How many removed edges are listed one by one.
 const LISTED: usize = 5;
 
+/// The terms that a page has of its own, or must not have since they are not the same every time.
+pub(super) const LEFT_OUT: [&str; 5] = [BETWEEN, MOVEMENT, ENERGY, VOLUME, CPU_TIME];
+
+const BETWEEN: &str = "between frames";
+const MOVEMENT: &str = "movement";
+const ENERGY: &str = "energy";
+const VOLUME: &str = "volume";
+const CPU_TIME: &str = "CPU time";
+
 /// CPU seconds of a query, and of these those of deforming.
 #[derive(Clone, Copy)]
 pub(super) struct Seconds {
@@ -48,7 +57,7 @@ pub(super) fn summary(
     }
     let Seconds { all, deforming } = seconds;
     let share = if all > 0.0 { 100.0 * deforming / all } else { 0.0 };
-    facts.push(("CPU time", format!("{all:.3} s, of which {share:.1} % went into deforming")));
+    facts.push((CPU_TIME, format!("{all:.3} s, of which {share:.1} % went into deforming")));
     facts
 }
 
@@ -60,8 +69,8 @@ fn of_path(
     let (frames, edges) = (path.frames.len(), path.edges);
     let blends = path.frames.iter().filter(|frame| frame.is_blend).count();
     let along = match legs {
-        true => format!("{edges} legs"),
-        false => format!("{edges} edges of weight {:.6} in all", answer.weight),
+        true => counted(edges, "leg"),
+        false => format!("{} of weight {:.6} in all", counted(edges, "edge"), answer.weight),
     };
     let between = match path.between {
         Between::Proved { clearance } => {
@@ -71,12 +80,17 @@ fn of_path(
     };
     let [least, greatest] = path.volumes().map(|share| 100.0 * share);
     [
-        ("path", format!("{along}, {frames} frames, of which {blends} are blends")),
-        ("between frames", between),
-        ("movement", format!("a vertex moves at most {:.3e} at once", path.largest_movement())),
-        ("energy", format!("{:.6} at most", path.highest_energy())),
-        ("volume", format!("{least:.2} % to {greatest:.2} % of that at rest")),
+        ("path", format!("{along}; {}, {blends} of them blends", counted(frames, "frame"))),
+        (BETWEEN, between),
+        (MOVEMENT, format!("a vertex moves at most {:.3e} at once", path.largest_movement())),
+        (ENERGY, format!("{:.6} at most", path.highest_energy())),
+        (VOLUME, format!("{least:.2} % to {greatest:.2} % of that at rest")),
     ]
+}
+
+/// `1 edge`, `2 edges`.
+fn counted(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }
 
 fn refused(edge: &RemovedEdge, legs: bool) -> String {

@@ -134,7 +134,7 @@ fn wrong_tables_are_refused_with_their_lines() {
         ),
         (
             "feasibility = { depth = 0.5, vectors = 10001 }",
-            "deformable.feasibility.vectors: 10001 found; 1 to 10000 expected",
+            "deformable.feasibility.vectors: 1001 found; 1 to 1000 expected",
         ),
         (
             "method = { bounding-box = { lattice = 1 } }",
@@ -171,12 +171,12 @@ fn wrong_tables_are_refused_with_their_lines() {
         ("method = { bounding-box = { order = \"stack\" } }", "unknown variant `stack`"),
         ("method = { bounding-box = { interpolation = \"cubic\" } }", "unknown variant `cubic`"),
         (
-            "method = { bounding-box = { relaxation = 10001 } }",
-            "deformable.method.bounding-box.relaxation: 10001 found; at most 10000 sweeps expected",
+            "method = { bounding-box = { relaxation = 1001 } }",
+            "deformable.method.bounding-box.relaxation: 1001 found; at most 1000 sweeps expected",
         ),
         (
-            "method = { geometric = { directions = 10001 } }",
-            "deformable.method.geometric.directions: 10001 found; at most 10000 expected",
+            "method = { geometric = { directions = 1001 } }",
+            "deformable.method.geometric.directions: 1001 found; at most 1000 expected",
         ),
         (
             "method = { geometric = { shortest = 1.1 } }",
@@ -196,7 +196,7 @@ fn wrong_tables_are_refused_with_their_lines() {
         ),
         (
             "method = { geometric = { rounds = 0 } }",
-            "deformable.method.geometric.rounds: 0 found; 1 to 10000 expected",
+            "deformable.method.geometric.rounds: 0 found; 1 to 1000 expected",
         ),
         ("method = { magic = {} }", "unknown variant `magic`"),
         (
