@@ -45,16 +45,18 @@ pub fn run() {
                 let deformer =
                     BoundingBox::new(&body, &settings, f64::INFINITY, 0.0, obstacles.clone());
                 let deformer = deformer.expect("sound settings").with_rays(rays);
-                let row = measured(&deformer, way);
-                let triangles = body.triangles().len();
-                println!("| {scene} | {name} | {triangles} | {label} | {row} |");
+                // A robot that is free at rest everywhere has no row.
+                if let Some(row) = measured(&deformer, way) {
+                    let triangles = body.triangles().len();
+                    println!("| {scene} | {name} | {triangles} | {label} | {row} |");
+                }
             }
         }
     }
 }
 
 /// The cells of a row that the deformations along a way came to. Poses at which the robot is free at rest do not count.
-fn measured(deformer: &BoundingBox, way: fn(f64) -> [f64; 3]) -> String {
+fn measured(deformer: &BoundingBox, way: fn(f64) -> [f64; 3]) -> Option<String> {
     let (mut energies, mut times, mut refused) = (Vec::new(), Vec::new(), 0u64);
     let mut work = BoundingBoxWork::default();
     for index in 0..POSES {
@@ -80,16 +82,19 @@ fn measured(deformer: &BoundingBox, way: fn(f64) -> [f64; 3]) -> String {
         };
         times.push(median((0..REPETITIONS).map(once).collect()));
     }
+    if times.is_empty() {
+        return None;
+    }
     let count = energies.len();
     let all = (count as u64 + refused).max(1);
-    format!(
+    Some(format!(
         "{count} | {refused} | {:.1} | {:.1} | {} | {} | {:.2}",
         energies.iter().sum::<f64>() / count.max(1) as f64,
         f64::from(work.rounds) / all as f64,
         work.narrowings / all,
         work.searched / all,
         1e3 * median(times)
-    )
+    ))
 }
 
 /// A ball of two resolutions, by which the lattice's share of the time can be told from that of the triangles, and a brick.

@@ -418,3 +418,54 @@ fn a_frame_has_the_same_vertices_in_the_world_as_its_pose_says() {
     assert!(apart < 1e-12 && (last.energy - 8.0).abs() < 1e-12);
     assert!((last.volume - 1.0).abs() < 1e-12);
 }
+
+/// The surfaces of two boxes as one mesh, the second turned inside out.
+fn one_turned() -> Mesh {
+    let (corners, triangles) = box_surface([1.0; 3]);
+    let mut mesh = Mesh { vertices: corners.to_vec(), triangles: triangles.to_vec() };
+    mesh.vertices.extend(corners.map(|[x, y, z]| [x + 5.0, y, z]));
+    mesh.triangles.extend(triangles.iter().map(|[a, b, c]| [a + 8, c + 8, b + 8]));
+    mesh
+}
+
+#[test]
+fn volumes_of_pieces_that_are_turned_opposite_ways_do_not_cancel() {
+    let mesh = one_turned();
+    let body = SoftBody::new(mesh.clone()).unwrap();
+    assert!((body.volume(body.vertices()) - 2.0).abs() < 1e-12);
+    assert_eq!(body.witnesses(), [0, 8]);
+    let smaller: Vec<[f64; 3]> = body.vertices().iter().map(|p| p.map(|x| x / 2.0)).collect();
+    assert!((body.volume_share(&smaller) - 0.125).abs() < 1e-12);
+    // A triangle of a piece that is turned the other way than its neighbours: no inside can be told.
+    let mut uneven = mesh;
+    uneven.triangles[0].swap(1, 2);
+    let refused = SoftBody::new(uneven).unwrap_err();
+    assert!(refused.starts_with("a mesh with 3 edges along which"), "{refused}");
+}
+
+/// A method that is stopped while it works, and refuses then: no verdict of the search.
+#[test]
+fn what_is_refused_after_the_end_of_a_search_is_no_verdict() {
+    struct Stopped(Cancel);
+    impl Deform for Stopped {
+        fn deform(&self, _pose: &Pose) -> Result<Deformed, Refusal> {
+            self.0.cancel();
+            Err(Refusal::Limits)
+        }
+    }
+    let (body, space, cancel) = (body([1.0; 3]), space(BaseJoint::Translation3d), Cancel::new());
+    let obstacles = Obstacles::new(&[]);
+    let method = Stopped(cancel.clone());
+    let asked = DeformableRobot {
+        space: &space,
+        pose: &pose,
+        body: &body,
+        method: &method,
+        obstacles: &obstacles,
+        highest_energy: f64::INFINITY,
+        clearance: 0.0,
+        step: 0.1,
+    };
+    let answer = deform_path(&configs(&[&[0.0; 3], &[1.0; 3]]), asked, &cancel);
+    assert_eq!(answer.path, Err(NoDeformedPath::Cancelled));
+}

@@ -167,12 +167,13 @@ fn settings_without_sense_are_refused() {
         let made = BoundingBox::new(&ball(1.0), &settings, 1.0, 0.0, obstacles);
         assert!(made.err().is_some_and(|error| error.contains(what)), "{what}");
     };
-    says(&|s| s.lattice = [1, 9, 7], "1 × 9 × 7 found; at least 2");
-    says(&|s| s.lattice = [u32::MAX; 3], "at most 1048576");
-    says(&|s| s.least = [0.5, 0.0, 0.5], "0 as a least distance");
-    says(&|s| s.least = [0.5, 1.5, 0.5], "1.5 as a least distance");
-    says(&|s| s.greatest = [0.9, 1.5, 2.0], "0.9 as a greatest distance");
-    says(&|s| s.shear = f64::NAN, "NaN as shear");
+    says(&|s| s.lattice = [1, 9, 7], "lattice: 1 found; 2 to 200");
+    says(&|s| s.lattice = [33, 32, 32], "33 × 32 × 32 = 33792 found; at most 32768 points");
+    says(&|s| s.lattice = [u32::MAX; 3], "lattice: 4294967295 found");
+    says(&|s| s.least = [0.5, 0.0, 0.5], "least: 0 found");
+    says(&|s| s.least = [0.5, 1.5, 0.5], "least: 1.5 found");
+    says(&|s| s.greatest = [0.9, 1.5, 2.0], "greatest: 0.9 found");
+    says(&|s| s.shear = f64::NAN, "shear: NaN found");
 }
 
 proptest! {

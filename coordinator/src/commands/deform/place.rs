@@ -3,7 +3,7 @@
 use crate::cli::DeformArguments;
 use crate::commands::place::{check_page, check_place};
 use crate::exit::Failure;
-use crate::files::{cannot_write, is_standard_output, make_empty};
+use crate::files::{cannot_write, folder_of, is_standard_output, make_empty};
 use std::fs;
 use std::path::Path;
 
@@ -32,11 +32,7 @@ impl Places {
             if !force && file.is_file() {
                 return refused("it is there already; --force replaces it");
             }
-            let folder = match file.parent() {
-                None => Path::new("/"),
-                Some(here) if here.as_os_str().is_empty() => Path::new("."),
-                Some(folder) => folder,
-            };
+            let folder = folder_of(file);
             if obj.as_deref().is_some_and(|frames| is_same(frames, folder)) {
                 return refused(
                     "the folder of --obj holds nothing but frames; another folder expected",

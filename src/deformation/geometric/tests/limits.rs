@@ -110,34 +110,31 @@ fn settings_out_of_range_are_named() {
     for (settings, expected) in [
         (
             GeometricSettings { shortest: 1.5, ..fine.clone() },
-            "shortest of 1.5 found; a share of at least 0 and at most 1 expected",
+            "shortest: 1.5 found; a share from 0 to 1 expected",
         ),
         (
             GeometricSettings { shortest: f64::NAN, ..fine.clone() },
-            "shortest of NaN found; a share of at least 0 and at most 1 expected",
+            "shortest: NaN found; a share from 0 to 1 expected",
         ),
         (
             GeometricSettings { longest: 0.9, ..fine.clone() },
-            "longest of 0.9 found; a share of at least 1 expected",
+            "longest: 0.9 found; a share of at least 1, at most 1000000, expected",
         ),
         (
             GeometricSettings { neighbourhood: -1.0, ..fine.clone() },
-            "neighbourhood of -1 found; a length of at least 0 expected",
+            "neighbourhood: -1 found; a length of at least 0 expected",
         ),
         (
             GeometricSettings { guide: 1.0, ..fine.clone() },
-            "guide of 1 found; a scale above 0 and below 1 expected",
+            "guide: 1 found; a scale above 0, below 1, expected",
         ),
-        (GeometricSettings { rounds: 0, ..fine.clone() }, "rounds of 0 found; at least 1 expected"),
+        (GeometricSettings { rounds: 0, ..fine.clone() }, "rounds: 0 found; 1 to 1000 expected"),
     ] {
         assert_eq!(error(settings, 1.0, 0.0), expected);
     }
-    assert_eq!(
-        error(fine.clone(), -1.0, 0.0),
-        "highest_energy of -1 found; a length of at least 0 expected"
-    );
+    assert_eq!(error(fine.clone(), -1.0, 0.0), "highest_energy: -1 found; at least 0 expected");
     assert_eq!(
         error(fine, 1.0, f64::INFINITY),
-        "clearance of inf found; a length of at least 0 expected"
+        "clearance: inf found; a length of at least 0 expected"
     );
 }

@@ -46,7 +46,12 @@ fn what_is_left_out_has_the_stated_defaults() {
     let expected = DeformationMethod::BoundingBox(BoundingBoxSettings::default());
     assert_eq!(deformation.method, expected);
     assert_eq!(deformation.highest_energy, f64::INFINITY);
-    assert_eq!(deformation.clearance, bodies.resolution / 4.0);
+    // The robot's padding, which is more than a quarter of the resolution; without a padding that quarter.
+    assert!(bodies.resolution / 4.0 < 0.05);
+    assert_eq!(deformation.clearance, 0.05);
+    let bare = parse(&with("").replace("padding = 0.05", "")).unwrap();
+    let bare = bare.model().deformable().unwrap();
+    assert_eq!(bare.deformation.clearance, bare.bodies.resolution / 4.0);
     assert_eq!(deformation.step, bodies.resolution);
     // From −0.6 to 1 along x.
     assert!((longest_edge - 1.6 / 16.0).abs() < 1e-15);
@@ -134,7 +139,7 @@ fn wrong_tables_are_refused_with_their_lines() {
         ),
         (
             "feasibility = { depth = 0.5, vectors = 10001 }",
-            "deformable.feasibility.vectors: 1001 found; 1 to 1000 expected",
+            "deformable.feasibility.vectors: 10001 found; 1 to 10000 expected",
         ),
         (
             "method = { bounding-box = { lattice = 1 } }",
@@ -208,7 +213,7 @@ fn wrong_tables_are_refused_with_their_lines() {
             "deformable.highest_energy: NaN found; an energy of at least 0, or \"none\", expected",
         ),
         ("highest_energy = \"much\"", "expected an energy, or \"none\""),
-        ("clearance = -0.1", "deformable.clearance: -0.1 found; a length of at least 0 expected"),
+        ("clearance = -0.1", "deformable.clearance: -0.1 found; 0, or a length of at least "),
         ("step = 0.0", "deformable.step: 0 found; a length of at least "),
         (
             "longest_edge = 0.01",
