@@ -166,6 +166,10 @@ fn gap(motion: &Configs, [from, to]: [&Stop; 2], shapes: &mut Shapes) -> Result<
     if moved <= longest {
         return Ok(Gap::Closed(Vec::new()));
     }
+    // A vertex moves by the longest movement at most from frame to frame, so that there would be more frames than this.
+    if moved / longest > FRAMES_MAX.min(shapes.room) as f64 {
+        return Err(Refusal::Frames);
+    }
     let rigid = shapes.robot.rigid_movement(&from.pose, &to.pose);
     if rigid <= longest {
         if let Some(blends) = blends(motion, [from, to], moved, shapes) {
