@@ -5,9 +5,9 @@ mod support;
 use roadmill::deformation::{Between, DeformedPath, Frame, SoftBody};
 use roadmill::export::{DeformedPage, deformed_page};
 use roadmill::scene::{Body, Mesh, Pose, Shape, box_surface};
-use std::process::Command;
 use std::sync::Arc;
-use support::{Scratch, has_browser};
+use support::Scratch;
+use support::browser::{Window, has_browser};
 
 /// A cube that goes along x and is flattened on its way under a block.
 fn page() -> String {
@@ -98,31 +98,15 @@ fn a_deformed_robot_is_played() {
         return;
     }
     let scratch = Scratch::new();
-    scratch.write("page.html", &page().replacen("<style>", &format!("{WATCH}<style>"), 1));
-    for (size, scheme) in [("1280,900", "1"), ("420,900", "0")] {
-        let output = Command::new("chromium")
-            .args(["--headless", "--no-sandbox", "--disable-gpu-sandbox"])
-            .args(["--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
-            .args(["--virtual-time-budget=4000", "--dump-dom"])
-            .arg(format!("--window-size={size}"))
-            .arg(format!("--blink-settings=preferredColorScheme={scheme}"))
-            .arg(format!("--user-data-dir={}", scratch.path("browser").display()))
-            .arg(scratch.path("page.html"))
-            .output();
-        let output = output.expect("chromium starts");
-        let dom = String::from_utf8_lossy(&output.stdout);
-        let root = dom.split("<html").nth(1).and_then(|rest| rest.split('>').next());
-        let root = root.unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&output.stderr)));
-        let said = |name: &str| {
-            let text = root.split(&format!("data-{name}=\"")).nth(1);
-            text.and_then(|rest| rest.split('"').next()).unwrap_or_else(|| panic!("{name}: {root}"))
-        };
-        assert_eq!(said("errors"), "", "{size}");
+    let watched = page().replacen("<style>", &format!("{WATCH}<style>"), 1);
+    for (width, is_dark) in [(1280, false), (420, true)] {
+        let marks = Window { is_dark, ..Window::new(width, 900) }.open(&scratch, &watched);
+        let said = |name: &str| marks.said(name);
+        assert_eq!(said("errors"), "", "{width}");
         assert_eq!((said("mark"), said("wide"), said("playing")), ("true", "false", "pause"));
-        assert!(said("said").starts_with("frame 1 of 21, 0 % of the path, energy 0"), "{root}");
+        assert!(said("said").starts_with("frame 1 of 21, 0 % of the path, energy 0"), "{marks:?}");
         for name in ["seen", "moved", "mesh", "obstacles", "turned"] {
-            let count: u32 = said(name).parse().expect("a number");
-            assert!(count > 100, "{size}: {name} of {root}");
+            assert!(marks.count(name) > 100, "{width}: {name} of {marks:?}");
         }
     }
 }

@@ -5,8 +5,8 @@ mod support;
 use rustix::process::Signal;
 use serde_json::Value;
 use std::fs;
-use std::process::Command;
-use support::{Scratch, has_browser, wait_until};
+use support::browser::{Window, has_browser};
+use support::{Scratch, wait_until};
 
 const CHIGNOLIN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../problems/chignolin.toml");
 
@@ -213,33 +213,12 @@ addEventListener("load", () => {
 /// Opens the page in a browser, wide and narrow: nothing goes wrong, and structures are seen.
 fn look(scratch: &Scratch, page: &str) {
     let watched = page.replacen("<style>", &format!("{WATCH}<style>"), 1);
-    scratch.write("watched.html", &watched);
-    for size in ["1280,900", "420,900"] {
-        let output = Command::new("chromium")
-            .args([
-                "--headless",
-                "--no-sandbox",
-                "--disable-gpu-sandbox",
-                "--use-angle=swiftshader",
-            ])
-            .args(["--enable-unsafe-swiftshader", "--virtual-time-budget=4000", "--dump-dom"])
-            .arg(format!("--window-size={size}"))
-            .arg(format!("--user-data-dir={}", scratch.path("browser").display()))
-            .arg(scratch.path("watched.html"))
-            .output();
-        let output = output.expect("chromium starts");
-        let page = String::from_utf8_lossy(&output.stdout);
-        let root = page.split("<html").nth(1).and_then(|rest| rest.split('>').next());
-        let root = root.unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&output.stderr)));
-        let said = |name: &str| {
-            let text = root.split(&format!("data-{name}=\"")).nth(1);
-            text.and_then(|rest| rest.split('"').next()).unwrap_or_else(|| panic!("{name}: {root}"))
-        };
-        assert_eq!(said("errors"), "", "{size}");
-        for count in ["drawn", "trace", "stick"] {
-            let count: u32 = said(count).parse().expect("a number");
-            assert!(count > 100, "{size}: {root}");
+    for width in [1280, 420] {
+        let marks = Window::new(width, 900).open(scratch, &watched);
+        assert_eq!(marks.said("errors"), "", "{width}");
+        for name in ["drawn", "trace", "stick"] {
+            assert!(marks.count(name) > 100, "{width}: {name} of {marks:?}");
         }
-        assert_eq!((said("moved"), said("wide")), ("true", "false"), "{size}");
+        assert_eq!((marks.said("moved"), marks.said("wide")), ("true", "false"), "{width}");
     }
 }

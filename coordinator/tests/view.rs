@@ -9,8 +9,8 @@ use serde_json::Value;
 use std::fs;
 use std::io::{Read, Write};
 use std::net::TcpStream;
-use std::process::Command;
-use support::{Scratch, has_browser, wait_until};
+use support::browser::{Window, has_browser};
+use support::{Scratch, wait_until};
 
 /// What uses a page's controls and notes what comes of it.
 const WALK: &str = include_str!("support/walk.js");
@@ -201,9 +201,10 @@ fn pages_can_be_walked_around_in() {
         assert!((1..=5000).contains(&edges), "{name}: {edges}");
         let rounds = data(&page)["roadmap"]["rounds"].as_u64().expect("a number");
         assert!(rounds > 1 || name == "gantry", "{name}");
-        for size in ["1280,900", "400,800"] {
-            let what = format!("{name} {size}");
-            let drawn = walk(&scratch, &page, &what, size, rounds > 1);
+        for [width, height] in [[1280, 900], [400, 800]] {
+            let what = format!("{name} {width}");
+            let window = Window { runs: None, ..Window::new(width, height) };
+            let drawn = walk(&scratch, &page, &what, &window, rounds > 1);
             assert_eq!(drawn.is_none(), name == "gantry", "{what}: robots with a base that moves");
             if let Some((hint, poses)) = drawn {
                 is_a_hint(&scratch, &file, &hint, &poses, &what);
@@ -245,45 +246,27 @@ fn walk(
     scratch: &Scratch,
     page: &str,
     what: &str,
-    size: &str,
+    window: &Window,
     grows: bool,
 ) -> Option<(String, String)> {
     let watched = page.replacen("<head>", &format!("<head><script>{WALK}</script>"), 1);
-    scratch.write("watched.html", &watched);
-    // A browser that never answers is a failure, not a test that never ends.
-    let output = Command::new("timeout")
-        .args(["900", "chromium"])
-        .args(["--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader"])
-        .args(["--enable-unsafe-swiftshader", "--dump-dom"])
-        .arg(format!("--window-size={size}"))
-        .arg(format!("--user-data-dir={}", scratch.path("browser").display()))
-        .arg(scratch.path("watched.html"))
-        .output();
-    let output = output.expect("chromium starts");
-    let dumped = String::from_utf8_lossy(&output.stdout);
-    let root = dumped.split("<html").nth(1).and_then(|rest| rest.split('>').next());
-    let root =
-        root.unwrap_or_else(|| panic!("{what}: {}", String::from_utf8_lossy(&output.stderr)));
-    let said = |name: &str| {
-        let text = root.split(&format!("data-{name}=\"")).nth(1);
-        let text = text.and_then(|rest| rest.split('"').next());
-        text.unwrap_or_else(|| panic!("{what}: {name} is missing: {root}"))
-    };
+    let marks = window.open(scratch, &watched);
+    let said = |name: &str| marks.said(name);
     assert_eq!((said("errors"), said("done")), ("", "yes"), "{what}");
-    let count = |name: &str| said(name).parse::<u32>().unwrap_or_else(|_| panic!("{what}: {root}"));
-    assert!(count("drawn") > 100 && count("first") > 0, "{what}: {root}");
+    let count = |name: &str| marks.count(name);
+    assert!(count("drawn") > 100 && count("first") > 0, "{what}: {marks:?}");
     // The node that was pointed at stays when it is clicked.
-    assert!(said("pointed").starts_with("node "), "{what}: {root}");
+    assert!(said("pointed").starts_with("node "), "{what}: {marks:?}");
     assert_eq!(said("clicked"), said("pointed"), "{what}");
-    assert_ne!(said("robot"), said("drawn"), "{what}: {root}");
-    assert_eq!((said("grown"), said("turned")), (&*grows.to_string(), "true"), "{what}: {root}");
-    assert!(said("legend").contains(" to "), "{what}: {root}");
-    assert_eq!((said("idle"), said("wide")), ("0", "false"), "{what}: {root}");
+    assert_ne!(said("robot"), said("drawn"), "{what}: {marks:?}");
+    assert_eq!((said("grown"), said("turned")), (&*grows.to_string(), "true"), "{what}: {marks:?}");
+    assert!(said("legend").contains(" to "), "{what}: {marks:?}");
+    assert_eq!((said("idle"), said("wide")), ("0", "false"), "{what}: {marks:?}");
     if said("hint").is_empty() {
         return None;
     }
-    assert_eq!((said("undone"), said("cleared")), ("true", "1 configuration"), "{what}: {root}");
+    assert_eq!((said("undone"), said("cleared")), ("true", "1 configuration"), "{what}: {marks:?}");
     assert!(said("kept").ends_with(" configurations") && !said("kept").starts_with("not"));
-    assert_eq!(said("widehint"), "false", "{what}: {root}");
+    assert_eq!(said("widehint"), "false", "{what}: {marks:?}");
     Some((said("hint").to_owned(), said("poses").to_owned()))
 }

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "every test file uses another part")]
 
+pub mod browser;
+
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
 use std::cell::RefCell;
@@ -33,19 +35,6 @@ label = "a"
 nodes = 20
 sampler = { uniform = {} }
 "#;
-
-/// A headless Chromium, unless there is none and none is required.
-pub fn has_browser() -> bool {
-    let there = Command::new("chromium").arg("--version").output();
-    let there = there.is_ok_and(|output| output.status.success());
-    if !there {
-        let required =
-            std::env::var_os("ROADMILL_REQUIRE_BROWSER").is_some_and(|value| value == "1");
-        assert!(!required, "no chromium");
-        println!("not tested: no chromium");
-    }
-    there
-}
 
 /// A build without end, in small steps: whoever starts it stops it when enough has happened to
 /// it, however fast the machine is, and then compares it with an undisturbed one of that size.
