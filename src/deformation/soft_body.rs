@@ -1,4 +1,4 @@
-use crate::scene::Mesh;
+use crate::scene::{Mesh, tetrahedron};
 
 /// The robot at rest, as one surface of triangles in its own frame. The surface is closed; it may have several pieces, each of which is
 /// turned so that its triangles are seen counter-clockwise from outside.
@@ -48,41 +48,18 @@ impl SoftBody {
     /// The volume that a shape with these vertices encloses: the sum of the volumes of its pieces, also of one that is a cavity of another. By
     /// the signed volumes of the triangles' tetrahedra with the first vertex; the absolute value of their sum.
     pub fn volume(&self, vertices: &[[f64; 3]]) -> f64 {
-        let origin = vertices[0];
-        let from = |corner: u32| {
-            let point = vertices[corner as usize];
-            [0, 1, 2].map(|axis| point[axis] - origin[axis])
-        };
-        let mut sum = 0.0;
-        for [a, b, c] in self.triangles() {
-            let (a, b, c) = (from(*a), from(*b), from(*c));
-            sum += a[0] * (b[1] * c[2] - b[2] * c[1])
-                + a[1] * (b[2] * c[0] - b[0] * c[2])
-                + a[2] * (b[0] * c[1] - b[1] * c[0]);
-        }
+        let at = |corner: u32| vertices[corner as usize];
+        let sum: f64 =
+            self.triangles().iter().map(|corners| tetrahedron(vertices[0], corners.map(at))).sum();
         (sum / 6.0).abs()
     }
 }
 
 /// The mesh with every piece turned whose signed volume is negative.
 fn turned_outward(mut mesh: Mesh) -> Mesh {
-    let pieces = mesh.pieces();
-    let piece_of = |corners: &[u32; 3]| pieces[corners[0] as usize].unwrap_or_default();
-    let count = pieces.iter().flatten().max().map_or(0, |last| last + 1);
-    let mut volumes = vec![0.0; count];
-    // Tetrahedra have a corner of the piece in common, so that little is lost to rounding far from the origin.
-    let mut origins: Vec<Option<[f64; 3]>> = vec![None; count];
-    for corners in &mesh.triangles {
-        let piece = piece_of(corners);
-        let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
-        let origin = *origins[piece].get_or_insert(a);
-        let [a, b, c] = [a, b, c].map(|point| [0, 1, 2].map(|axis| point[axis] - origin[axis]));
-        volumes[piece] += a[0] * (b[1] * c[2] - b[2] * c[1])
-            + a[1] * (b[2] * c[0] - b[0] * c[2])
-            + a[2] * (b[0] * c[1] - b[1] * c[0]);
-    }
+    let (pieces, volumes) = (mesh.pieces(), mesh.volumes());
     for corners in &mut mesh.triangles {
-        if volumes[piece_of(corners)] < 0.0 {
+        if pieces[corners[0] as usize].is_some_and(|piece| volumes[piece] < 0.0) {
             corners.swap(1, 2);
         }
     }

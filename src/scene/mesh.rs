@@ -99,6 +99,18 @@ impl Mesh {
         labels.into_iter().zip(used).map(number).collect()
     }
 
+    /// The volume that each connected piece encloses, in the order of [`Mesh::pieces`]; below 0 where its triangles are turned inward.
+    pub(crate) fn volumes(&self) -> Vec<f64> {
+        let (pieces, first) = (self.pieces(), self.first_vertices());
+        let mut volumes = vec![0.0; first.len()];
+        for corners in &self.triangles {
+            let Some(piece) = pieces[corners[0] as usize] else { continue };
+            let at = |vertex: u32| self.vertices[vertex as usize];
+            volumes[piece] += tetrahedron(at(first[piece]), corners.map(at)) / 6.0;
+        }
+        volumes
+    }
+
     /// The diagonal of the box around the triangles, a length; 0 if there are none.
     pub(super) fn size(&self) -> f64 {
         if self.triangles.is_empty() {
@@ -119,6 +131,16 @@ impl Mesh {
         }
         (min, max)
     }
+}
+
+/// Six times the volume of the tetrahedron that a triangle spans with a point. It is above 0 where the point is behind the triangle, whose
+/// corners are seen counter-clockwise from the front. Summed over a closed surface it is six times the enclosed volume, whatever the point;
+/// one near the surface loses least to rounding.
+pub(crate) fn tetrahedron(point: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
+    let [a, b, c] = corners.map(|corner| [0, 1, 2].map(|axis| corner[axis] - point[axis]));
+    a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
 /// Number of edges that an odd number of the triangles share.

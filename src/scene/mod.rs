@@ -22,6 +22,7 @@ mod weld;
 mod weld_tests;
 
 pub use mesh::Mesh;
+pub(crate) use mesh::tetrahedron;
 pub use pose::Pose;
 pub use raw::{MESH_ITEMS_MAX, MeshError, UpAxis};
 pub use read::{Centre, MeshOptions, ReadMesh, Up, is_mesh_file, read_mesh, read_mesh_with};

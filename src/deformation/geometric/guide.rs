@@ -2,7 +2,7 @@
 
 use super::surface::Surface;
 use crate::deformation::{Obstacles, SoftBody};
-use crate::scene::{Body, Pose, Shape};
+use crate::scene::{Body, Pose, Shape, tetrahedron};
 use parry3d_f64::math::Vector;
 
 /// How often the inward ways of neighbours are averaged, so that those at edges of the body do not cross.
@@ -90,10 +90,11 @@ pub(super) fn centroid(body: &SoftBody) -> Vector {
     let mean = sum / vertices.len() as f64;
     let (mut volume, mut moment) = (0.0, Vector::ZERO);
     for corners in body.triangles() {
-        let [a, b, c] = corners.map(|corner| vertices[corner as usize] - mean);
-        let tetrahedron = a.dot(b.cross(c));
-        volume += tetrahedron;
-        moment += (a + b + c) * (tetrahedron / 4.0);
+        let corners = corners.map(|corner| vertices[corner as usize]);
+        let six_volumes = tetrahedron(mean.to_array(), corners.map(|corner| corner.to_array()));
+        let [a, b, c] = corners.map(|corner| corner - mean);
+        volume += six_volumes;
+        moment += (a + b + c) * (six_volumes / 4.0);
     }
     let centroid = moment / volume;
     if centroid.is_finite() { mean + centroid } else { mean }

@@ -1,4 +1,5 @@
 use crate::deformation::SoftBody;
+use crate::scene::tetrahedron;
 use parry3d_f64::math::Vector;
 use std::collections::BTreeMap;
 
@@ -87,9 +88,9 @@ impl Surface {
         let mut volumes = vec![0.0; self.first_vertices.len()];
         for corners in &self.triangles {
             let Some(piece) = self.pieces[corners[0] as usize] else { continue };
-            let origin = shape[self.first_vertices[piece] as usize];
-            let [a, b, c] = corners.map(|corner| shape[corner as usize] - origin);
-            volumes[piece] += a.dot(b.cross(c)) / 6.0;
+            let at = |vertex: u32| shape[vertex as usize].to_array();
+            let first = at(self.first_vertices[piece]);
+            volumes[piece] += tetrahedron(first, corners.map(at)) / 6.0;
         }
         volumes
     }

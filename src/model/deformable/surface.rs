@@ -1,7 +1,7 @@
 //! The surface of a robot as one mesh of triangles: what is deformed.
 
 use crate::model::bodies::Bodies;
-use crate::scene::{Body, Mesh, Shape, tessellate};
+use crate::scene::{Body, Mesh, Shape, tessellate, tetrahedron};
 use std::collections::BTreeMap;
 
 /// The most triangles of a surface.
@@ -64,24 +64,13 @@ fn of_body(body: &Body) -> Mesh {
         }
     };
     let vertices: Vec<[f64; 3]> = vertices.iter().map(|vertex| body.pose.apply(*vertex)).collect();
-    if signed_volume(&vertices, &triangles) < 0.0 {
+    let first = vertices.first().copied().unwrap_or_default();
+    let at = |corner: u32| vertices[corner as usize];
+    let volume: f64 = triangles.iter().map(|corners| tetrahedron(first, corners.map(at))).sum();
+    if volume < 0.0 {
         triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
     }
     Mesh { vertices, triangles }
-}
-
-/// Six times the volume that triangles enclose, negative where they are wound the other way.
-fn signed_volume(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> f64 {
-    let Some(origin) = vertices.first() else { return 0.0 };
-    let from = |corner: u32| [0, 1, 2].map(|axis| vertices[corner as usize][axis] - origin[axis]);
-    let mut sum = 0.0;
-    for [a, b, c] in triangles {
-        let (a, b, c) = (from(*a), from(*b), from(*c));
-        sum += a[0] * (b[1] * c[2] - b[2] * c[1])
-            + a[1] * (b[2] * c[0] - b[0] * c[2])
-            + a[2] * (b[0] * c[1] - b[1] * c[0]);
-    }
-    sum
 }
 
 /// The mesh with every edge halved that is longer than `longest`; `None` where there is none, or there would be too many
