@@ -1,16 +1,17 @@
 //! Ligands at proteins, on complexes whose poses are known.
 //!
 //! ```text
-//! ROADMILL_DATA=… cargo bench --bench docking -- poses [--csv FILE] [--seeds 1-10] [--mode boxed|blind] [--nodes N] [COMPLEX …]
-//! ROADMILL_DATA=… cargo bench --bench docking -- generators [--csv FILE] [--seeds 1-10] [COMPLEX …]
+//! ROADMILL_DATA=… cargo bench --bench docking -- poses [--csv FILE] [--seeds 1-10] [--mode boxed|blind] [--nodes N] [--charges] [COMPLEX …]
+//! ROADMILL_DATA=… cargo bench --bench docking -- generators | chains [--csv FILE] [--seeds 1-10] [--nodes N] [COMPLEX …]
 //! ROADMILL_DATA=… cargo bench --bench docking -- speed | grid
 //! ```
 //!
 //! `poses` looks for the poses of each complex, in the box of `bench/peers/docking-boxes.csv` and blind, by the problem that `roadmill
-//! ligand problem` makes; `generators` by one generator at a time, flexible and rigid, which repeats Tables V and VI of O. B. Bayazit's thesis
-//! (2003) on the complexes at hand; `speed` counts energies per second, `grid` compares energies of the grid with exact sums. With `--csv` a run's rows are appended as it ends, and runs that
+//! ligand problem` makes, with `--charges` by an energy with Coulomb and hydrophobic terms; `generators` by one generator at a time, flexible and rigid, which repeats Tables V and VI of O. B. Bayazit's thesis
+//! (2003) on the complexes at hand; `chains` by chains of hops with other settings than the usual ones; `speed` counts energies per second, `grid` compares energies of the grid with exact sums. With `--csv` a run's rows are appended as it ends, and runs that
 //! stand there are not made again. Times are CPU seconds of this thread.
 
+mod chains;
 mod complexes;
 mod generators;
 mod grid;
@@ -32,6 +33,8 @@ pub struct Asked {
     pub mode: Option<String>,
     /// The most nodes of a roadmap; `None`: those of the study.
     pub nodes: Option<u64>,
+    /// Whether the energy has Coulomb and hydrophobic terms.
+    pub charges: bool,
     /// Where rows are kept.
     pub rows: Rows,
 }
@@ -40,11 +43,12 @@ fn main() {
     let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
     let study = arguments.next().unwrap_or_default();
     let (mut complexes, mut seeds, mut csv) = (Vec::new(), 1..=10, None);
-    let (mut nodes, mut mode) = (None, None);
+    let (mut nodes, mut mode, mut charges) = (None, None, false);
     while let Some(argument) = arguments.next() {
         let mut next = || arguments.next().expect("a value follows an option");
         match argument.as_str() {
             "--csv" => csv = Some(next()),
+            "--charges" => charges = true,
             "--mode" => mode = Some(next()),
             "--nodes" => nodes = Some(next().parse().expect("a number of nodes")),
             "--seeds" => {
@@ -55,14 +59,15 @@ fn main() {
             _ => complexes.push(argument),
         }
     }
-    let asked = Asked { complexes, seeds, nodes, mode, rows: Rows::open(csv.as_deref()) };
+    let asked = Asked { complexes, seeds, nodes, mode, charges, rows: Rows::open(csv.as_deref()) };
     match study.as_str() {
         "poses" => poses::run(asked),
+        "chains" => chains::run(asked),
         "generators" => generators::run(asked),
         "speed" => speed::run(),
         "grid" => grid::run(),
         other => {
-            eprintln!("study `{other}` found; poses, generators, speed or grid expected");
+            eprintln!("study `{other}` found; poses, generators, chains, speed or grid expected");
             std::process::exit(2);
         }
     }

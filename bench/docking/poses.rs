@@ -12,10 +12,13 @@ const HEAD: &str = "complex,mode,seed,pose,energy,rmsd,rmsd_rotated,cpu_s,nodes,
 /// A pose is the known one if it is so near, Å: the usual measure of docking.
 const NEAR: f64 = 2.0;
 
+/// What `--charges` adds to the table `[docking]`.
+const CHARGES: &str = "energy = { dielectric = 4, hydrophobic = true }\n";
+
 /// The rows of each run of a complex in a mode.
 type Runs = Vec<Vec<Vec<f64>>>;
 
-fn run_all(asked: &mut Asked) -> Vec<(String, &'static str, Runs)> {
+fn run_all(asked: &mut Asked) -> Vec<(String, String, Runs)> {
     let mut all = Vec::new();
     for (mode, is_boxed, nodes) in [("boxed", true, 4000), ("blind", false, 12_000)] {
         if asked.mode.as_ref().is_some_and(|wanted| wanted != mode) {
@@ -23,7 +26,9 @@ fn run_all(asked: &mut Asked) -> Vec<(String, &'static str, Runs)> {
         }
         for complex in chosen(&asked.complexes) {
             let nodes = asked.nodes.unwrap_or(nodes);
-            let problem = usual(&complex.table(is_boxed), nodes);
+            let energy = if asked.charges { CHARGES } else { "" };
+            let problem = usual(&format!("{}{energy}", complex.table(is_boxed)), nodes);
+            let mode = if asked.charges { format!("{mode} charges") } else { mode.to_owned() };
             let mut runs = Vec::new();
             for seed in asked.seeds.clone() {
                 let key = format!("{},{mode},{seed}", complex.name);
