@@ -55,23 +55,13 @@ pub struct Comparison {
     heavy: Vec<usize>,
 }
 
-/// Atoms with more heavy neighbours than this are in no molecule; to look through all orders of hundreds of neighbours for every pair of poses would take
-/// hours.
-const NEIGHBOURS_MAX: usize = 16;
-
 impl Comparison {
     /// By the symmetries of a ligand; without them where it has too many, which [`Comparison::is_corrected`] tells.
     pub fn of(docking: &Docking) -> Comparison {
         let ligand = docking.ligand();
         let is_heavy = |atom: &usize| ligand.atoms()[*atom].element.is_heavy();
         let heavy: Vec<usize> = (0..ligand.atoms().len()).filter(is_heavy).collect();
-        let mut neighbours = vec![0; ligand.atoms().len()];
-        for bond in ligand.bonds().iter().filter(|bond| bond.atoms.iter().all(is_heavy)) {
-            bond.atoms.iter().for_each(|atom| neighbours[*atom] += 1);
-        }
-        let is_molecule = neighbours.iter().all(|count| *count <= NEIGHBOURS_MAX);
-        let symmetries = is_molecule.then(|| Symmetries::of(ligand).ok()).flatten();
-        Comparison { symmetries, heavy }
+        Comparison { symmetries: docking.symmetries(), heavy }
     }
 
     /// The positions of the heavy atoms among those of all.

@@ -77,6 +77,13 @@ pub enum LigandFault {
         /// How one of them is chosen.
         choose: &'static str,
     },
+    /// The group that was asked for is water.
+    Water {
+        /// The residue name.
+        residue: String,
+        /// The groups that are there.
+        there: Vec<String>,
+    },
     /// The group that was asked for is not there.
     NoGroup {
         /// The group.
@@ -173,15 +180,17 @@ impl fmt::Display for LigandFault {
                 names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", "),
                 more(*count)
             ),
+            LigandFault::Water { residue, there } => write!(
+                f,
+                "{residue}, a molecule of water, found; a HETATM group of the file expected: {}",
+                listed(there)
+            ),
             LigandFault::NoGroup { wanted, there } => {
-                let listed = match there.is_empty() {
-                    true => "none of more than one atom but waters".to_owned(),
-                    false => {
-                        let first: Vec<_> = there.iter().take(SHOWN).cloned().collect();
-                        format!("{}{}", first.join(", "), more(there.len()))
-                    }
-                };
-                write!(f, "no HETATM group {wanted} found; one of the file's expected: {listed}")
+                write!(
+                    f,
+                    "no HETATM group {wanted} found; one of the file's expected: {}",
+                    listed(there)
+                )
             }
         }
     }
@@ -189,6 +198,17 @@ impl fmt::Display for LigandFault {
 
 /// How many of a list are shown.
 const SHOWN: usize = 8;
+
+/// The groups of a file.
+fn listed(there: &[String]) -> String {
+    match there.is_empty() {
+        true => "none of more than one atom but waters".to_owned(),
+        false => {
+            let first: Vec<_> = there.iter().take(SHOWN).cloned().collect();
+            format!("{}{}", first.join(", "), more(there.len()))
+        }
+    }
+}
 
 /// What ends a list of which the first are shown.
 fn more(of: usize) -> String {

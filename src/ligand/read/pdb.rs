@@ -117,12 +117,17 @@ pub(super) fn all(text: &str) -> Result<Vec<Ligand>, LigandError> {
 /// The group that is meant.
 pub(super) fn group(text: &str, wanted: &Group) -> Result<Ligand, LigandError> {
     let groups = Groups::of(text)?;
+    let there = || groups.candidates().map(|(key, _)| key.to_string()).collect();
+    if is_water(&wanted.residue) {
+        let fault = LigandFault::Water { residue: wanted.residue.clone(), there: there() };
+        return Err(LigandError::pathless(fault));
+    }
     let meant: Vec<_> = groups.residues.iter().filter(|(key, _)| key.is_meant(wanted)).collect();
     match &meant[..] {
         [(_, residue)] => residue.read(&groups.conect),
         [] => Err(LigandError::pathless(LigandFault::NoGroup {
             wanted: wanted.to_string(),
-            there: groups.candidates().map(|(key, _)| key.to_string()).collect(),
+            there: there(),
         })),
         several => Err(LigandError::pathless(LigandFault::Several {
             count: several.len(),

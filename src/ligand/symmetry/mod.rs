@@ -119,8 +119,19 @@ impl Symmetries {
     /// Arguments as of [`Symmetries::rmsd`]. Where not all symmetries are [listed](Symmetries::is_listed), this is an upper
     /// bound.
     pub fn rmsd_superposed(&self, a: &[Point], b: &[Point]) -> f64 {
+        self.superposed(a, b).map_or(f64::NAN, |(rmsd, _)| rmsd)
+    }
+
+    /// The symmetry of [`Symmetries::rmsd_superposed`]: for every atom of `a` the one of `b` with which it is compared. Hydrogens stay.
+    /// `None` where the RMSD is NaN.
+    pub fn nearest_shape(&self, a: &[Point], b: &[Point]) -> Option<Vec<usize>> {
+        self.superposed(a, b).map(|(_, to)| to)
+    }
+
+    /// The least RMSD over symmetries and rigid motions, and the symmetry.
+    fn superposed(&self, a: &[Point], b: &[Point]) -> Option<(f64, Vec<usize>)> {
         if !self.fits(a, b) {
-            return f64::NAN;
+            return None;
         }
         let heavy = self.tree.heavy();
         let from: Vec<Point> = heavy.iter().map(|atom| a[*atom]).collect();
@@ -129,25 +140,28 @@ impl Symmetries {
             superpose(&from, &fixed)
         };
         if let Some(listed) = &self.listed {
-            return listed.iter().map(|to| shape(to).rmsd).fold(f64::INFINITY, f64::min);
+            let rmsds = listed.iter().map(|to| (shape(to).rmsd, to));
+            let least = rmsds.min_by(|(one, _), (other, _)| one.total_cmp(other));
+            return least.map(|(rmsd, to)| (rmsd, to.clone()));
         }
         // From the best symmetry in place, so that the bound is never above `rmsd`, and from the identity.
         let itself: Vec<usize> = (0..self.atoms).collect();
         let starts = [least::symmetry(&self.tree, &self.images, a, b), itself];
         let ends = starts.map(|start| {
-            let mut best = shape(&start);
+            let (mut best, mut to) = (shape(&start), start);
             for _ in 0..ROUNDS_MAX {
                 let moved: Vec<Point> = a.iter().map(|point| best.apply(point)).collect();
-                let next = shape(&least::symmetry(&self.tree, &self.images, &moved, b));
+                let next_to = least::symmetry(&self.tree, &self.images, &moved, b);
+                let next = shape(&next_to);
                 if next.rmsd < best.rmsd {
-                    best = next;
+                    (best, to) = (next, next_to);
                 } else {
                     break;
                 }
             }
-            best.rmsd
+            (best.rmsd, to)
         });
-        ends[0].min(ends[1])
+        ends.into_iter().min_by(|(one, _), (other, _)| one.total_cmp(other))
     }
 
     fn fits(&self, a: &[Point], b: &[Point]) -> bool {

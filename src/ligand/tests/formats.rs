@@ -158,6 +158,9 @@ fn groups_are_chosen_by_name_chain_and_number() {
         error.ends_with(":12: 1 atom without bonds found; atoms that bonds join expected"),
         "{error}"
     );
+    let error = read_group(&path, &group("HOH", None, None)).unwrap_err().to_string();
+    let expected = "HOH, a molecule of water, found; a HETATM group of the file expected: ACN 7 of chain `B`, ACN 1 of chain `A`";
+    assert!(error.ends_with(expected), "{error}");
     std::fs::write(&path, ETHANOL).unwrap();
     let error = read_group(&path, &group("ACN", None, None)).unwrap_err().to_string();
     assert!(error.ends_with("a PDB file, as a group is named, expected"), "{error}");

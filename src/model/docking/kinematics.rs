@@ -141,7 +141,7 @@ impl Linkage {
     }
 
     /// How far an atom can be from the centre, whatever the angles are, Å.
-    fn reach(&self) -> f64 {
+    pub fn reach(&self) -> f64 {
         let root = self.pieces[0].iter().map(|atom| self.shape[*atom].norm()).fold(0.0, f64::max);
         // Everything beyond a link of the root is within the reach of that link from an atom which does not move about the root.
         let of_root = self.links.iter().filter(|link| link.parent == 0);

@@ -2,13 +2,17 @@
 
 use super::Docking;
 use super::kinematics::BASE;
-use crate::ligand::{Ligand, LinkRule, RigidTree, matching};
+use crate::ligand::{Bond, Ligand, LinkRule, RigidTree, Symmetries, matching};
 use crate::math;
 use crate::model::Description;
 use crate::space::canonical;
 use crate::structure::measure::superpose;
 use crate::structure::{Point, torsion};
 use nalgebra::Matrix3;
+
+/// Atoms with more heavy neighbours than this are in no molecule; to look through all orders of hundreds of neighbours for every pair of poses would take
+/// hours.
+const NEIGHBOURS_MAX: usize = 16;
 
 impl Docking {
     /// The positions of the ligand's atoms at a configuration, Å.
@@ -19,7 +23,9 @@ impl Docking {
     }
 
     /// Where the ligand's atoms are in a pose of the same molecule that another file has, in the order of this ligand's atoms, Å. Where
-    /// hydrogens do not count here, those of the pose do not either.
+    /// hydrogens do not count here, those of the pose do not either. Of the ways in which a symmetric molecule fits itself it is the one by
+    /// which the pose has the shape most like the given one: a ring that the other file numbers the other way around is not turned over. Where
+    /// hydrogens count it is any of them.
     ///
     /// # Errors
     /// Another molecule, or one without positions: what was found, what is expected.
@@ -40,7 +46,30 @@ impl Docking {
         let positions = pose.positions().ok_or_else(|| {
             "no positions found; a molecule with positions in space expected".to_owned()
         })?;
-        Ok(same.into_iter().map(|atom| positions[atom]).collect())
+        let positions: Vec<Point> = same.into_iter().map(|atom| positions[atom]).collect();
+        let nearest = match (has_hydrogens, self.ligand.positions()) {
+            (false, Some(given)) => self
+                .symmetries()
+                .and_then(|symmetries| symmetries.nearest_shape(&given, &positions)),
+            _ => None,
+        };
+        Ok(match nearest {
+            Some(to) => to.into_iter().map(|atom| positions[atom]).collect(),
+            None => positions,
+        })
+    }
+
+    /// The symmetries of the ligand; `None` where there are too many to be found in bounded time, as no molecule has.
+    pub(crate) fn symmetries(&self) -> Option<Symmetries> {
+        let atoms = self.ligand.atoms();
+        let mut neighbours = vec![0; atoms.len()];
+        for Bond { atoms: ends, .. } in self.ligand.bonds() {
+            if ends.iter().all(|end| atoms[*end].element.is_heavy()) {
+                ends.iter().for_each(|end| neighbours[*end] += 1);
+            }
+        }
+        let is_molecule = neighbours.iter().all(|count| *count <= NEIGHBOURS_MAX);
+        is_molecule.then(|| Symmetries::of(&self.ligand).ok()).flatten()
     }
 
     /// The configuration of the given shape, its torsions unturned, that is as near as possible to these positions of all atoms: by the

@@ -45,6 +45,14 @@ pub(super) fn resolve(
         Some(RegionSpec { min, max }) => [min, max],
         None => around(atoms().map(|atom| atom.position), MARGIN + linkage.radius()),
     };
+    let farthest = linkage.reach() + spec.energy.cutoff;
+    let away = atoms().map(|atom| outside(bounds, atom.position)).fold(f64::INFINITY, f64::min);
+    if away > farthest {
+        let message = format!(
+            "a box {away:.1} Å from the nearest atom of the protein found; one at most {farthest:.1} Å away expected, so far as this ligand's atoms reach and energies count"
+        );
+        return Err(source.error(&place("box"), message));
+    }
     note_distance(&ligand, atoms().map(|atom| atom.position), notes);
     let docking = Docking {
         chains,
@@ -158,6 +166,12 @@ fn around(points: impl Iterator<Item = Point>, margin: f64) -> [[f64; 3]; 2] {
         }
     }
     [bounds[0].map(|low| low - margin), bounds[1].map(|high| high + margin)]
+}
+
+/// How far a point is from a box, 0 within it.
+fn outside([min, max]: [[f64; 3]; 2], point: Point) -> f64 {
+    let beyond = |axis: usize| (min[axis] - point[axis]).max(point[axis] - max[axis]).max(0.0);
+    (beyond(0) * beyond(0) + beyond(1) * beyond(1) + beyond(2) * beyond(2)).sqrt()
 }
 
 /// Says how far the ligand's given pose is from the protein, if it is far.

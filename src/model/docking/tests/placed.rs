@@ -1,7 +1,7 @@
 //! From positions to configurations, and back.
 
 use super::{BIOTIN, biotin, docking};
-use crate::ligand;
+use crate::ligand::{self, Ligand};
 use crate::model::Description;
 use crate::model::docking::kinematics::BASE;
 use crate::structure::measure::rmsd_in_place;
@@ -40,4 +40,20 @@ fn a_pose_of_another_file_is_the_same_molecule_or_an_error() {
         error.starts_with("9 atoms with 9 bonds found") && error.contains("16 atoms"),
         "{error}"
     );
+}
+
+/// Both oxygens of biotin's carboxylate are alike, and another file may have them the other way around: the pose is the same.
+#[test]
+fn atoms_that_are_alike_may_be_numbered_the_other_way_around() {
+    let docking = docking(BIOTIN);
+    let ligand = docking.ligand();
+    let given = ligand.positions().unwrap();
+    let mut atoms = ligand.atoms().to_vec();
+    let oxygens = [1, 2].map(|atom| (atoms[atom].name.clone(), atoms[atom].position));
+    assert_eq!([&*oxygens[0].0, &*oxygens[1].0], ["O11", "O12"]);
+    (atoms[1].position, atoms[2].position) = (oxygens[1].1, oxygens[0].1);
+    let bonds = ligand.bonds().to_vec();
+    let other = Ligand::new("other", atoms, bonds).unwrap();
+    assert_ne!(other.positions().unwrap(), given);
+    assert_eq!(docking.positions_in(&other).unwrap(), given);
 }
