@@ -5,7 +5,7 @@ use super::complexes::chosen;
 use super::rows::median;
 use super::run::{parse, run as build};
 
-const HEAD: &str = "complex,hops,kept,kt,step,seed,cpu_s,nearest,lowest,known";
+const HEAD: &str = "complex,nodes,hops,kept,kt,step,seed,cpu_s,nearest,lowest,known";
 
 /// Settings of chains: hops of a chain, minima kept of it, kT in kJ/mol, and the largest step, Å. With every one a milestone costs 40 hops.
 const SETTINGS: [(u32, u32, f64, f64); 7] = [
@@ -34,7 +34,7 @@ pub fn run(mut asked: Asked) {
             let problem = parse(&text);
             let mut runs = Vec::new();
             for seed in asked.seeds.clone() {
-                let key = format!("{},{hops},{kept},{kt},{step},{seed}", complex.name);
+                let key = format!("{},{nodes},{hops},{kept},{kt},{step},{seed}", complex.name);
                 let rows = asked.rows.of(HEAD, &key, || {
                     let run = build(&problem, seed);
                     let lowest = run.poses.first().map_or(f64::INFINITY, |pose| pose.energy);

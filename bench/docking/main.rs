@@ -59,6 +59,10 @@ fn main() {
             _ => complexes.push(argument),
         }
     }
+    if study != "poses" && (mode.is_some() || charges) {
+        eprintln!("`--mode` or `--charges` found, which `poses` alone has");
+        std::process::exit(2);
+    }
     let asked = Asked { complexes, seeds, nodes, mode, charges, rows: Rows::open(csv.as_deref()) };
     match study.as_str() {
         "poses" => poses::run(asked),

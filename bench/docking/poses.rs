@@ -28,7 +28,9 @@ fn run_all(asked: &mut Asked) -> Vec<(String, String, Runs)> {
             let nodes = asked.nodes.unwrap_or(nodes);
             let energy = if asked.charges { CHARGES } else { "" };
             let problem = usual(&format!("{}{energy}", complex.table(is_boxed)), nodes);
-            let mode = if asked.charges { format!("{mode} charges") } else { mode.to_owned() };
+            let of_nodes = asked.nodes.map_or(String::new(), |nodes| format!(" {nodes}"));
+            let charges = if asked.charges { " charges" } else { "" };
+            let mode = format!("{mode}{of_nodes}{charges}");
             let mut runs = Vec::new();
             for seed in asked.seeds.clone() {
                 let key = format!("{},{mode},{seed}", complex.name);

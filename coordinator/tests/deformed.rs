@@ -100,7 +100,8 @@ fn a_deformed_robot_is_played() {
     let scratch = Scratch::new();
     let watched = page().replacen("<style>", &format!("{WATCH}<style>"), 1);
     for (width, is_dark) in [(1280, false), (420, true)] {
-        let marks = Window { is_dark, ..Window::new(width, 900) }.open(&scratch, &watched);
+        let marks =
+            Window { is_dark, ..Window::new(width, 900) }.open(&scratch, &watched, "squeeze");
         let said = |name: &str| marks.said(name);
         assert_eq!(said("errors"), "", "{width}");
         assert_eq!((said("mark"), said("wide"), said("playing")), ("true", "false", "pause"));

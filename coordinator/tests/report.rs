@@ -214,7 +214,7 @@ addEventListener("load", () => {
 fn look(scratch: &Scratch, page: &str) {
     let watched = page.replacen("<style>", &format!("{WATCH}<style>"), 1);
     for width in [1280, 420] {
-        let marks = Window::new(width, 900).open(scratch, &watched);
+        let marks = Window::new(width, 900).open(scratch, &watched, "report");
         assert_eq!(marks.said("errors"), "", "{width}");
         for name in ["drawn", "trace", "stick"] {
             assert!(marks.count(name) > 100, "{width}: {name} of {marks:?}");

@@ -250,7 +250,7 @@ fn walk(
     grows: bool,
 ) -> Option<(String, String)> {
     let watched = page.replacen("<head>", &format!("<head><script>{WALK}</script>"), 1);
-    let marks = window.open(scratch, &watched);
+    let marks = window.open(scratch, &watched, what);
     let said = |name: &str| marks.said(name);
     assert_eq!((said("errors"), said("done")), ("", "yes"), "{what}");
     let count = |name: &str| marks.count(name);

@@ -81,7 +81,9 @@ pub enum LigandFault {
     Water {
         /// The residue name.
         residue: String,
-        /// The groups that are there.
+        /// How many molecules of it were meant.
+        count: usize,
+        /// The other groups that are there.
         there: Vec<String>,
     },
     /// The group that was asked for is not there.
@@ -180,9 +182,9 @@ impl fmt::Display for LigandFault {
                 names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", "),
                 more(*count)
             ),
-            LigandFault::Water { residue, there } => write!(
+            LigandFault::Water { residue, count, there } => write!(
                 f,
-                "{residue}, a molecule of water, found; a HETATM group of the file expected: {}",
+                "water found ({residue}, {count} of it); another HETATM group of the file expected: {}",
                 listed(there)
             ),
             LigandFault::NoGroup { wanted, there } => {

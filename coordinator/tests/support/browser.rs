@@ -33,11 +33,11 @@ impl Window {
         Window { size: [width, height], is_dark: false, runs: Some(4000) }
     }
 
-    /// Opens a page and gives its marks.
+    /// Opens a page and gives its marks. `what` says in messages what was looked at.
     ///
     /// # Panics
     /// If the browser does not start, or does not answer within a quarter of an hour: such a test fails, and does not hang.
-    pub fn open(&self, scratch: &Scratch, page: &str) -> Marks {
+    pub fn open(&self, scratch: &Scratch, page: &str, what: &str) -> Marks {
         scratch.write("watched.html", page);
         let [width, height] = self.size;
         let output = Command::new("timeout")
@@ -53,20 +53,23 @@ impl Window {
         let dumped = String::from_utf8_lossy(&output.stdout);
         let root = dumped.split("<html").nth(1).and_then(|rest| rest.split('>').next());
         match root {
-            Some(root) => Marks(root.to_owned()),
-            None => panic!("{self:?}: {}", String::from_utf8_lossy(&output.stderr)),
+            Some(root) => Marks { what: format!("{what} {self:?}"), root: root.to_owned() },
+            None => panic!("{what} {self:?}: {}", String::from_utf8_lossy(&output.stderr)),
         }
     }
 }
 
 /// What a page's script has written at the root element: attributes `data-NAME`.
 #[derive(Debug)]
-pub struct Marks(String);
+pub struct Marks {
+    what: String,
+    root: String,
+}
 
 impl Marks {
     /// The value of one.
     pub fn said(&self, name: &str) -> &str {
-        let text = self.0.split(&format!("data-{name}=\"")).nth(1);
+        let text = self.root.split(&format!("data-{name}=\"")).nth(1);
         let text = text.and_then(|rest| rest.split('"').next());
         text.unwrap_or_else(|| panic!("{name} is missing: {self:?}"))
     }

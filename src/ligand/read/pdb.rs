@@ -118,17 +118,18 @@ pub(super) fn all(text: &str) -> Result<Vec<Ligand>, LigandError> {
 pub(super) fn group(text: &str, wanted: &Group) -> Result<Ligand, LigandError> {
     let groups = Groups::of(text)?;
     let there = || groups.candidates().map(|(key, _)| key.to_string()).collect();
-    if is_water(&wanted.residue) {
-        let fault = LigandFault::Water { residue: wanted.residue.clone(), there: there() };
-        return Err(LigandError::pathless(fault));
-    }
     let meant: Vec<_> = groups.residues.iter().filter(|(key, _)| key.is_meant(wanted)).collect();
     match &meant[..] {
-        [(_, residue)] => residue.read(&groups.conect),
         [] => Err(LigandError::pathless(LigandFault::NoGroup {
             wanted: wanted.to_string(),
             there: there(),
         })),
+        found if is_water(&wanted.residue) => Err(LigandError::pathless(LigandFault::Water {
+            residue: wanted.residue.clone(),
+            count: found.len(),
+            there: there(),
+        })),
+        [(_, residue)] => residue.read(&groups.conect),
         several => Err(LigandError::pathless(LigandFault::Several {
             count: several.len(),
             names: several.iter().map(|(key, _)| key.to_string()).collect(),

@@ -159,8 +159,11 @@ fn groups_are_chosen_by_name_chain_and_number() {
         "{error}"
     );
     let error = read_group(&path, &group("HOH", None, None)).unwrap_err().to_string();
-    let expected = "HOH, a molecule of water, found; a HETATM group of the file expected: ACN 7 of chain `B`, ACN 1 of chain `A`";
+    let expected = "water found (HOH, 1 of it); another HETATM group of the file expected: ACN 7 of chain `B`, ACN 1 of chain `A`";
     assert!(error.ends_with(expected), "{error}");
+    // A name of water that the file does not have is not there, and no more is said.
+    let error = read_group(&path, &group("WAT", None, None)).unwrap_err().to_string();
+    assert!(error.contains("no HETATM group WAT found; one of the file's expected"), "{error}");
     std::fs::write(&path, ETHANOL).unwrap();
     let error = read_group(&path, &group("ACN", None, None)).unwrap_err().to_string();
     assert!(error.ends_with("a PDB file, as a group is named, expected"), "{error}");

@@ -6,13 +6,16 @@ use crate::ligand::{Bond, Ligand, LinkRule, RigidTree, Symmetries, matching};
 use crate::math;
 use crate::model::Description;
 use crate::space::canonical;
-use crate::structure::measure::superpose;
+use crate::structure::measure::{Superposition, superpose};
 use crate::structure::{Point, torsion};
 use nalgebra::Matrix3;
 
 /// Atoms with more heavy neighbours than this are in no molecule; to look through all orders of hundreds of neighbours for every pair of poses would take
 /// hours.
 const NEIGHBOURS_MAX: usize = 16;
+
+/// So many atoms, not in a line, have one orientation; fewer can turn about an axis.
+const RIGID_MIN: usize = 3;
 
 impl Docking {
     /// The positions of the ligand's atoms at a configuration, Å.
@@ -23,9 +26,7 @@ impl Docking {
     }
 
     /// Where the ligand's atoms are in a pose of the same molecule that another file has, in the order of this ligand's atoms, Å. Where
-    /// hydrogens do not count here, those of the pose do not either. Of the ways in which a symmetric molecule fits itself it is the one by
-    /// which the pose has the shape most like the given one: a ring that the other file numbers the other way around is not turned over. Where
-    /// hydrogens count it is any of them.
+    /// hydrogens do not count here, those of the pose do not either. Atoms that are alike, as the oxygens of a carboxylate are, may change places.
     ///
     /// # Errors
     /// Another molecule, or one without positions: what was found, what is expected.
@@ -46,17 +47,7 @@ impl Docking {
         let positions = pose.positions().ok_or_else(|| {
             "no positions found; a molecule with positions in space expected".to_owned()
         })?;
-        let positions: Vec<Point> = same.into_iter().map(|atom| positions[atom]).collect();
-        let nearest = match (has_hydrogens, self.ligand.positions()) {
-            (false, Some(given)) => self
-                .symmetries()
-                .and_then(|symmetries| symmetries.nearest_shape(&given, &positions)),
-            _ => None,
-        };
-        Ok(match nearest {
-            Some(to) => to.into_iter().map(|atom| positions[atom]).collect(),
-            None => positions,
-        })
+        Ok(same.into_iter().map(|atom| positions[atom]).collect())
     }
 
     /// The symmetries of the ligand; `None` where there are too many to be found in bounded time, as no molecule has.
@@ -72,10 +63,25 @@ impl Docking {
         is_molecule.then(|| Symmetries::of(&self.ligand).ok()).flatten()
     }
 
-    /// The configuration of the given shape, its torsions unturned, that is as near as possible to these positions of all atoms: by the
-    /// least sum of squares. `None` if there are not as many positions as atoms.
+    /// The configuration of the given shape, its torsions unturned, whose heavy atoms are as near as possible to these positions of all atoms: by
+    /// the least sum of squares, over all symmetries of the ligand. A ring that another file numbers the other way around is not turned over.
+    /// `None` if there are not as many positions as atoms.
     pub fn placed(&self, positions: &[Point]) -> Option<Vec<f64>> {
-        self.moved_to(self.given(), positions)
+        let q = self.given();
+        let from = self.positions_at(&q);
+        if from.len() != positions.len() {
+            return None;
+        }
+        let same = self.symmetries().and_then(|of| of.nearest_shape(&from, positions));
+        let same = same.unwrap_or_else(|| (0..from.len()).collect());
+        let mut compared: Vec<usize> = (0..from.len()).collect();
+        compared.retain(|atom| self.ligand.atoms()[*atom].element.is_heavy());
+        if compared.len() < RIGID_MIN {
+            compared = (0..from.len()).collect();
+        }
+        let of = |atom: usize| (from[atom], positions[same[atom]]);
+        let (from, to): (Vec<Point>, Vec<Point>) = compared.into_iter().map(of).unzip();
+        self.moved(q, &superpose(&from, &to))
     }
 
     /// The configuration whose torsions are those of these positions of all atoms, and which is then as near to them as possible: lengths
@@ -108,15 +114,18 @@ impl Docking {
     }
 
     /// The configuration moved as a whole, as near as possible to these positions, in stored form.
-    fn moved_to(&self, mut q: Vec<f64>, positions: &[Point]) -> Option<Vec<f64>> {
+    fn moved_to(&self, q: Vec<f64>, positions: &[Point]) -> Option<Vec<f64>> {
         let from = self.positions_at(&q);
         if from.len() != positions.len() {
             return None;
         }
-        let motion = superpose(&from, positions);
+        self.moved(q, &superpose(&from, positions))
+    }
+
+    /// The configuration moved as a whole by this motion, in stored form; its base must not be turned before.
+    fn moved(&self, mut q: Vec<f64>, motion: &Superposition) -> Option<Vec<f64>> {
         let centre = motion.apply(&Point::new(q[0], q[1], q[2]));
         q[..3].copy_from_slice(centre.as_slice());
-        // The base is not turned before.
         q[3..BASE].copy_from_slice(&canonical(quaternion(&motion.rotation))?);
         self.space().canonicalize(&mut q).ok().map(|()| q)
     }

@@ -45,14 +45,8 @@ pub(super) fn resolve(
         Some(RegionSpec { min, max }) => [min, max],
         None => around(atoms().map(|atom| atom.position), MARGIN + linkage.radius()),
     };
-    let farthest = linkage.reach() + spec.energy.cutoff;
+    let reach = linkage.reach();
     let away = atoms().map(|atom| outside(bounds, atom.position)).fold(f64::INFINITY, f64::min);
-    if away > farthest {
-        let message = format!(
-            "a box {away:.1} Å from the nearest atom of the protein found; one at most {farthest:.1} Å away expected, so far as this ligand's atoms reach and energies count"
-        );
-        return Err(source.error(&place("box"), message));
-    }
     note_distance(&ligand, atoms().map(|atom| atom.position), notes);
     let docking = Docking {
         chains,
@@ -65,10 +59,17 @@ pub(super) fn resolve(
         highest: spec.highest.unwrap_or(HIGHEST),
         step: spec.step.unwrap_or(STEP),
     };
-    match docking.complaint() {
-        None => Ok(docking),
-        Some((key, message)) => Err(source.error(&place(key), message)),
+    if let Some((key, message)) = docking.complaint() {
+        return Err(source.error(&place(key), message));
     }
+    let farthest = reach + docking.energy.cutoff;
+    if away > farthest {
+        let message = format!(
+            "a box {away:.2} Å from the nearest atom of the protein found; one at most {farthest:.2} Å away expected, as far as this ligand's atoms can reach and energies count"
+        );
+        return Err(source.error(&place("box"), message));
+    }
+    Ok(docking)
 }
 
 /// The ligand of a file, or the one that is given.

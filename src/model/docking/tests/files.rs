@@ -56,7 +56,12 @@ fn wrong_tables_are_refused_by_their_keys() {
         assert!(error.contains("p.toml:") && error.contains(expected), "{error}");
     }
     for (from, to, expected) in [
-        ("size = [12.0, 12.0, 12.0]", "size = [12.0, 0.0, 12.0]", "docking.box: "),
+        ("size = [12.0, 12.0, 12.0]", "size = [12.0, 0.0, 12.0]", "in y found; a least value"),
+        (
+            "centre = [11.0, 2.0, -11.0], size = [12.0,",
+            "centre = [811.0, 2.0, -11.0], size = [-12.0,",
+            "in x found; a least value",
+        ),
         ("size = [12.0, 12.0, 12.0]", "size = [9e5, 9e5, 9e5]", "docking.grid: a grid of"),
         ("centre = [11.0,", "centre = [811.0,", "docking.box: a box 77"),
         ("centre = [11.0, 2.0, -11.0], ", "", "either `centre` and `size` or `min` and `max`"),

@@ -1,9 +1,10 @@
 //! From positions to configurations, and back.
 
-use super::{BIOTIN, biotin, docking};
+use super::{BIOTIN, Docking, biotin, docking};
 use crate::ligand::{self, Ligand};
 use crate::model::Description;
 use crate::model::docking::kinematics::BASE;
+use crate::structure::Point;
 use crate::structure::measure::rmsd_in_place;
 
 #[test]
@@ -42,18 +43,92 @@ fn a_pose_of_another_file_is_the_same_molecule_or_an_error() {
     );
 }
 
-/// Both oxygens of biotin's carboxylate are alike, and another file may have them the other way around: the pose is the same.
+/// Benzamidine with an isopropyl group in meta position.
+const ISOPROPYL: &str = "ISO
+
+
+ 12 12  0  0  0  0  0  0  0  0999 V2000
+   -1.8530   14.3110   16.6580 C   0  0  0  0  0  0  0  0  0  0  0  0
+   -2.1070   15.6530   16.7580 C   0  0  0  0  0  0  0  0  0  0  0  0
+   -1.7740   16.3410   17.9320 C   0  0  0  0  0  0  0  0  0  0  0  0
+   -1.1750   15.6620   19.0050 C   0  0  0  0  0  0  0  0  0  0  0  0
+   -0.9140   14.2950   18.8850 C   0  0  0  0  0  0  0  0  0  0  0  0
+   -1.2570   13.6340   17.7080 C   0  0  0  0  0  0  0  0  0  0  0  0
+   -2.1930   13.6270   15.4960 C   0  0  0  0  0  0  0  0  0  0  0  0
+   -2.7970   14.2350   14.4910 N   0  0  0  0  0  4  0  0  0  0  0  0
+   -1.7620   12.3910   15.3090 N   0  0  0  0  0  0  0  0  0  0  0  0
+   -2.0605   17.8193   18.0439 C   0  0  0  0  0  0  0  0  0  0  0  0
+   -2.3400   18.2413   19.4877 C   0  0  0  0  0  0  0  0  0  0  0  0
+   -3.2810   18.2307   17.2180 C   0  0  0  0  0  0  0  0  0  0  0  0
+  1  2  2  0
+  1  6  1  0
+  1  7  1  0
+  2  3  1  0
+  3  4  2  0
+  4  5  1  0
+  5  6  2  0
+  7  8  2  3
+  7  9  1  0
+  3 10  1  0
+ 10 11  1  0
+ 10 12  1  0
+M  END
+$$$$
+";
+
+/// Both nitrogens of the amidine are alike, and so are both ends of the isopropyl group, mirror images of each other.
+fn isopropyl() -> (tempfile::TempDir, Docking) {
+    let scratch = tempfile::tempdir().unwrap();
+    let path = scratch.path().join("iso.sdf");
+    std::fs::write(&path, ISOPROPYL).unwrap();
+    let file = format!("ligand = {{ file = {path:?} }}");
+    let table =
+        BIOTIN.replace("ligand = { file = \"structures/1STP.pdb\", residue = \"BTN\" }", &file);
+    assert!(table.contains("iso.sdf"));
+    (scratch, docking(&table))
+}
+
+/// The ligand with other positions.
+fn at(ligand: &Ligand, positions: &[Point]) -> Ligand {
+    let mut atoms = ligand.atoms().to_vec();
+    for (atom, position) in atoms.iter_mut().zip(positions) {
+        atom.position = Some(*position);
+    }
+    Ligand::new("other", atoms, ligand.bonds().to_vec()).unwrap()
+}
+
+/// A pose of another file has its atoms by their places in the molecule, so that torsions are read right, also those of groups whose ends are
+/// alike.
+#[test]
+fn a_pose_of_another_file_keeps_its_torsions() {
+    let (_scratch, docking) = isopropyl();
+    assert_eq!(docking.given().len(), BASE + 2);
+    for angle in [0.5, 1.6, 2.1, 3.1] {
+        let mut q = docking.given();
+        q[BASE..].fill(angle);
+        let positions = docking.positions_at(&q);
+        let in_file = docking.positions_in(&at(docking.ligand(), &positions)).unwrap();
+        let shaped = docking.shaped(&in_file).unwrap();
+        let misfit = rmsd_in_place(&in_file, &docking.positions_at(&shaped));
+        assert!(misfit < 1e-9, "{angle}: {misfit}");
+    }
+}
+
+/// Another file may have atoms that are alike the other way around: the given shape is placed where it is.
 #[test]
 fn atoms_that_are_alike_may_be_numbered_the_other_way_around() {
-    let docking = docking(BIOTIN);
-    let ligand = docking.ligand();
-    let given = ligand.positions().unwrap();
-    let mut atoms = ligand.atoms().to_vec();
-    let oxygens = [1, 2].map(|atom| (atoms[atom].name.clone(), atoms[atom].position));
-    assert_eq!([&*oxygens[0].0, &*oxygens[1].0], ["O11", "O12"]);
-    (atoms[1].position, atoms[2].position) = (oxygens[1].1, oxygens[0].1);
-    let bonds = ligand.bonds().to_vec();
-    let other = Ligand::new("other", atoms, bonds).unwrap();
-    assert_ne!(other.positions().unwrap(), given);
-    assert_eq!(docking.positions_in(&other).unwrap(), given);
+    let (_scratch, docking) = isopropyl();
+    let given = docking.ligand().positions().unwrap();
+    let near = |positions: &[Point]| {
+        let placed = docking.placed(positions).unwrap();
+        rmsd_in_place(&given, &docking.positions_at(&placed))
+    };
+    assert!(near(&given) < 1e-9);
+    for pairs in [&[(7, 8)][..], &[(10, 11)], &[(7, 8), (10, 11)]] {
+        let mut positions = given.clone();
+        pairs.iter().for_each(|(a, b)| positions.swap(*a, *b));
+        assert!(rmsd_in_place(&given, &positions) > 0.5);
+        assert!(near(&positions) < 1e-9, "{pairs:?}");
+    }
+    assert_eq!(docking.placed(&given[1..]), None);
 }
