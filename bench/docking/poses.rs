@@ -20,14 +20,13 @@ type Runs = Vec<Vec<Vec<f64>>>;
 
 fn run_all(asked: &mut Asked) -> Vec<(String, String, Runs)> {
     let mut all = Vec::new();
-    for (mode, is_boxed, nodes) in [("boxed", true, 4000), ("blind", false, 12_000)] {
+    for (mode, is_boxed) in [("boxed", true), ("blind", false)] {
         if asked.mode.as_ref().is_some_and(|wanted| wanted != mode) {
             continue;
         }
         for complex in chosen(&asked.complexes) {
-            let nodes = asked.nodes.unwrap_or(nodes);
             let energy = if asked.charges { CHARGES } else { "" };
-            let problem = usual(&format!("{}{energy}", complex.table(is_boxed)), nodes);
+            let problem = usual(&format!("{}{energy}", complex.table(is_boxed)), asked.nodes);
             let of_nodes = asked.nodes.map_or(String::new(), |nodes| format!(" {nodes}"));
             let charges = if asked.charges { " charges" } else { "" };
             let mode = format!("{mode}{of_nodes}{charges}");

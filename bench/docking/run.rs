@@ -46,12 +46,12 @@ pub fn parse(text: &str) -> Problem {
     problem.unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-/// The problem that `roadmill ligand problem` makes of this table `[docking]`.
-pub fn usual(table: &str, nodes: u64) -> Problem {
+/// The problem that `roadmill ligand problem` makes of this table `[docking]`, with its own number of nodes unless one is given.
+pub fn usual(table: &str, nodes: Option<u64>) -> Problem {
     let ModelSpec::Docking(spec) = parse(table).model().to_spec() else {
         panic!("docking expected")
     };
-    let search = PoseSearch { nodes: Some(nodes), ..PoseSearch::default() };
+    let search = PoseSearch { nodes, ..PoseSearch::default() };
     let problem = poses_of("complex", Path::new(""), &spec, &search);
     problem.unwrap_or_else(|error| panic!("{error}\n{table}"))
 }

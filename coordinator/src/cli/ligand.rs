@@ -46,7 +46,7 @@ pub struct LigandProblemArguments {
     /// Poses that may be near one, in a file of the same molecule: placed in the shape of the ligand, descended with all torsions
     #[arg(long, value_name = "FILE")]
     pub hints: Option<PathBuf>,
-    /// The number of nodes at which the build ends [default: 12000, in a box 4000]
+    /// The number of nodes at which the build ends [default: 12000]
     #[arg(long, value_name = "N")]
     pub nodes: Option<u64>,
     /// End the build before, once every exposed residue has a sample and samples lie closely (evaluator exposed-surface)

@@ -72,11 +72,6 @@ impl DockingSpec {
         DockingSpec { region: Some(RegionSpec::about(centre, size)), ..self }
     }
 
-    /// Whether a box is given.
-    pub fn has_region(&self) -> bool {
-        self.region.is_some()
-    }
-
     /// The terms of the energy.
     pub fn energy(self, energy: EnergySpec) -> DockingSpec {
         DockingSpec { energy, ..self }
