@@ -32,14 +32,14 @@ impl Reference {
     /// The reference at these positions of the ligand's atoms. `None` if there are not as many as atoms, or where its centre is outside
     /// of the box.
     pub fn of(exact: &Exact, docking: &Docking, positions: Vec<Point>) -> Option<Reference> {
-        let nearest = docking.shaped(&positions)?;
+        let (nearest, misfit) = docking.shaped(&positions)?;
         if !exact.context().space().within_bounds(&nearest) {
             return None;
         }
         let (q, _) = exact.improved(&nearest, &mut Scratch::new());
         Some(Reference {
             energy: exact.energy(&nearest),
-            misfit: rmsd_in_place(&positions, &docking.positions_at(&nearest)),
+            misfit,
             descended: docking.positions_at(&q),
             descended_energy: exact.energy(&q),
             positions,

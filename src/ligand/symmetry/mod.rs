@@ -90,6 +90,12 @@ impl Symmetries {
         self.tree.symmetries()
     }
 
+    /// All symmetries, the identity among them: for every atom of the ligand the one to which it goes; hydrogens stay. None where they are not
+    /// [listed](Symmetries::is_listed).
+    pub fn listed(&self) -> &[Vec<usize>] {
+        self.listed.as_deref().unwrap_or_default()
+    }
+
     /// Whether all symmetries are listed, so that [`Symmetries::rmsd_superposed`] is exact.
     pub fn is_listed(&self) -> bool {
         self.listed.is_some()

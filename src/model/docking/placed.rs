@@ -6,13 +6,16 @@ use crate::ligand::{Bond, Ligand, LinkRule, RigidTree, Symmetries, matching};
 use crate::math;
 use crate::model::Description;
 use crate::space::canonical;
-use crate::structure::measure::{Superposition, superpose};
+use crate::structure::measure::{Superposition, rmsd_in_place, superpose};
 use crate::structure::{Point, torsion};
 use nalgebra::Matrix3;
 
 /// Atoms with more heavy neighbours than this are in no molecule; to look through all orders of hundreds of neighbours for every pair of poses would take
 /// hours.
 const NEIGHBOURS_MAX: usize = 16;
+
+/// A symmetry counts as nearer from this difference on, Å: less is rounding.
+const SAME: f64 = 1e-9;
 
 /// So many atoms, not in a line, have one orientation; fewer can turn about an axis.
 const RIGID_MIN: usize = 3;
@@ -84,14 +87,31 @@ impl Docking {
         self.moved(q, &superpose(&from, &to))
     }
 
-    /// The configuration whose torsions are those of these positions of all atoms, and which is then as near to them as possible: lengths
-    /// and angles of bonds stay as they are given. `None` if there are not as many positions as atoms.
-    pub fn shaped(&self, positions: &[Point]) -> Option<Vec<f64>> {
-        let given = self.ligand.positions()?;
-        let mut q = self.given();
-        if positions.len() != given.len() {
+    /// The configuration whose torsions are those of these positions of all atoms, and which is then as near to them as possible, and how far
+    /// its atoms are from the positions, an RMSD in Å: lengths and angles of bonds stay as they are given. Of the ligand's symmetries it is the one
+    /// that comes nearest, as another file may have both ends of an isopropyl group, which are mirror images, the other way around; where
+    /// hydrogens count, atoms stay as they are numbered. `None` if there are not as many positions as atoms.
+    pub fn shaped(&self, positions: &[Point]) -> Option<(Vec<f64>, f64)> {
+        if positions.len() != self.ligand.atoms().len() {
             return None;
         }
+        let mut best = self.turned(positions)?;
+        let has_hydrogens = self.ligand.atoms().iter().any(|atom| !atom.element.is_heavy());
+        let symmetries = if has_hydrogens { None } else { self.symmetries() };
+        for to in symmetries.iter().flat_map(|symmetries| symmetries.listed()) {
+            let exchanged: Vec<Point> = to.iter().map(|atom| positions[*atom]).collect();
+            let next = self.turned(&exchanged)?;
+            if next.1 < best.1 - SAME {
+                best = next;
+            }
+        }
+        Some(best)
+    }
+
+    /// As [`Docking::shaped`], atoms as they are numbered.
+    fn turned(&self, positions: &[Point]) -> Option<(Vec<f64>, f64)> {
+        let given = self.ligand.positions()?;
+        let mut q = self.given();
         if !self.rigid {
             let tree = RigidTree::new(&self.ligand, LinkRule { amides: self.amides });
             for (link, angle) in tree.links.iter().zip(&mut q[BASE..]) {
@@ -110,16 +130,10 @@ impl Docking {
                 *angle = math::wrap_angle(turned(positions) - turned(&given));
             }
         }
-        self.moved_to(q, positions)
-    }
-
-    /// The configuration moved as a whole, as near as possible to these positions, in stored form.
-    fn moved_to(&self, q: Vec<f64>, positions: &[Point]) -> Option<Vec<f64>> {
-        let from = self.positions_at(&q);
-        if from.len() != positions.len() {
-            return None;
-        }
-        self.moved(q, &superpose(&from, positions))
+        let motion = superpose(&self.positions_at(&q), positions);
+        let q = self.moved(q, &motion)?;
+        let misfit = rmsd_in_place(positions, &self.positions_at(&q));
+        Some((q, misfit))
     }
 
     /// The configuration moved as a whole by this motion, in stored form; its base must not be turned before.
